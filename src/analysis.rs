@@ -1,0 +1,15 @@
+//! What can be said of a motion: verdicts on its invariants, whether a file's claims hold, and the
+//! [`Landscape`] of the energy it moves in.
+//!
+//! In: histories of values, a [`Model`](crate::model::Model) with its claims, a compiled system.
+//! Out: a [`Verdict`], mistakes at their places, curves. Never here: threads, clocks, terminals, files.
+
+mod claims;
+mod history;
+mod landscape;
+mod verdict;
+
+pub use claims::false_claims;
+pub use history::{History, Stretch};
+pub use landscape::{Curve, Grid, Landscape, Plane};
+pub use verdict::{Growth, Verdict, rounding_floor};

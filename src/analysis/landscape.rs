@@ -1,0 +1,212 @@
+//! The landscape of the energy over the phase plane of one degree of freedom: level curves, saddles and the
+//! separatrices through them.
+//!
+//! In: the compiled system and the region of the motion. Out: a [`Landscape`]. Never here: when to survey anew, or
+//! how it is drawn.
+
+mod level;
+mod saddle;
+
+use crate::system::{Form, Observer, System};
+
+pub use level::Grid;
+use saddle::saddles;
+
+/// Points of the grid across and upwards.
+const GRID: [usize; 2] = [161, 121];
+
+/// Points of the coarse grid that is searched for saddles; odd, so that it has a middle row.
+const SEARCH: usize = 81;
+
+/// How many levels are drawn.
+const LEVELS: usize = 11;
+
+/// A curve in the phase plane, through coordinates and rates.
+pub type Curve = Vec<[f64; 2]>;
+
+/// The energy over a window of the phase plane.
+#[derive(Clone, Debug)]
+pub struct Landscape {
+    /// The least and greatest coordinate, and the least and greatest rate.
+    pub window: [[f64; 2]; 2],
+    /// Curves of equal energy, about evenly apart.
+    pub levels: Vec<Curve>,
+    /// Curves of the energies of saddles, which part kinds of motion.
+    pub separatrices: Vec<Curve>,
+    /// Where the saddles are.
+    pub saddles: Vec<[f64; 2]>,
+}
+
+/// What is surveyed.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane<'a> {
+    /// A system of one degree of freedom.
+    pub system: &'a System,
+    /// Its parameters.
+    pub parameters: &'a [f64],
+    /// The time at which the energy is taken.
+    pub time: f64,
+    /// Whether the plane is (q, q̇) or (q, p).
+    pub form: Form,
+    /// After what the coordinate repeats, if it does.
+    pub period: Option<f64>,
+}
+
+impl Landscape {
+    /// Surveys the energy around a motion, given by its least and greatest coordinate and rate; nothing where there is
+    /// no energy to be seen.
+    pub fn survey(plane: &Plane<'_>, motion: [[f64; 2]; 2]) -> Option<Self> {
+        if !motion.as_flattened().iter().all(|v| v.is_finite()) {
+            return None;
+        }
+        let mut energy = Energy {
+            observer: plane.system.observer(plane.parameters),
+            time: plane.time,
+            form: plane.form,
+        };
+        let period = plane.period;
+        let [x, y] = search_region(motion, period);
+        let saddles = saddles(&mut energy, [x, y], SEARCH);
+        let mut tops: Vec<f64> = saddles.iter().map(|s| s.energy).collect();
+        tops.sort_by(f64::total_cmp);
+        tops.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * (a.abs() + b.abs()));
+        let window = window(&mut energy, motion, period, [x, y], &tops);
+        let values = energy.grid(&spread(window[0], GRID[0]), &spread(window[1], GRID[1]));
+        let grid = Grid { x: (GRID[0], window[0]), y: (GRID[1], window[1]), values: &values };
+        let curves = |energies: Vec<f64>| energies.iter().flat_map(|e| grid.curves(*e)).collect();
+        Some(Self {
+            window,
+            levels: curves(levels(&values)?),
+            separatrices: curves(tops),
+            saddles: saddles.into_iter().map(|s| s.at).collect(),
+        })
+    }
+}
+
+/// The energy as a function of one coordinate and its rate.
+pub(super) struct Energy {
+    observer: Observer,
+    time: f64,
+    form: Form,
+}
+
+impl Energy {
+    /// Values on a grid, row by row from the first rate.
+    pub(super) fn grid(&mut self, positions: &[f64], rates: &[f64]) -> Vec<f64> {
+        let mut values = vec![f64::NAN; positions.len() * rates.len()];
+        self.observer.energy_on_grid(self.time, self.form, positions, rates, &mut values);
+        values
+    }
+}
+
+/// `count` values evenly from one end to the other.
+pub(super) fn spread([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
+}
+
+/// Where saddles are looked for: somewhat beyond one period, or beyond the motion, and about zero where the motion
+/// is not too far from there.
+fn search_region([x, y]: [[f64; 2]; 2], period: Option<f64>) -> [[f64; 2]; 2] {
+    let across = if let Some(period) = period {
+        [-0.55 * period, 0.55 * period]
+    } else {
+        let (middle, half) = middle_and_half(x);
+        let far = middle.abs() + 2.0 * half;
+        if far <= 20.0 * half { [-far, far] } else { [middle - 3.0 * half, middle + 3.0 * half] }
+    };
+    let far = y[0].abs().max(y[1].abs()) * 1.5;
+    let far = if far > 0.0 { far } else { 1.0 };
+    [across, [-far, far]]
+}
+
+/// The middle of a range, and half its length or something that can stand for it.
+fn middle_and_half([lo, hi]: [f64; 2]) -> (f64, f64) {
+    let middle = lo / 2.0 + hi / 2.0;
+    let half = hi / 2.0 - lo / 2.0;
+    let least = 1e-3 * middle.abs();
+    let half = if half > least {
+        half
+    } else if middle == 0.0 {
+        1.0
+    } else {
+        0.5 * middle.abs()
+    };
+    (middle, half)
+}
+
+/// A range widened about its middle.
+fn wider(range: [f64; 2], by: f64) -> [f64; 2] {
+    let (middle, half) = middle_and_half(range);
+    [middle - by * half, middle + by * half]
+}
+
+/// The window that holds the motion and, where they are not far larger, the separatrices.
+fn window(
+    energy: &mut Energy,
+    motion: [[f64; 2]; 2],
+    period: Option<f64>,
+    search: [[f64; 2]; 2],
+    separatrices: &[f64],
+) -> [[f64; 2]; 2] {
+    let mut x = period.map_or(motion[0], |period| [-period / 2.0, period / 2.0]);
+    let mut y = motion[1];
+    if let Some(top) = separatrices.iter().copied().reduce(f64::max) {
+        // Round a whole turn everything else is flat beside the separatrix; elsewhere it may be out of reach.
+        let farthest = if period.is_some() { 1e6 } else { 50.0 };
+        let across = if period.is_some() { x } else { wider(search[0], 1.6) };
+        if let Some([wide, high]) = reach(energy, across, search[1], top, farthest) {
+            let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+            x = if period.is_some() { x } else { join(x, wide) };
+            y = join(y, high);
+        }
+    }
+    [if period.is_some() { x } else { wider(x, 1.15) }, wider(y, 1.15)]
+}
+
+/// How far the region below an energy reaches within the range across, and upwards; `None` where it does not end
+/// within `farthest` times the range upwards.
+fn reach(
+    energy: &mut Energy,
+    across: [f64; 2],
+    mut up: [f64; 2],
+    top: f64,
+    farthest: f64,
+) -> Option<[[f64; 2]; 2]> {
+    let positions = spread(across, SEARCH);
+    let limit = up.map(|end| end * farthest);
+    // Widened by fours until the region ends inside, then looked at once more in its own range.
+    let mut closer = false;
+    while up[1] <= limit[1] {
+        let rates = spread(up, SEARCH);
+        let values = energy.grid(&positions, &rates);
+        let below = |i: usize, j: usize| values[j * SEARCH + i] <= top;
+        let row = |j: usize| (0..SEARCH).any(|i| below(i, j));
+        let column = |i: usize| (0..SEARCH).any(|j| below(i, j));
+        let (low, high) = ((0..SEARCH).find(|&j| row(j))?, (0..SEARCH).rfind(|&j| row(j))?);
+        if low == 0 || high == SEARCH - 1 {
+            up = up.map(|end| end * 4.0);
+            continue;
+        }
+        up = [rates[low - 1], rates[high + 1]];
+        if closer || up[1] - up[0] > 0.5 * (rates[SEARCH - 1] - rates[0]) {
+            let left = (0..SEARCH).find(|&i| column(i))?;
+            let right = (0..SEARCH).rfind(|&i| column(i))?;
+            return Some([[positions[left], positions[right]], up]);
+        }
+        closer = true;
+    }
+    None
+}
+
+/// Energies whose curves are about evenly apart, as around a quadratic valley; `None` where the energy is flat or
+/// nowhere finite.
+fn levels(values: &[f64]) -> Option<Vec<f64>> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let low = *sorted.first()?;
+    // A wall of a few points must not take all levels.
+    let high = sorted[(sorted.len() - 1) * 19 / 20];
+    let level = |k: usize| low + (high - low) * ((k as f64 + 0.7) / LEVELS as f64).powi(2);
+    (high > low).then(|| (0..LEVELS).map(level).collect())
+}

@@ -1,0 +1,113 @@
+//! Level curves of a function given on a grid, by marching squares.
+//!
+//! In: values at grid points, NaN where there are none, and levels. Out: polylines in data coordinates. Never here:
+//! where the values come from.
+//!
+//! Source: W. Lorensen and H. Cline, "Marching cubes" (1987), in two dimensions; a saddle is decided by the mean of its
+//! four corners.
+
+use std::collections::HashMap;
+
+/// Values on a rectangular grid, row by row from the lowest `y`, each row from the lowest `x`.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid<'a> {
+    /// Points across, and values of the first and the last column.
+    pub x: (usize, [f64; 2]),
+    /// Points up, and values of the first and the last row.
+    pub y: (usize, [f64; 2]),
+    /// The values; short rows are missing values.
+    pub values: &'a [f64],
+}
+
+/// A side of a grid cell: the point it starts at, and whether it goes up rather than across.
+type Side = (usize, usize, bool);
+
+impl Grid<'_> {
+    /// The curves on which the values are `level`, closed ones ending where they begin.
+    pub fn curves(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
+        join(&self.segments(level))
+            .into_iter()
+            .map(|sides| sides.into_iter().map(|side| self.crossing(side, level)).collect())
+            .collect()
+    }
+
+    /// The pieces of the curve inside each grid cell, as pairs of crossed sides.
+    fn segments(&self, level: f64) -> Vec<(Side, Side)> {
+        let mut segments = Vec::new();
+        for row in 1..self.y.0 {
+            for column in 1..self.x.0 {
+                let (i, j) = (column - 1, row - 1);
+                let corners =
+                    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|at| self.value(at));
+                if !corners.iter().all(|v| v.is_finite()) {
+                    continue;
+                }
+                let high = corners.map(|v| v >= level);
+                // Below, right, above, left: the sides between one corner and the next.
+                let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
+                let crossed: Vec<Side> =
+                    (0..4).filter(|&k| high[k] != high[(k + 1) % 4]).map(|k| sides[k]).collect();
+                match crossed[..] {
+                    [a, b] => segments.push((a, b)),
+                    [below, right, above, left] => {
+                        let mean: f64 = corners.iter().map(|v| v / 4.0).sum();
+                        let joined = (mean >= level) == high[0];
+                        let pairs = if joined {
+                            [(below, right), (above, left)]
+                        } else {
+                            [(left, below), (right, above)]
+                        };
+                        segments.extend(pairs);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        segments
+    }
+
+    fn value(&self, (i, j): (usize, usize)) -> f64 {
+        self.values.get(j * self.x.0 + i).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Where the level crosses a side, by linear interpolation.
+    fn crossing(&self, (i, j, up): Side, level: f64) -> [f64; 2] {
+        let a = self.value((i, j));
+        let b = self.value(if up { (i, j + 1) } else { (i + 1, j) });
+        // Halved against overflow; the two ends differ, or the side would not be crossed.
+        let t = ((level / 2.0 - a / 2.0) / (b / 2.0 - a / 2.0)).clamp(0.0, 1.0);
+        let (s, t) = if up { (0.0, t) } else { (t, 0.0) };
+        let place = |(count, [from, to]): (usize, [f64; 2]), at: f64| {
+            let share = at / (count - 1) as f64;
+            from * (1.0 - share) + to * share
+        };
+        [place(self.x, i as f64 + s), place(self.y, j as f64 + t)]
+    }
+}
+
+/// Strings segments together; open curves first, from one end to the other, then the closed ones.
+fn join(segments: &[(Side, Side)]) -> Vec<Vec<Side>> {
+    let mut at: HashMap<Side, Vec<usize>> = HashMap::new();
+    for (index, (a, b)) in segments.iter().enumerate() {
+        at.entry(*a).or_default().push(index);
+        at.entry(*b).or_default().push(index);
+    }
+    let mut used = vec![false; segments.len()];
+    let mut curves = Vec::new();
+    let ends = segments.iter().flat_map(|(a, b)| [*a, *b]).filter(|side| at[side].len() == 1);
+    let all = segments.iter().map(|(a, _)| *a);
+    for start in ends.chain(all) {
+        let mut curve = vec![start];
+        let mut here = start;
+        while let Some(&next) = at[&here].iter().find(|&&index| !used[index]) {
+            used[next] = true;
+            let (a, b) = segments[next];
+            here = if a == here { b } else { a };
+            curve.push(here);
+        }
+        if curve.len() > 1 {
+            curves.push(curve);
+        }
+    }
+    curves
+}

@@ -1,0 +1,166 @@
+//! The application: what is on the screen and what a key means there.
+//!
+//! In: [`Event`]s. Out: [`Effect`]s, and the state that `view` draws. Pure: the same events give the same state.
+//! Never here: a clock, a thread, a file, a terminal, or how anything looks.
+//!
+//! A key goes through [`keymap::KEYS`] to an [`Action`]; `perform` carries it out.
+
+mod action;
+mod choose;
+mod event;
+mod field;
+mod history;
+mod key;
+pub mod keymap;
+mod lab;
+mod landscape;
+mod menu;
+mod meter;
+mod notice;
+mod perform;
+mod picker;
+mod plot;
+mod speed;
+mod update;
+mod value;
+
+pub use action::{Action, Axes, Way};
+pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
+pub use field::{Field, Purpose};
+pub use key::{Code, Key};
+pub use lab::{Lab, Pane, Selection};
+pub use menu::{Choice, Choosing, Item, Menu};
+pub use meter::Meter;
+pub use notice::Notice;
+pub use picker::Picker;
+pub use plot::{Eye, Lens, Plot};
+pub use value::{Facts, Target};
+
+use crate::experiment::Snapshot;
+use crate::preset::Catalog;
+use keymap::{CHAINS, Place};
+
+/// The application's state.
+#[derive(Clone, Debug)]
+pub struct App {
+    /// What is shown.
+    pub page: Page,
+    /// What lies over it.
+    pub over: Option<Over>,
+    /// The systems to choose from.
+    pub picker: Picker,
+    /// The loaded system, shown as a preview beside the picker.
+    pub lab: Option<Lab>,
+    /// What is told in passing.
+    pub notice: Option<Notice>,
+    /// How fast things go.
+    pub meter: Meter,
+    /// How many rows the page of text is scrolled down.
+    pub scroll: u16,
+    drawn: Drawn,
+    /// The name last asked for, and whether the lab is to open once it is there.
+    asked: Option<(String, bool)>,
+}
+
+/// A whole screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Page {
+    /// The systems, and a preview of the selected one.
+    Picker,
+    /// The panes.
+    Lab,
+    /// What follows from L or H.
+    Equations,
+    /// What the file says about itself.
+    Notes,
+    /// Every channel as a number.
+    Numbers,
+}
+
+/// Something that lies over a page and takes its keys.
+#[derive(Clone, Debug)]
+pub enum Over {
+    /// The keys; remembers how far the page below was scrolled.
+    Help(u16),
+    /// A text that must be read: what is wrong with a file.
+    Message(LoadFailure),
+    /// A pop-up list.
+    Menu(Menu),
+    /// A field.
+    Field(Field),
+}
+
+impl App {
+    /// The application at its start, and what is to be done first: load the system of a name, or the first preview.
+    pub fn new(catalog: &Catalog, open: Option<&str>) -> (Self, Vec<Effect>) {
+        let mut app = Self {
+            page: Page::Picker,
+            over: None,
+            picker: Picker::new(catalog.entries().to_vec()),
+            lab: None,
+            notice: None,
+            meter: Meter::default(),
+            scroll: 0,
+            drawn: Drawn::default(),
+            asked: None,
+        };
+        let first = match open {
+            Some(name) => {
+                app.picker.select(name);
+                Some(name.to_owned())
+            }
+            None => app.picker.take(),
+        };
+        let effects = first.map(|name| app.ask(name, open.is_some()));
+        (app, effects.into_iter().collect())
+    }
+
+    /// The newest snapshot of the loaded system.
+    pub fn snapshot(&self) -> Option<&Snapshot> {
+        self.lab.as_ref()?.snapshot.as_deref()
+    }
+
+    /// Whether text is being typed, so that a paste means something.
+    pub fn is_typing(&self) -> bool {
+        self.places().contains(&Place::Typing)
+    }
+
+    /// Where keys hold now, the innermost place first.
+    pub fn places(&self) -> &'static [Place] {
+        match &self.over {
+            Some(Over::Help(_) | Over::Message(_)) => chain([Place::Text, Place::Anywhere]),
+            Some(Over::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
+            Some(Over::Menu(_)) => chain([Place::Menu, Place::Typing]),
+            Some(Over::Field(_)) => chain([Place::Field, Place::Typing]),
+            None => self.places_below(),
+        }
+    }
+
+    /// Where keys hold on the page, whatever lies over it.
+    pub fn places_below(&self) -> &'static [Place] {
+        chain(self.places_of_page())
+    }
+
+    fn places_of_page(&self) -> [Place; 2] {
+        match (self.page, &self.lab) {
+            (Page::Picker, _) | (_, None) if self.picker.search.is_some() => {
+                [Place::Search, Place::Typing]
+            }
+            (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
+            (Page::Lab, Some(lab)) => match (lab.focus, lab.focused_plot()) {
+                (_, Some((_, Plot::Space(_)))) => [Place::Space, Place::Lab],
+                (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
+                (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
+                (Pane::Gauges, _) => [Place::Gauges, Place::Lab],
+            },
+            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => {
+                [Place::Text, Place::Experiment]
+            }
+        }
+    }
+}
+
+/// The chain of places that begins with these two.
+fn chain(innermost: [Place; 2]) -> &'static [Place] {
+    CHAINS.into_iter().find(|chain| chain.starts_with(&innermost)).unwrap_or_default()
+}

@@ -1,0 +1,80 @@
+//! What can happen to the application, and what it then asks to be done.
+//!
+//! In: nothing. Out: [`Event`]s as the shell reports them, [`Effect`]s as the shell performs them, both plain data.
+//! Never here: how anything is done.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::Key;
+use crate::experiment::{Command, Snapshot};
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::system::System;
+
+/// Something that happened.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// A key was pressed.
+    Key(Key),
+    /// Text was pasted; it counts only where text is typed.
+    Paste(String),
+    /// The screen has another size: columns, rows.
+    Resize(u16, u16),
+    /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
+    Snapshot(Arc<Snapshot>),
+    /// A system asked for by [`Effect::Load`] is there, or is not.
+    Loaded(Result<Loaded, LoadFailure>),
+    /// A frame has passed, and this much time since the last one.
+    Tick(Duration),
+    /// The screen was drawn, and this is what came of it.
+    Drawn(Drawn),
+}
+
+/// What drawing the screen has shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Drawn {
+    /// How many rows of the page of text lie beyond the screen when it stands at its beginning.
+    pub beyond: u16,
+    /// How many of its rows the screen holds.
+    pub rows: u16,
+}
+
+/// A system ready to be looked at.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// What was asked for: a preset's name or a file's path.
+    pub name: String,
+    /// The epoch of its snapshots.
+    pub epoch: u64,
+    /// What the file says.
+    pub model: Arc<Model>,
+    /// What follows from it.
+    pub equations: Arc<Equations>,
+    /// The same as a program, with its channels.
+    pub system: Arc<System>,
+}
+
+/// Why a system could not be loaded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoadFailure {
+    /// What was asked for.
+    pub name: String,
+    /// What is wrong, as it would be printed, in one or many lines.
+    pub message: String,
+}
+
+/// Something to be done by the shell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Hand a command to the experiment.
+    Tell(Command),
+    /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
+    Load(String),
+    /// Draw every cell anew.
+    Repaint,
+    /// Stop the process as the terminal's Ctrl-Z does.
+    Suspend,
+    /// End the program.
+    Quit,
+}

@@ -1,0 +1,271 @@
+//! The one table of keys: what each does, where it holds, and what the help says about it.
+//!
+//! In: a key and the places that are active. Out: an [`Action`]. The help page, the hints in the footer, the palette
+//! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
+
+use super::action::{Action, Axes, Way};
+use super::{Code, Key, Page};
+
+/// Where a key holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// Everywhere, also while text is typed.
+    Always,
+    /// Wherever no text is typed.
+    Anywhere,
+    /// The list of systems.
+    Picker,
+    /// The search field above that list.
+    Search,
+    /// Every page of a loaded system.
+    Experiment,
+    /// The page of panes.
+    Lab,
+    /// A pane with the motion in space.
+    Space,
+    /// A pane with axes.
+    Plot,
+    /// A list of values: parameters or initial values.
+    Values,
+    /// The gauges.
+    Gauges,
+    /// A page of text, the help included.
+    Text,
+    /// A pop-up list.
+    Menu,
+    /// A field in which a value is typed.
+    Field,
+    /// Wherever letters are text: fields and searches.
+    Typing,
+}
+
+impl Place {
+    /// Every place, in the order of the help page.
+    pub const ALL: [Self; 14] = [
+        Self::Anywhere,
+        Self::Picker,
+        Self::Search,
+        Self::Experiment,
+        Self::Lab,
+        Self::Space,
+        Self::Plot,
+        Self::Values,
+        Self::Gauges,
+        Self::Text,
+        Self::Menu,
+        Self::Field,
+        Self::Typing,
+        Self::Always,
+    ];
+
+    /// How the help calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Always => "Always, also while typing",
+            Self::Anywhere => "Anywhere",
+            Self::Picker => "Choosing a system",
+            Self::Search => "While searching",
+            Self::Experiment => "Time and method",
+            Self::Lab => "Panes",
+            Self::Space => "Motion in space",
+            Self::Plot => "Plots",
+            Self::Values => "Parameters and initial values",
+            Self::Gauges => "Gauges",
+            Self::Text => "Pages of text",
+            Self::Menu => "Pop-up lists",
+            Self::Field => "Typing a value",
+            Self::Typing => "Wherever text is typed",
+        }
+    }
+}
+
+/// The places that can be active together, the innermost first.
+#[rustfmt::skip]
+pub const CHAINS: [&[Place]; 11] = {
+    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plot, Search, Space, Text, Typing, Values};
+    [
+        &[Picker, Anywhere, Always],
+        &[Search, Typing, Always],
+        &[Space, Lab, Experiment, Anywhere, Always],
+        &[Plot, Lab, Experiment, Anywhere, Always],
+        &[Values, Lab, Experiment, Anywhere, Always],
+        &[Gauges, Lab, Experiment, Anywhere, Always],
+        &[Text, Experiment, Anywhere, Always],
+        &[Text, Anywhere, Always],
+        &[Menu, Anywhere, Always],
+        &[Menu, Typing, Always],
+        &[Field, Typing, Always],
+    ]
+};
+
+/// One row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Binding {
+    /// The keys, the one to be shown first.
+    pub keys: &'static [Key],
+    /// Where they hold.
+    pub place: Place,
+    /// What they do.
+    pub action: Action,
+    /// One or two words for the footer; empty for what is not worth its room there.
+    pub hint: &'static str,
+    /// A line for the help page and the palette.
+    pub help: &'static str,
+}
+
+const fn row(
+    place: Place,
+    keys: &'static [Key],
+    action: Action,
+    hint: &'static str,
+    help: &'static str,
+) -> Binding {
+    Binding { keys, place, action, hint, help }
+}
+
+const fn c(character: char) -> Key {
+    Key::char(character)
+}
+
+const fn change(sign: i8, coarse: bool) -> Action {
+    Action::Change { sign, coarse }
+}
+
+const UP: Key = Key::plain(Code::Up);
+const DOWN: Key = Key::plain(Code::Down);
+const LEFT: Key = Key::plain(Code::Left);
+const RIGHT: Key = Key::plain(Code::Right);
+const ENTER: Key = Key::plain(Code::Enter);
+const ESC: Key = Key::plain(Code::Esc);
+const TAB: Key = Key::plain(Code::Tab);
+const BACKTAB: Key = Key::shift(Code::Tab);
+const BACKSPACE: Key = Key::plain(Code::Backspace);
+const DELETE: Key = Key::plain(Code::Delete);
+const HOME: Key = Key::plain(Code::Home);
+const END: Key = Key::plain(Code::End);
+const PAGE_UP: Key = Key::plain(Code::PageUp);
+const PAGE_DOWN: Key = Key::plain(Code::PageDown);
+const SHIFT_LEFT: Key = Key::shift(Code::Left);
+const SHIFT_RIGHT: Key = Key::shift(Code::Right);
+
+/// All keys.
+#[rustfmt::skip]
+pub const KEYS: &[Binding] = &[
+    row(Place::Always, &[Key::ctrl('c')], Action::Quit, "", "leave phaselab"),
+    row(Place::Always, &[Key::ctrl('z')], Action::Suspend, "", "stop phaselab until the shell's fg"),
+    row(Place::Always, &[Key::ctrl('l')], Action::Repaint, "", "draw the screen anew"),
+
+    row(Place::Anywhere, &[c('?'), Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
+    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave phaselab at once"),
+    row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
+    row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),
+
+    row(Place::Picker, &[UP], Action::Move(Way::Up), "", "the system above"),
+    row(Place::Picker, &[DOWN], Action::Move(Way::Down), "choose", "the system below"),
+    row(Place::Picker, &[PAGE_UP], Action::PageUp, "", "ten systems up"),
+    row(Place::Picker, &[PAGE_DOWN], Action::PageDown, "", "ten systems down"),
+    row(Place::Picker, &[HOME], Action::First, "", "the first system"),
+    row(Place::Picker, &[END], Action::Last, "", "the last system"),
+    row(Place::Picker, &[ENTER], Action::Open, "open", "open the system in the lab"),
+    row(Place::Picker, &[c('/')], Action::Search, "search", "search by name, topic or summary; any other letter begins it too"),
+
+    row(Place::Search, &[UP], Action::Move(Way::Up), "", "the match above"),
+    row(Place::Search, &[DOWN, TAB], Action::Move(Way::Down), "choose", "the match below"),
+    row(Place::Search, &[ENTER], Action::Open, "open", "open the match in the lab"),
+
+    row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "hold time, or let it run"),
+    row(Place::Experiment, &[c('.')], Action::Step, "step", "hold time and move on by one frame, 1/60 s at this speed"),
+    row(Place::Experiment, &[c('[')], Action::Slower, "slower", "let time run slower"),
+    row(Place::Experiment, &[c(']')], Action::Faster, "faster", "let time run faster; past ×1000 as fast as it can"),
+    row(Place::Experiment, &[c('r')], Action::Reset, "reset", "back to the initial values; parameters stay as they are"),
+    row(Place::Experiment, &[c('R')], Action::FullReset, "", "back to all values of the file"),
+    row(Place::Experiment, &[c('e')], Action::Reference, "", "measure the drift of energy and all gauges from here"),
+    row(Place::Experiment, &[c('m')], Action::ChooseMethod, "method", "choose the method of integration"),
+    row(Place::Experiment, &[c('s')], Action::TypeStep, "", "type the step of a method of fixed step"),
+    row(Place::Experiment, &[c('a')], Action::TypeTolerance, "", "type the accuracy (tolerance) of an adaptive method"),
+    row(Place::Experiment, &[c('u')], Action::Undo, "", "take back the last change of a value"),
+    row(Place::Experiment, &[c('U'), Key::ctrl('r')], Action::Redo, "", "do it again"),
+    row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
+    row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
+    row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
+    row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
+
+    row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
+    row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
+    row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
+
+    row(Place::Space, &[LEFT, c('h')], Action::Move(Way::Left), "turn", "turn the picture to the left"),
+    row(Place::Space, &[RIGHT, c('l')], Action::Move(Way::Right), "", "turn the picture to the right"),
+    row(Place::Space, &[UP, c('k')], Action::Move(Way::Up), "", "look from higher up"),
+    row(Place::Space, &[DOWN, c('j')], Action::Move(Way::Down), "", "look from lower down"),
+    row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
+    row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
+    row(Place::Space, &[HOME, c('0')], Action::Home, "", "the view as it was at first"),
+    row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows"),
+
+    row(Place::Plot, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
+    row(Place::Plot, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
+    row(Place::Plot, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
+    row(Place::Plot, &[c('x')], Action::Closer(Axes::Across), "", "stretch the axis across"),
+    row(Place::Plot, &[c('X')], Action::Farther(Axes::Across), "", "shrink the axis across"),
+    row(Place::Plot, &[c('y')], Action::Closer(Axes::Upwards), "", "stretch the axis upwards"),
+    row(Place::Plot, &[c('Y')], Action::Farther(Axes::Upwards), "", "shrink the axis upwards"),
+    row(Place::Plot, &[c('g')], Action::Log, "", "make the axis upwards logarithmic, or linear again"),
+    row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
+    row(Place::Plot, &[LEFT, c('h')], Action::Move(Way::Left), "move", "move the window, or the cursor, to the left"),
+    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Way::Right), "", "move the window, or the cursor, to the right"),
+    row(Place::Plot, &[UP, c('k')], Action::Move(Way::Up), "", "move the window, or the cursor, up"),
+    row(Place::Plot, &[DOWN, c('j')], Action::Move(Way::Down), "", "move the window, or the cursor, down"),
+    row(Place::Plot, &[HOME, c('0')], Action::Home, "", "all of the motion, as at first"),
+
+    row(Place::Values, &[UP, c('k')], Action::Move(Way::Up), "", "the value above"),
+    row(Place::Values, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the value below"),
+    row(Place::Values, &[HOME], Action::First, "", "the first value"),
+    row(Place::Values, &[END], Action::Last, "", "the last value"),
+    row(Place::Values, &[LEFT, c('h')], change(-1, false), "", "less, by a fine step"),
+    row(Place::Values, &[RIGHT, c('l')], change(1, false), "change", "more, by a fine step"),
+    row(Place::Values, &[SHIFT_LEFT, c('H'), c('-')], change(-1, true), "", "less, by a coarse step"),
+    row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
+    row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value; pi, sqrt(2), 2*l are understood"),
+    row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
+
+    row(Place::Gauges, &[UP, c('k')], Action::Move(Way::Up), "", "the gauge above"),
+    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the gauge below"),
+
+    row(Place::Text, &[UP, c('k')], Action::Move(Way::Up), "", "a line back"),
+    row(Place::Text, &[DOWN, c('j')], Action::Move(Way::Down), "scroll", "a line on"),
+    row(Place::Text, &[PAGE_UP, c('b')], Action::PageUp, "", "a screenful back"),
+    row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a screenful on"),
+    row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
+    row(Place::Text, &[END, c('G')], Action::Last, "", "to the end"),
+
+    row(Place::Menu, &[UP], Action::Move(Way::Up), "", "the line above"),
+    row(Place::Menu, &[DOWN], Action::Move(Way::Down), "choose", "the line below"),
+    row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
+    row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
+
+    row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
+
+    row(Place::Typing, &[ESC], Action::Back, "leave", "leave it as it was"),
+];
+
+/// What a key does where these places are active, the innermost first.
+pub fn action(key: Key, places: &[Place]) -> Option<Action> {
+    let holds = |row: &&Binding| places.contains(&row.place) && row.keys.contains(&key);
+    KEYS.iter().find(holds).map(|row| row.action)
+}
+
+/// The keys that would be ambiguous: held by two rows that can be active together.
+pub fn duplicates() -> Vec<(Key, &'static Binding, &'static Binding)> {
+    let mut found = Vec::new();
+    for chain in CHAINS {
+        let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.place)).collect();
+        for (index, first) in rows.iter().enumerate() {
+            for second in &rows[index + 1..] {
+                let shared = first.keys.iter().filter(|key| second.keys.contains(key));
+                found.extend(shared.map(|key| (*key, *first, *second)));
+            }
+        }
+    }
+    found
+}

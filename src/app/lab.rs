@@ -1,0 +1,227 @@
+//! The laboratory: one loaded system, what is seen of it, and what is selected there.
+//!
+//! In: a loaded system and its snapshots. Out: the state of the panes, and commands for changed values.
+//! Never here: keys, pop-ups, other pages.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::history::{Change, History};
+use super::landscape::{self, Survey};
+use super::plot::Plot;
+use super::{Effect, Loaded, Target};
+use crate::experiment::{Command, Snapshot};
+use crate::expr::Zero;
+use crate::model::Shape;
+
+/// A pane of the lab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Pane {
+    /// A picture, by its place among the plots.
+    Plot(usize),
+    /// The parameters.
+    Parameters,
+    /// The initial values.
+    Initial,
+    /// The gauges.
+    Gauges,
+}
+
+/// The selected lines of the lists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Among the parameters.
+    pub parameter: usize,
+    /// Among the initial values.
+    pub initial: usize,
+    /// Among the gauges.
+    pub gauge: usize,
+}
+
+/// A loaded system and how it is looked at.
+#[derive(Clone, Debug)]
+pub struct Lab {
+    /// The system.
+    pub loaded: Loaded,
+    /// What was last seen of it.
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// The pictures.
+    pub plots: Vec<Plot>,
+    /// The pane that keys go to.
+    pub focus: Pane,
+    /// Whether that pane fills the page.
+    pub zoomed: bool,
+    /// What is selected in the lists.
+    pub selection: Selection,
+    /// For each shape of the picture in space, whether it is a rod: a line that keeps its length.
+    pub rods: Vec<bool>,
+    /// The energy over the phase plane of one degree of freedom, for each plane that is shown.
+    pub(super) surveys: Vec<Survey>,
+    /// Values asked for and not yet seen.
+    pub(super) wishes: Vec<(Target, f64)>,
+    /// The speed asked for and not yet seen.
+    pub(super) speed_wish: Option<f64>,
+    pub(super) history: History,
+}
+
+/// Whether the length of each line does not vary with the coordinates.
+fn rods(loaded: &Loaded) -> Vec<bool> {
+    let mut pool = loaded.equations.pool.clone();
+    let is_rod = |shape: &Shape| {
+        let Shape::Line { from, to } = shape else { return false };
+        let squares = [0, 1, 2].map(|k| {
+            let difference = pool.sub(to[k], from[k]);
+            pool.powi(difference, 2)
+        });
+        let length = pool.sum(&squares);
+        loaded.equations.coordinates.iter().all(|c| {
+            let slope = pool.derivative(length, c.position);
+            pool.is_zero(slope) == Zero::Proved
+        })
+    };
+    loaded.model.space.iter().map(is_rod).collect()
+}
+
+impl Lab {
+    /// A system as it is first seen.
+    pub fn new(loaded: Loaded) -> Self {
+        let plots = Plot::opening(&loaded);
+        let rods = rods(&loaded);
+        Self {
+            loaded,
+            rods,
+            snapshot: None,
+            plots,
+            focus: Pane::Parameters,
+            zoomed: false,
+            selection: Selection::default(),
+            surveys: Vec::new(),
+            wishes: Vec::new(),
+            speed_wish: None,
+            history: History::default(),
+        }
+    }
+
+    /// The experiment has moved on; whether the snapshot speaks of this system.
+    pub(super) fn see(&mut self, snapshot: Arc<Snapshot>) -> bool {
+        if snapshot.epoch != self.loaded.epoch {
+            return false;
+        }
+        self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
+        self.snapshot = Some(snapshot);
+        self.surveys = self.seen().map_or_else(Vec::new, |seen| landscape::surveyed(self, seen));
+        let wishes = std::mem::take(&mut self.wishes);
+        self.wishes = wishes.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
+        true
+    }
+
+    /// The newest snapshot, if it says all that the system has to show; one that tells of a panic does not.
+    pub fn seen(&self) -> Option<&Snapshot> {
+        let whole = |s: &&Snapshot| {
+            s.parameters.len() == self.loaded.model.parameters.len()
+                && s.values.len() == self.loaded.system.channels().len()
+        };
+        self.snapshot.as_deref().filter(whole)
+    }
+
+    /// Time has passed.
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.history.tick(elapsed);
+    }
+
+    /// The panes in the order in which Tab visits them.
+    pub fn panes(&self) -> impl DoubleEndedIterator<Item = Pane> + Clone {
+        let lists = [Pane::Parameters, Pane::Initial, Pane::Gauges];
+        (0..self.plots.len()).map(Pane::Plot).chain(lists)
+    }
+
+    /// The focused picture.
+    pub fn focused_plot(&self) -> Option<(usize, &Plot)> {
+        match self.focus {
+            Pane::Plot(index) => self.plots.get(index).map(|plot| (index, plot)),
+            _ => None,
+        }
+    }
+
+    /// The value that keys would change.
+    pub fn selected(&self) -> Option<Target> {
+        let target = match self.focus {
+            Pane::Parameters => Target::Parameter(self.selection.parameter),
+            Pane::Initial => Target::Initial(self.selection.initial),
+            Pane::Plot(_) | Pane::Gauges => return None,
+        };
+        self.facts(target).map(|_| target)
+    }
+
+    /// Moves the selection of the focused list to `to(place)`, kept within the list.
+    pub(super) fn select(&mut self, to: impl FnOnce(usize) -> usize) {
+        let gauges = self.snapshot.as_ref().map_or(0, |s| s.gauges.len());
+        let (count, place) = match self.focus {
+            Pane::Parameters => (self.count(Target::Parameter), &mut self.selection.parameter),
+            Pane::Initial => (2 * self.loaded.model.coordinates.len(), &mut self.selection.initial),
+            Pane::Gauges => (gauges, &mut self.selection.gauge),
+            Pane::Plot(_) => return,
+        };
+        *place = to(*place).min(count.saturating_sub(1));
+    }
+
+    /// Changes a value, to be taken back if asked.
+    pub(super) fn change(&mut self, target: Target, to: f64) -> Vec<Effect> {
+        let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
+        self.history.note(Change::Value { target, from, to });
+        vec![self.set(target, to)]
+    }
+
+    /// All values back to the file's.
+    pub(super) fn full_reset(&mut self) -> Vec<Effect> {
+        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
+        let initial = (0..self.count(Target::Initial)).map(Target::Initial);
+        let before = parameters.chain(initial).filter_map(|t| Some((t, self.value(t)?))).collect();
+        self.history.note(Change::FullReset(before));
+        self.wishes.clear();
+        vec![Effect::Tell(Command::FullReset)]
+    }
+
+    /// Takes the last change back; nothing if there is none.
+    pub(super) fn undo(&mut self) -> Option<Vec<Effect>> {
+        Some(match self.history.undo()? {
+            Change::Value { target, from, .. } => vec![self.set(target, from)],
+            Change::FullReset(before) => {
+                let other = |(t, v): &(Target, f64)| self.value(*t) != Some(*v);
+                let changed: Vec<_> = before.into_iter().filter(other).collect();
+                changed.into_iter().map(|(target, value)| self.set(target, value)).collect()
+            }
+        })
+    }
+
+    /// Makes the change last taken back again; nothing if there is none.
+    pub(super) fn redo(&mut self) -> Option<Vec<Effect>> {
+        Some(match self.history.redo()? {
+            Change::Value { target, to, .. } => vec![self.set(target, to)],
+            Change::FullReset(_) => {
+                self.wishes.clear();
+                vec![Effect::Tell(Command::FullReset)]
+            }
+        })
+    }
+
+    /// The value that the file gives.
+    pub(super) fn of_file(&self, target: Target) -> Option<f64> {
+        match target {
+            Target::Parameter(index) => self.loaded.model.parameters.get(index).map(|p| p.value),
+            Target::Initial(index) => {
+                let parameters = &self.seen()?.parameters;
+                self.loaded.system.initial_values(parameters).get(index).copied()
+            }
+        }
+    }
+
+    fn set(&mut self, target: Target, value: f64) -> Effect {
+        self.wishes.retain(|(t, _)| *t != target);
+        self.wishes.push((target, value));
+        Effect::Tell(match target {
+            Target::Parameter(index) => Command::Parameter { index, value },
+            Target::Initial(index) => Command::Initial { index, value },
+        })
+    }
+}

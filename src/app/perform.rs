@@ -1,0 +1,246 @@
+//! What each action does.
+//!
+//! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; what a pop-up list offers.
+
+use super::field::Field;
+use super::speed::{faster, slower};
+use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
+use crate::experiment::{Command, Status};
+
+impl App {
+    /// Carries out an action; where it means nothing it does nothing.
+    pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
+        match action {
+            Action::Quit => vec![Effect::Quit],
+            Action::Suspend => vec![Effect::Suspend],
+            Action::Repaint => vec![Effect::Repaint],
+            Action::Help => self.help(),
+            Action::Palette => self.open_palette(),
+            Action::Back => self.back(),
+            Action::Show(page) => {
+                self.go(page);
+                Vec::new()
+            }
+            Action::Move(way) => self.shift(way),
+            Action::First => self.jump(isize::MIN),
+            Action::Last => self.jump(isize::MAX),
+            Action::PageUp => self.jump(-self.screenful()),
+            Action::PageDown => self.jump(self.screenful()),
+            Action::Search => {
+                self.picker.search(|_| ());
+                Vec::new()
+            }
+            Action::Open => self.open_selected(),
+            Action::Accept => self.accept(),
+            Action::Mark => {
+                if let Some(Over::Menu(menu)) = &mut self.over {
+                    menu.mark();
+                }
+                Vec::new()
+            }
+            other => self.in_lab(other),
+        }
+    }
+
+    /// The actions that need a loaded system.
+    fn in_lab(&mut self, action: Action) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        match action {
+            Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
+                Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
+                Some(Status::Faulted(_)) => self.say("It cannot go on from here: reset it with r."),
+                Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
+            },
+            Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
+            Action::Slower | Action::Faster => {
+                let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);
+                let speed = lab.speed_wish.unwrap_or(shown);
+                let speed = if action == Action::Faster { faster(speed) } else { slower(speed) };
+                lab.speed_wish = Some(speed);
+                vec![Effect::Tell(Command::Speed(speed))]
+            }
+            Action::Reset => vec![Effect::Tell(Command::Reset)],
+            Action::FullReset => lab.full_reset(),
+            Action::Reference => vec![Effect::Tell(Command::Reference)],
+            Action::Undo => {
+                lab.undo().unwrap_or_else(|| self.say("There is nothing to take back."))
+            }
+            Action::Redo => lab.redo().unwrap_or_else(|| self.say("There is nothing to do again.")),
+            Action::ChooseMethod => self.open_methods(),
+            Action::TypeStep => self.open_field(Purpose::Step),
+            Action::TypeTolerance => self.open_field(Purpose::Tolerance),
+            Action::TypeValue => match lab.selected() {
+                Some(target) => self.open_field(Purpose::Value(target)),
+                None => self.say("There is nothing to type here."),
+            },
+            Action::NextPane | Action::PreviousPane => {
+                let panes: Vec<Pane> = lab.panes().collect();
+                let at = panes.iter().position(|pane| *pane == lab.focus).unwrap_or(0);
+                let by = if action == Action::NextPane { 1 } else { panes.len() - 1 };
+                lab.focus = panes[(at + by) % panes.len()];
+                Vec::new()
+            }
+            Action::Zoom => {
+                lab.zoomed = !lab.zoomed;
+                Vec::new()
+            }
+            Action::ChooseAxes => self.open_axes(),
+            Action::Change { sign, coarse } => {
+                let Some(target) = lab.selected() else { return Vec::new() };
+                let to = lab.stepped(target, sign, coarse);
+                to.map_or_else(Vec::new, |to| lab.change(target, to))
+            }
+            Action::Restore => {
+                let Some(target) = lab.selected() else { return Vec::new() };
+                lab.of_file(target).map_or_else(Vec::new, |to| lab.change(target, to))
+            }
+            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
+            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
+            Action::Log => self.with_lens(|lens| lens.log = !lens.log),
+            Action::Cursor => self.with_lens(|lens| {
+                lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
+            }),
+            Action::Home => self.with_plot(Plot::home),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Tells the user something.
+    pub(super) fn say(&mut self, text: impl Into<String>) -> Vec<Effect> {
+        self.notice = Some(Notice::error(text));
+        Vec::new()
+    }
+
+    fn with_plot(&mut self, change: impl FnOnce(&mut Plot, &super::Loaded)) -> Vec<Effect> {
+        if let Some(lab) = &mut self.lab
+            && let Pane::Plot(index) = lab.focus
+            && let Some(plot) = lab.plots.get_mut(index)
+        {
+            change(plot, &lab.loaded);
+        }
+        Vec::new()
+    }
+
+    fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
+        self.with_plot(|plot, _| {
+            if let Some(lens) = plot.lens() {
+                change(lens);
+            }
+        })
+    }
+
+    fn help(&mut self) -> Vec<Effect> {
+        match self.over {
+            Some(Over::Help(_)) => return self.back(),
+            _ => self.over = Some(Over::Help(self.scroll)),
+        }
+        self.scroll = 0;
+        Vec::new()
+    }
+
+    fn back(&mut self) -> Vec<Effect> {
+        match self.over.take() {
+            Some(Over::Help(scroll)) => {
+                self.scroll = scroll;
+                return Vec::new();
+            }
+            Some(Over::Message(_) | Over::Menu(_) | Over::Field(_)) => return Vec::new(),
+            None => {}
+        }
+        match (self.page, &mut self.lab) {
+            (Page::Picker, _) => self.picker.forget_search(),
+            (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
+            (Page::Lab, _) | (_, None) => {
+                if let Some(lab) = &self.lab {
+                    self.picker.select(&lab.loaded.name);
+                }
+                self.go(Page::Picker);
+            }
+            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.go(Page::Lab),
+        }
+        Vec::new()
+    }
+
+    fn shift(&mut self, way: Way) -> Vec<Effect> {
+        match way {
+            Way::Up => return self.jump(-1),
+            Way::Down => return self.jump(1),
+            Way::Left | Way::Right => {}
+        }
+        self.with_plot(|plot, _| plot.shift(way))
+    }
+
+    /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
+    fn jump(&mut self, by: isize) -> Vec<Effect> {
+        match &mut self.over {
+            Some(Over::Menu(menu)) => menu.step(by),
+            Some(Over::Field(_)) => {}
+            Some(Over::Help(_) | Over::Message(_)) => self.roll(by),
+            None => match (self.page, &mut self.lab) {
+                (Page::Picker, _) | (_, None) => self.picker.step(by),
+                (Page::Lab, Some(lab)) => {
+                    if let Pane::Plot(_) = lab.focus {
+                        let way = if by < 0 { Way::Up } else { Way::Down };
+                        return self.with_plot(|plot, _| plot.shift(way));
+                    }
+                    lab.select(|place| place.saturating_add_signed(by));
+                }
+                (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.roll(by),
+            },
+        }
+        Vec::new()
+    }
+
+    fn roll(&mut self, by: isize) {
+        let rows = usize::from(self.scroll).saturating_add_signed(by);
+        self.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
+    }
+
+    /// How far a page up or down goes.
+    fn screenful(&self) -> isize {
+        let text = self.places().contains(&super::keymap::Place::Text);
+        if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
+    }
+
+    fn open_selected(&mut self) -> Vec<Effect> {
+        let Some(name) = self.picker.take() else {
+            return self.say("No system fits this search.");
+        };
+        if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
+            self.scroll = 0;
+            self.over = Some(Over::Message(failure));
+            return Vec::new();
+        }
+        let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
+        let later = self.asked.as_ref().is_some_and(|(asked, _)| *asked != name);
+        if here && !later {
+            self.go(Page::Lab);
+            return vec![Effect::Tell(Command::Reset), Effect::Tell(Command::Play)];
+        }
+        if let Some((asked, open)) = &mut self.asked
+            && *asked == name
+        {
+            *open = true;
+            return Vec::new();
+        }
+        vec![self.ask(name, true)]
+    }
+
+    fn open_field(&mut self, purpose: Purpose) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let method = lab.snapshot.as_ref().map(|s| &s.method);
+        let now = match purpose {
+            Purpose::Value(target) => lab.value(target),
+            Purpose::Step => method.map(|m| m.step),
+            Purpose::Tolerance => method.and_then(|m| m.tolerance),
+        };
+        self.over = Some(Over::Field(Field::new(purpose, now.map_or_else(String::new, written))));
+        Vec::new()
+    }
+}
+
+/// A number as it would be typed: short, without loss.
+fn written(value: f64) -> String {
+    let plain = value.to_string();
+    if plain.len() <= 12 { plain } else { format!("{value:e}").replace("e0", "") }
+}

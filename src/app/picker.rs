@@ -1,0 +1,138 @@
+//! The picker: which systems there are, which one is selected, and when its preview is to be loaded.
+//!
+//! In: the catalog, moves and searches. Out: the name of the system wanted. Never here: loading.
+
+use std::time::Duration;
+
+use tui_input::Input;
+
+use super::LoadFailure;
+use crate::preset::Entry;
+
+/// For how long a selection rests before its system is loaded.
+const REST: Duration = Duration::from_millis(120);
+
+/// The list of systems.
+#[derive(Clone, Debug, Default)]
+pub struct Picker {
+    /// All systems, those of one topic together.
+    pub entries: Vec<Entry>,
+    /// What is searched for, while something is.
+    pub search: Option<Input>,
+    /// The selected system, counted among those shown.
+    pub selected: usize,
+    /// Why the preview of the selected system cannot be shown.
+    pub failure: Option<LoadFailure>,
+    waiting: Option<Duration>,
+}
+
+impl Picker {
+    /// The systems of the catalog, in its order.
+    pub fn new(entries: Vec<Entry>) -> Self {
+        Self { entries, ..Self::default() }
+    }
+
+    /// The places of the systems that fit the search.
+    pub fn shown(&self) -> Vec<usize> {
+        let query = self.search.as_ref().map_or("", Input::value);
+        let fits = |e: &Entry| {
+            let mut texts = vec![e.name.as_str(), &e.info.title, &e.info.summary, &e.info.source];
+            texts.extend(e.info.topics.iter().map(String::as_str));
+            matches(query, &texts)
+        };
+        let mut shown: Vec<usize> =
+            (0..self.entries.len()).filter(|&index| fits(&self.entries[index])).collect();
+        // while something is sought, what has it in its name stands first
+        if !query.is_empty() {
+            shown.sort_by_key(|&index| {
+                let e = &self.entries[index];
+                let begins = folded(&e.name).starts_with(&folded(query))
+                    || folded(&e.info.title).starts_with(&folded(query));
+                (!begins, !matches(query, &[&e.name, &e.info.title]))
+            });
+        }
+        shown
+    }
+
+    /// The selected system.
+    pub fn current(&self) -> Option<&Entry> {
+        self.shown().get(self.selected).map(|&index| &self.entries[index])
+    }
+
+    /// Selects the system of a name, if it is shown.
+    pub fn select(&mut self, name: &str) {
+        let place = self.shown().iter().position(|&index| self.entries[index].name == name);
+        self.selected = place.unwrap_or(self.selected);
+    }
+
+    /// Moves the selection, stopping at the ends.
+    pub fn step(&mut self, by: isize) {
+        let last = self.shown().len().saturating_sub(1);
+        let selected = self.selected.saturating_add_signed(by).min(last);
+        if selected != self.selected {
+            self.selected = selected;
+            self.touch();
+        }
+    }
+
+    /// Changes the search, and selects the best that fits.
+    pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
+        change(self.search.get_or_insert_default());
+        self.selected = 0;
+        self.touch();
+    }
+
+    /// Forgets the search; what was selected stays so.
+    pub fn forget_search(&mut self) {
+        let name = self.current().map(|entry| entry.name.clone());
+        self.search = None;
+        self.selected = 0;
+        if let Some(name) = name {
+            self.select(&name);
+        }
+        self.touch();
+    }
+
+    /// The selection has changed: its system is to be loaded once it rests.
+    fn touch(&mut self) {
+        (self.waiting, self.failure) = (Some(REST), None);
+    }
+
+    /// Time has passed: the system to be loaded now, if there is one.
+    pub fn tick(&mut self, elapsed: Duration) -> Option<String> {
+        let left = self.waiting?.saturating_sub(elapsed);
+        self.waiting = (!left.is_zero()).then_some(left);
+        let due = self.waiting.is_none();
+        self.current().filter(|_| due).map(|entry| entry.name.clone())
+    }
+
+    /// The system to be loaded at once, without waiting for the selection to rest.
+    pub fn take(&mut self) -> Option<String> {
+        self.waiting = None;
+        self.current().map(|entry| entry.name.clone())
+    }
+}
+
+/// Whether every word of the query stands in one of the texts; neither case nor accents matter.
+pub(super) fn matches(query: &str, texts: &[&str]) -> bool {
+    let texts: Vec<String> = texts.iter().map(|text| folded(text)).collect();
+    folded(query).split_whitespace().all(|word| texts.iter().any(|text| text.contains(word)))
+}
+
+/// In small letters without accents, so that `henon` finds Hénon.
+fn folded(text: &str) -> String {
+    let plain = |c: char| match c {
+        'à' | 'á' | 'â' | 'ä' | 'å' => 'a',
+        'ç' | 'č' => 'c',
+        'é' | 'è' | 'ê' | 'ë' => 'e',
+        'í' | 'î' | 'ï' => 'i',
+        'ñ' => 'n',
+        'ó' | 'ô' | 'ö' | 'ø' => 'o',
+        'ú' | 'ü' => 'u',
+        'š' => 's',
+        '–' | '—' => '-',
+        '’' => '\'',
+        other => other,
+    };
+    text.to_lowercase().chars().map(plain).collect()
+}

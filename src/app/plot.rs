@@ -1,0 +1,199 @@
+//! What a pane with a picture shows: the motion in space, two quantities against each other, or some against time.
+//!
+//! In: the views of a model and the channels of its system. Out: [`Plot`]s. Never here: how they are drawn.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::Loaded;
+use super::action::{Axes, Way};
+use crate::model::{Shape, ViewKind};
+use crate::system::ChannelKind;
+
+/// The contents of a pane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Plot {
+    /// The file's shapes, seen through a camera.
+    Space(Eye),
+    /// One channel against another.
+    Phase {
+        /// The channel along the axis.
+        x: usize,
+        /// The channel upwards.
+        y: usize,
+        /// How it is looked at.
+        lens: Lens,
+    },
+    /// Channels against time.
+    Time {
+        /// The channels.
+        y: Vec<usize>,
+        /// How it is looked at.
+        lens: Lens,
+    },
+}
+
+/// Where the camera stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eye {
+    /// Turn about the vertical axis, in radians.
+    pub yaw: f64,
+    /// Height above the horizon, in radians; π/2 looks straight down on the plane of x and y.
+    pub pitch: f64,
+    /// Magnification.
+    pub zoom: f64,
+}
+
+/// How a plot is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Magnification across and upwards.
+    pub zoom: [f64; 2],
+    /// How far the window is moved, in parts of its width and height.
+    pub pan: [f64; 2],
+    /// Whether the axis upwards is logarithmic.
+    pub log: bool,
+    /// Where the cursor stands, in parts of the width from the left and of the height from below.
+    pub cursor: Option<[f64; 2]>,
+}
+
+impl Lens {
+    /// All of the motion.
+    pub const WHOLE: Self = Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, cursor: None };
+
+    /// One step in a direction: of the cursor if there is one, else of the window.
+    fn shift(&mut self, step: [f64; 2]) {
+        match &mut self.cursor {
+            Some(cursor) => *cursor = [0, 1].map(|k| (cursor[k] + step[k] / 40.0).clamp(0.0, 1.0)),
+            None => self.pan = [0, 1].map(|k| self.pan[k] + step[k] / 10.0),
+        }
+    }
+}
+
+impl Eye {
+    /// Plane motion is seen face on, motion in space from the side and from above.
+    pub(super) fn for_shapes(loaded: &Loaded) -> Self {
+        let plane = loaded.model.space.iter().all(is_plane);
+        let (yaw, pitch) = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
+        Self { yaw, pitch, zoom: 1.0 }
+    }
+}
+
+/// Whether a shape stays in the plane z = 0.
+fn is_plane(shape: &Shape) -> bool {
+    use crate::expr::Expr;
+    let flat = |point: &[Expr; 3]| point[2] == Expr::ZERO;
+    match shape {
+        Shape::Line { from, to } | Shape::Spring { from, to } => flat(from) && flat(to),
+        Shape::Circle { centre, normal, .. } => {
+            flat(centre) && normal[0] == Expr::ZERO && normal[1] == Expr::ZERO
+        }
+        Shape::Mass { at, .. } | Shape::Trace { at } => flat(at),
+        Shape::Vector { at, components } => flat(at) && flat(components),
+        Shape::Path { points } => points.iter().all(flat),
+        Shape::Plane { .. } => false,
+    }
+}
+
+impl Plot {
+    /// What the screen opens with: the file's views, then what every system has, so that a large screen is used.
+    pub fn opening(loaded: &Loaded) -> Vec<Self> {
+        let mut plots: Vec<Self> = Vec::new();
+        let mut add = |plot: Option<Self>| {
+            plots.extend(plot.filter(|plot| !plots.iter().any(|p| p.shows_the_same(plot))));
+        };
+        for view in &loaded.model.views {
+            add(Self::of_view(loaded, view));
+        }
+        if !loaded.model.space.is_empty() {
+            add(Some(Self::Space(Eye::for_shapes(loaded))));
+        }
+        let channel = |kind| loaded.system.channels().iter().position(|c| c.kind == kind);
+        for i in 0..loaded.model.coordinates.len() {
+            let (x, y) = (channel(ChannelKind::Position(i)), channel(ChannelKind::Momentum(i)));
+            add(x.zip(y).map(|(x, y)| Self::Phase { x, y, lens: Lens::WHOLE }));
+        }
+        let positions = (0..loaded.model.coordinates.len())
+            .filter_map(|i| channel(ChannelKind::Position(i)))
+            .collect::<Vec<_>>();
+        for q in positions {
+            add(Some(Self::Time { y: vec![q], lens: Lens::WHOLE }));
+        }
+        plots
+    }
+
+    fn of_view(loaded: &Loaded, view: &crate::model::View) -> Option<Self> {
+        let channel = |c: &crate::model::Channel| loaded.system.channel_of(c.expression);
+        match view.kind {
+            ViewKind::Space => Some(Self::Space(Eye::for_shapes(loaded))),
+            ViewKind::Phase => {
+                let (x, y) = (channel(view.x.as_ref()?)?, channel(view.y.first()?)?);
+                Some(Self::Phase { x, y, lens: Lens::WHOLE })
+            }
+            ViewKind::Time => {
+                let y: Vec<_> = view.y.iter().filter_map(channel).collect();
+                (!y.is_empty()).then_some(Self::Time { y, lens: Lens::WHOLE })
+            }
+        }
+    }
+
+    /// Whether both show the same quantities, however they are looked at.
+    fn shows_the_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Space(_), Self::Space(_)) => true,
+            (Self::Phase { x, y, .. }, Self::Phase { x: x2, y: y2, .. }) => (x, y) == (x2, y2),
+            (Self::Time { y, .. }, Self::Time { y: y2, .. }) => y == y2,
+            _ => false,
+        }
+    }
+
+    /// Turns the picture, or moves the window.
+    pub(super) fn shift(&mut self, way: Way) {
+        let [right, up] = match way {
+            Way::Left => [-1.0, 0.0],
+            Way::Right => [1.0, 0.0],
+            Way::Up => [0.0, 1.0],
+            Way::Down => [0.0, -1.0],
+        };
+        match self {
+            Self::Space(eye) => {
+                eye.yaw = (eye.yaw - right * PI / 24.0).rem_euclid(TAU);
+                eye.pitch = (eye.pitch + up * PI / 24.0).clamp(-FRAC_PI_2, FRAC_PI_2);
+            }
+            Self::Phase { lens, .. } | Self::Time { lens, .. } => {
+                lens.shift([right, up]);
+            }
+        }
+    }
+
+    /// Looks closer or from farther away, along the axes named.
+    pub(super) fn zoom(&mut self, factor: f64, axes: Axes) {
+        let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
+        match self {
+            Self::Space(eye) => nearer(&mut eye.zoom),
+            Self::Phase { lens, .. } | Self::Time { lens, .. } => {
+                let chosen = match axes {
+                    Axes::Both => &mut lens.zoom[..],
+                    Axes::Across => &mut lens.zoom[..1],
+                    Axes::Upwards => &mut lens.zoom[1..],
+                };
+                chosen.iter_mut().for_each(nearer);
+            }
+        }
+    }
+
+    /// How it is looked at, if it has axes.
+    pub(super) fn lens(&mut self) -> Option<&mut Lens> {
+        match self {
+            Self::Space(_) => None,
+            Self::Phase { lens, .. } | Self::Time { lens, .. } => Some(lens),
+        }
+    }
+
+    /// The view as it was at first.
+    pub(super) fn home(&mut self, loaded: &Loaded) {
+        match self {
+            Self::Space(eye) => *eye = Eye::for_shapes(loaded),
+            Self::Phase { lens, .. } | Self::Time { lens, .. } => *lens = Lens::WHOLE,
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The speeds that keys step through: 1, 2, 5 times powers of ten, and as fast as it can.
+//!
+//! In: a speed in simulated seconds per second. Out: the next one. Never here: pacing.
+
+/// The slowest and the fastest speed before flat out, as powers of ten.
+const ENDS: [i32; 2] = [-3, 3];
+
+/// The next faster speed; after the last it is infinite.
+pub(super) fn faster(speed: f64) -> f64 {
+    steps().find(|step| *step > speed * (1.0 + 1e-9)).unwrap_or(f64::INFINITY)
+}
+
+/// The next slower speed; the slowest stays.
+pub(super) fn slower(speed: f64) -> f64 {
+    let slowest = 10_f64.powi(ENDS[0]);
+    steps().filter(|step| *step < speed * (1.0 - 1e-9)).last().unwrap_or(slowest)
+}
+
+fn steps() -> impl Iterator<Item = f64> {
+    let decade = |e: i32| {
+        [1.0, 2.0, 5.0]
+            .map(|digit| if e < 0 { digit / 10_f64.powi(-e) } else { digit * 10_f64.powi(e) })
+    };
+    (ENDS[0]..ENDS[1]).flat_map(decade).chain([10_f64.powi(ENDS[1])])
+}

@@ -1,0 +1,144 @@
+//! Events, one by one.
+//!
+//! In: an event. Out: the changed state and the effects. Never here: what the single actions do.
+
+use std::sync::Arc;
+
+use super::field::{edit, paste};
+use super::keymap::{self, Place};
+use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
+use crate::experiment::{Command, Snapshot};
+
+impl App {
+    /// Takes an event in, and says what is to be done about it.
+    pub fn update(&mut self, event: Event) -> Vec<Effect> {
+        match event {
+            Event::Key(key) => self.press(key),
+            Event::Paste(text) => self.paste(&text),
+            Event::Resize(..) => Vec::new(),
+            Event::Snapshot(snapshot) => self.see(&snapshot),
+            Event::Loaded(Ok(loaded)) => self.loaded(loaded),
+            Event::Loaded(Err(failure)) => self.failed(failure),
+            Event::Tick(elapsed) => {
+                self.meter.tick(elapsed);
+                self.notice = self.notice.take().and_then(|notice| notice.after(elapsed));
+                if let Some(lab) = &mut self.lab {
+                    lab.tick(elapsed);
+                }
+                self.picker.tick(elapsed).map(|name| self.ask(name, false)).into_iter().collect()
+            }
+            Event::Drawn(drawn) => {
+                self.drawn = drawn;
+                self.scroll = self.scroll.min(drawn.beyond);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Asks for a system, to be opened in the lab at once or only previewed.
+    pub(super) fn ask(&mut self, name: String, open: bool) -> Effect {
+        self.asked = Some((name.clone(), open));
+        Effect::Load(name)
+    }
+
+    fn press(&mut self, key: Key) -> Vec<Effect> {
+        let places = self.places();
+        if let Some(action) = keymap::action(key, places) {
+            return self.perform(action);
+        }
+        // Over a slow line Esc and the next key arrive together, and look like one key with Alt.
+        if key.alt && !self.is_typing() {
+            let mut effects = self.press(Key::plain(Code::Esc));
+            effects.extend(self.press(Key { alt: false, ..key }));
+            return effects;
+        }
+        let searching = places.contains(&Place::Search)
+            || (places.contains(&Place::Picker) && begins_search(key));
+        match &mut self.over {
+            Some(Over::Field(field)) => field.press(key),
+            Some(Over::Menu(menu)) => {
+                let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
+                menu.selected = if changed { 0 } else { menu.selected };
+            }
+            Some(Over::Help(_) | Over::Message(_)) => {}
+            None if searching => {
+                self.picker.search(|input| {
+                    edit(input, key);
+                });
+            }
+            None => {}
+        }
+        Vec::new()
+    }
+
+    fn paste(&mut self, text: &str) -> Vec<Effect> {
+        let whole = match &mut self.over {
+            Some(Over::Field(field)) => paste(&mut field.input, text),
+            Some(Over::Menu(menu)) => {
+                menu.selected = 0;
+                menu.filter.as_mut().is_none_or(|filter| paste(filter, text))
+            }
+            None if self.picker.search.is_some() && self.page == Page::Picker => {
+                let mut whole = true;
+                self.picker.search(|input| whole = paste(input, text));
+                whole
+            }
+            _ => return Vec::new(),
+        };
+        if !whole {
+            self.notice =
+                Some(Notice::error("The pasted text was too long; its beginning was taken."));
+        }
+        Vec::new()
+    }
+
+    fn see(&mut self, snapshot: &Arc<Snapshot>) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let before = lab.snapshot.as_ref().and_then(|s| s.notices.last().cloned());
+        let steps = snapshot.method.steps;
+        if lab.see(Arc::clone(snapshot)) {
+            self.meter.count(steps);
+            let news = snapshot.notices.last().filter(|news| before.as_ref() != Some(news));
+            if let Some(news) = news {
+                self.notice = Some(Notice::info(news.clone()));
+            }
+        }
+        Vec::new()
+    }
+
+    fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
+        let answered = self.answered(&loaded.name);
+        self.lab = Some(Lab::new(loaded));
+        self.meter.forget();
+        self.picker.failure = None;
+        if answered == Some(true) {
+            self.go(Page::Lab);
+        }
+        vec![Effect::Tell(Command::Play)]
+    }
+
+    fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {
+        if self.answered(&failure.name) == Some(true) {
+            self.scroll = 0;
+            self.over = Some(Over::Message(failure.clone()));
+        }
+        self.picker.failure = Some(failure);
+        Vec::new()
+    }
+
+    /// What was asked for is there, or is not: whether it was to be opened, if this is what was asked for last.
+    fn answered(&mut self, name: &str) -> Option<bool> {
+        let (_, open) = self.asked.take_if(|(asked, _)| asked == name)?;
+        Some(open)
+    }
+
+    /// Shows a page from its beginning.
+    pub(super) fn go(&mut self, page: Page) {
+        (self.page, self.over, self.scroll) = (page, None, 0);
+    }
+}
+
+/// In the list of systems any letter that is no key begins a search.
+fn begins_search(key: Key) -> bool {
+    matches!(key.code, Code::Char(c) if c.is_alphanumeric()) && !key.ctrl && !key.alt
+}

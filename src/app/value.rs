@@ -1,0 +1,145 @@
+//! The values a person turns: parameters and initial values, their ranges and steps.
+//!
+//! In: a model and the newest snapshot. Out: what is known of one value, and the value one step further.
+//! Never here: the list on the screen, or the command that sets it.
+
+use super::Lab;
+use crate::model::Scale;
+
+/// One value that can be changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Target {
+    /// The parameter of this index.
+    Parameter(usize),
+    /// The initial value of this index: coordinates first, then velocities or momenta.
+    Initial(usize),
+}
+
+/// What is known of a value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// As written: `theta0`.
+    pub name: String,
+    /// As shown: `θ₀`.
+    pub shown: String,
+    /// Its unit, empty where none is known.
+    pub unit: String,
+    /// What it means, in words.
+    pub about: String,
+    /// The range of its bar, if it has one.
+    pub range: Option<(f64, f64, Scale)>,
+}
+
+impl Lab {
+    /// How many parameters, or how many initial values.
+    pub fn count(&self, kind: fn(usize) -> Target) -> usize {
+        match kind(0) {
+            Target::Parameter(_) => self.loaded.model.parameters.len(),
+            Target::Initial(_) => 2 * self.loaded.model.coordinates.len(),
+        }
+    }
+
+    /// What is known of a value; of one that does not exist, nothing.
+    pub fn facts(&self, target: Target) -> Option<Facts> {
+        let model = &self.loaded.model;
+        match target {
+            Target::Parameter(index) => {
+                let p = model.parameters.get(index)?;
+                Some(Facts {
+                    name: p.name.clone(),
+                    shown: p.shown.clone(),
+                    unit: p.unit.clone(),
+                    about: p.about.clone(),
+                    range: Some((p.min, p.max, p.scale)),
+                })
+            }
+            Target::Initial(index) => {
+                let count = model.coordinates.len();
+                let c = model.coordinates.get(index % count.max(1))?;
+                let (symbol, what) = match (index / count, model.is_lagrangian()) {
+                    (0, _) => (c.position, "coordinate"),
+                    (1, true) => (c.velocity, "velocity"),
+                    (1, false) => (c.momentum, "momentum"),
+                    _ => return None,
+                };
+                let info = model.pool.symbol_info(symbol);
+                let unit = match what {
+                    "velocity" if !c.unit.is_empty() => format!("{}/s", c.unit),
+                    "momentum" => String::new(),
+                    _ => c.unit.clone(),
+                };
+                Some(Facts {
+                    name: info.name.clone(),
+                    shown: info.unicode.clone(),
+                    unit,
+                    about: format!("initial {what}; a change starts the motion again"),
+                    range: None,
+                })
+            }
+        }
+    }
+
+    /// The value: what was asked for last, until the experiment shows it too.
+    pub fn value(&self, target: Target) -> Option<f64> {
+        if let Some((_, wish)) = self.wishes.iter().find(|(t, _)| *t == target) {
+            return Some(*wish);
+        }
+        self.fact(target)
+    }
+
+    /// The value as the experiment has it.
+    pub(super) fn fact(&self, target: Target) -> Option<f64> {
+        let snapshot = self.snapshot.as_ref()?;
+        match target {
+            Target::Parameter(index) => snapshot.parameters.get(index).copied(),
+            Target::Initial(index) => snapshot.initial.get(index).copied(),
+        }
+    }
+
+    /// The value one fine or coarse step up (+1) or down (−1), within its range.
+    pub fn stepped(&self, target: Target, sign: i8, coarse: bool) -> Option<f64> {
+        let value = self.value(target)?;
+        let range = self.facts(target)?.range;
+        Some(step(value, range, f64::from(sign), if coarse { 10.0 } else { 1.0 }))
+    }
+}
+
+/// A value moved by `sign · times` fine steps: about 200 of them make the range or, without one, the value's own size,
+/// which counts as no less than 1.
+fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> f64 {
+    match range {
+        Some((min, max, Scale::Log)) if min > 0.0 && value > 0.0 => {
+            let factor = (max / min).powf(times / 200.0);
+            let moved = significant(value * factor.powf(sign), 4);
+            within(moved, value, min, max)
+        }
+        Some((min, max, _)) => {
+            let fine = nice_step((max - min) / 200.0);
+            within(significant(value + sign * times * fine, 12), value, min, max)
+        }
+        None => {
+            let fine = nice_step(value.abs().max(1.0) / 200.0);
+            significant(value + sign * times * fine, 12)
+        }
+    }
+}
+
+/// `moved` kept in the range; a value typed beyond it may come nearer, but never goes farther.
+fn within(moved: f64, value: f64, min: f64, max: f64) -> f64 {
+    moved.clamp(min.min(value), max.max(value))
+}
+
+/// The nearest of 1, 2, 5 times a power of ten, not above `length` by more than a half.
+fn nice_step(length: f64) -> f64 {
+    if !length.is_finite() || length <= 0.0 {
+        return 1.0;
+    }
+    let power = 10_f64.powf(length.log10().floor());
+    let digit = [1.0, 2.0, 5.0, 10.0].into_iter().rfind(|d| d * power <= length * 1.5);
+    significant(digit.unwrap_or(1.0) * power, 3)
+}
+
+/// The value rounded to so many significant digits, so that steps leave no dust behind.
+fn significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}

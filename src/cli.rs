@@ -1,0 +1,116 @@
+//! The command line: one file per subcommand, each over the same stages as the laboratory.
+//!
+//! In: arguments. Out: data on standard output (and nothing else there), mistakes and messages on
+//! standard error, an exit code: 0 done, 1 could not, 2 wrong use, 65 the file is wrong, 74 could
+//! not write, 128 + n ended by signal n. Output that nobody reads any more (`| head`) ends a
+//! command quietly, as done. Never here: mechanics, numbers in motion.
+
+mod assignment;
+mod check;
+mod decimal;
+mod derive;
+mod failure;
+mod lab;
+mod list;
+mod methods;
+mod open;
+mod output;
+mod report;
+mod rows;
+mod run;
+mod stderr;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::expr::nearest;
+
+use failure::Failure;
+
+/// A laboratory for analytical mechanics.
+///
+/// Without a command it opens the laboratory on the screen, at a preset or a file, or at the
+/// picker where no name is given. A name with a `/` in it or ending in `.toml` is a file, any
+/// other a preset; your own presets (in `phaselab/presets` of your configuration folder) come
+/// before shipped ones of the same name.
+#[derive(Debug, Parser)]
+#[command(name = "phaselab", version, args_conflicts_with_subcommands = true)]
+#[command(after_help = "\
+Examples:
+  phaselab                                      choose a system and watch it move
+  phaselab double-pendulum                      open a preset
+  phaselab my/system.toml                       open a file
+  phaselab derive heavy-top                     what follows from its Lagrangian
+  phaselab run pendulum --until 10 > swing.csv  the same motion without a screen
+
+Exit status: 0 done; 1 the motion could not go on; 2 wrong use; 65 the file is wrong;
+74 could not write; 128 + n ended by signal n.")]
+struct Arguments {
+    #[command(flatten)]
+    lab: lab::Arguments,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// List the presets by topic.
+    List(list::Arguments),
+    /// Show what follows from L or H: momenta, equations of motion, Hamiltonian, what is conserved
+    /// and why.
+    Derive(derive::Arguments),
+    /// Tell every mistake in files, and whether what they claim is true.
+    Check(check::Arguments),
+    /// Integrate without a screen.
+    Run(Box<run::Arguments>),
+    /// List the integrators: order, what they preserve, what they need.
+    Methods(methods::Arguments),
+}
+
+/// Does what the arguments say; the first is the program's name.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let words: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&words) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            if let Some(message) = misspelt(&words) {
+                stderr::tell(&message);
+                return Failure::WrongUse(message).code();
+            }
+            // help asked for goes to standard output, and both may have nobody to read them
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match perform(arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            stderr::tell(failure.message());
+            failure.code()
+        }
+    }
+}
+
+fn perform(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Some(Command::List(arguments)) => list::perform(&arguments),
+        Some(Command::Derive(arguments)) => derive::perform(&arguments),
+        Some(Command::Check(arguments)) => check::perform(&arguments),
+        Some(Command::Run(arguments)) => run::perform(&arguments),
+        Some(Command::Methods(arguments)) => methods::perform(&arguments),
+        None => lab::perform(&arguments.lab),
+    }
+}
+
+/// What is to be said where the first of several words is almost a command; by itself it would be
+/// a preset's name.
+fn misspelt(words: &[OsString]) -> Option<String> {
+    let [_, first, _, ..] = words else { return None };
+    let first = first.to_str()?;
+    let command = Arguments::command();
+    let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let near = nearest(first, names.iter().copied()).filter(|near| *near != first)?;
+    Some(format!("there is no command `{first}`; did you mean `{near}`?"))
+}

@@ -1,0 +1,189 @@
+//! `name=value` on the command line: parameters, initial values, and extra columns.
+
+use std::str::FromStr;
+
+use crate::expr::{Expr, Pool, nearest};
+use crate::model::{Allowed, Channel, Model, Scope};
+use crate::preset::{Mistake, report};
+use crate::system::Given;
+
+use super::failure::Failure;
+use super::stderr;
+
+/// A name and what it is set to, both as written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Assignment {
+    name: String,
+    value: String,
+}
+
+impl FromStr for Assignment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Assignment, String> {
+        let (name, value) = text.split_once('=').ok_or("write it as name=value")?;
+        let (name, value) = (name.trim().to_owned(), value.trim().to_owned());
+        if name.is_empty() || value.is_empty() {
+            return Err("write it as name=value".to_owned());
+        }
+        Ok(Assignment { name, value })
+    }
+}
+
+/// A number on the command line; it may be written as in a file, `3*pi/4`.
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let value = match text.parse::<f64>() {
+        Ok(value) => value,
+        Err(_) => {
+            let mut nothing = Model::new("");
+            let mut scope = Scope::new(&nothing, Allowed::Parameters, "a number");
+            let read = scope.read(&mut nothing.pool, text);
+            let e = read.ok_or_else(|| first_mistake(&scope))?;
+            nothing.pool.evaluate(e, &|_| f64::NAN)
+        }
+    };
+    if value.is_finite() { Ok(value) } else { Err("it is not finite".to_owned()) }
+}
+
+fn first_mistake(scope: &Scope) -> String {
+    let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
+    mistake.unwrap_or_else(|| "it is not a number".to_owned())
+}
+
+/// The parameters: the file's values, or those set.
+pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, Failure> {
+    let mut values = model.parameter_values();
+    for assignment in set {
+        let name = assignment.name.as_str();
+        let index = model.parameter(name).ok_or_else(|| {
+            let names = model.parameters.iter().map(|p| p.name.as_str());
+            unknown("parameter", name, &names.collect::<Vec<_>>())
+        })?;
+        values[index] = number(&assignment.value).map_err(|why| wrong(assignment, &why))?;
+    }
+    Ok(values)
+}
+
+/// The time of the initial values: `--init t=…`, else the file's.
+pub(super) fn start(model: &Model, parameters: &[f64], set: &[Assignment]) -> Result<f64, Failure> {
+    match set.iter().rfind(|assignment| assignment.name == "t") {
+        Some(assignment) => initial_value(model, parameters, assignment),
+        None => Ok(model.run.start),
+    }
+}
+
+/// The initial values that take the place of the file's.
+pub(super) fn initial(
+    model: &Model,
+    parameters: &[f64],
+    set: &[Assignment],
+) -> Result<Vec<Given>, Failure> {
+    let mut all: Vec<Given> = Vec::new();
+    for assignment in set.iter().filter(|assignment| assignment.name != "t") {
+        let value = initial_value(model, parameters, assignment)?;
+        let given = place(model, &assignment.name, value)?;
+        // the last of two equal ones counts
+        all.retain(|other| label(model, other) != label(model, &given));
+        all.push(given);
+    }
+    for (i, c) in model.coordinates.iter().enumerate() {
+        let has = |wanted: Given| all.iter().any(|g| label(model, g) == label(model, &wanted));
+        if has(Given::Velocity(i, 0.0)) && has(Given::Momentum(i, 0.0)) {
+            let name = &c.name;
+            let message =
+                format!("--init gives both {name}' and p_{name}; one follows from the other");
+            return Err(Failure::WrongUse(message));
+        }
+    }
+    Ok(all)
+}
+
+/// A value in parameters, as in a file.
+fn initial_value(
+    model: &Model,
+    parameters: &[f64],
+    assignment: &Assignment,
+) -> Result<f64, Failure> {
+    let mut pool = model.pool.clone();
+    let mut scope = Scope::new(model, Allowed::Parameters, "an initial value");
+    let e = scope
+        .read(&mut pool, &assignment.value)
+        .ok_or_else(|| wrong(assignment, &first_mistake(&scope)))?;
+    let parameter = |symbol| {
+        let index = model.parameters.iter().position(|p| p.symbol == symbol);
+        index.map_or(f64::NAN, |i| parameters[i])
+    };
+    let value = pool.evaluate(e, &parameter);
+    if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
+}
+
+/// Which initial value a name means.
+fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
+    let find = |name: &str| model.coordinate(name);
+    let plain = find(name).map(|i| Given::Position(i, value));
+    let primed = || Some(Given::Velocity(find(name.strip_suffix('\'')?)?, value));
+    let momentum = || Some(Given::Momentum(find(name.strip_prefix("p_")?)?, value));
+    plain.or_else(primed).or_else(momentum).ok_or_else(|| {
+        let names: Vec<String> = model
+            .coordinates
+            .iter()
+            .flat_map(|c| [c.name.clone(), format!("{}'", c.name), format!("p_{}", c.name)])
+            .chain(["t".to_owned()])
+            .collect();
+        unknown("initial value", name, &names.iter().map(String::as_str).collect::<Vec<_>>())
+    })
+}
+
+/// As it is written in front of the `=`.
+fn label(model: &Model, given: &Given) -> String {
+    match *given {
+        Given::Position(i, _) => model.coordinates[i].name.clone(),
+        Given::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
+        Given::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
+    }
+}
+
+/// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the one the equations live in.
+pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, Failure> {
+    let (name, written) = match text.split_once('=') {
+        Some((name, expression)) => (name.trim(), expression.trim()),
+        None => (text.trim(), text.trim()),
+    };
+    if name.is_empty() {
+        return Err(Failure::WrongUse(format!("--observe {text}: a name stands before the =")));
+    }
+    let expression = expression(model, pool, written)?;
+    Ok(Channel { written: name.to_owned(), expression })
+}
+
+fn expression(model: &Model, pool: &mut Pool, written: &str) -> Result<Expr, Failure> {
+    let mut scope = Scope::new(model, Allowed::Observable, "an observable");
+    if let Some(e) = scope.read(pool, written) {
+        return Ok(e);
+    }
+    let mistakes: Vec<Mistake> = scope
+        .mistakes
+        .into_iter()
+        .map(|mistake| {
+            let place = mistake.span.start..mistake.span.end;
+            Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
+        })
+        .collect();
+    stderr::show(&report(written, "--observe", &mistakes, stderr::has_colour()));
+    Err(Failure::WrongUse(format!("cannot observe `{written}`")))
+}
+
+fn wrong(assignment: &Assignment, why: &str) -> Failure {
+    let Assignment { name, value } = assignment;
+    Failure::WrongUse(format!("{name}={value}: {why}"))
+}
+
+fn unknown(kind: &str, name: &str, names: &[&str]) -> Failure {
+    let help = match nearest(name, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if names.is_empty() => "there are none".to_owned(),
+        None => format!("there are {}", names.join(", ")),
+    };
+    Failure::WrongUse(format!("there is no {kind} `{name}`; {help}"))
+}

@@ -1,0 +1,118 @@
+//! `phaselab check`: every mistake in files, and whether what they claim is true.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::output::Output;
+use super::{open, stderr};
+use crate::analysis::false_claims;
+use crate::expr::nearest;
+use crate::integrate::{METHODS, method_named};
+use crate::mechanics;
+use crate::model::Model;
+use crate::preset::{Document, Mistake, Severity};
+
+/// Tell every mistake in files, and whether what they claim is true.
+///
+/// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
+/// integrating the motion.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// The files.
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// How the mistakes are told.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+enum Format {
+    /// For reading, on standard error.
+    #[default]
+    Text,
+    /// One object on standard output, `{"files": [...]}`.
+    Json,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let mut files = Vec::new();
+    let mut errors = 0;
+    for path in &arguments.files {
+        let document = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+        let mistakes = mistakes(&document);
+        errors += mistakes.iter().filter(|m| m.severity == Severity::Error).count();
+        match arguments.format {
+            Format::Text => stderr::show(&document.report(&mistakes, stderr::has_colour())),
+            Format::Json => files.push(object(&document, &mistakes)),
+        }
+    }
+    if arguments.format == Format::Json {
+        let mut out = Output::open(None)?;
+        let text = format!("{:#}\n", json!({ "files": files }));
+        out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+        out.finish()?;
+    }
+    match (errors, arguments.files.as_slice()) {
+        (0, _) => Ok(()),
+        (n, [file]) => Err(Failure::WrongFile(open::count(n, &file.display().to_string()))),
+        (n, files) => Err(Failure::WrongFile(open::count(n, &format!("{} files", files.len())))),
+    }
+}
+
+/// All mistakes of a file: of its text, else of what follows from it, else of its claims.
+fn mistakes(document: &Document) -> Vec<Mistake> {
+    let checked = match document.read() {
+        Ok(checked) => checked,
+        Err(mistakes) => return mistakes,
+    };
+    let mut mistakes = checked.warnings;
+    mistakes.extend(unknown_method(&checked.model));
+    match mechanics::derive(&checked.model) {
+        Ok(equations) => mistakes.extend(false_claims(&checked.model, &equations)),
+        Err(why) => mistakes.push(Mistake::error(0..0, why.to_string())),
+    }
+    mistakes.sort_by_key(|mistake| mistake.place.start);
+    mistakes
+}
+
+/// The file's method, if the table has none of that name.
+fn unknown_method(model: &Model) -> Option<Mistake> {
+    let name = &model.run.method;
+    if method_named(name).is_some() {
+        return None;
+    }
+    let place = model.run.method_place.clone().unwrap_or_default();
+    let mistake = Mistake::error(place, format!("there is no method `{name}`"));
+    let names = METHODS.iter().map(|method| method.name);
+    Some(match nearest(name, names.clone().chain(["auto"])) {
+        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+        None => {
+            mistake.with_help(format!("there are auto {}", names.collect::<Vec<_>>().join(" ")))
+        }
+    })
+}
+
+fn object(document: &Document, mistakes: &[Mistake]) -> Value {
+    let mistakes: Vec<Value> = mistakes
+        .iter()
+        .map(|mistake| {
+            let (line, column) = document.line_and_column(mistake.place.start);
+            json!({
+                "severity": match mistake.severity {
+                    Severity::Error => "error",
+                    Severity::Warning => "warning",
+                },
+                "line": line,
+                "column": column,
+                "message": mistake.message,
+                "help": mistake.help,
+            })
+        })
+        .collect();
+    json!({ "file": document.path, "mistakes": mistakes })
+}

@@ -1,0 +1,50 @@
+//! `phaselab derive`: what follows from a law of motion, to be read, typeset or checked by another
+//! program.
+
+mod json;
+mod latex;
+mod text;
+
+use std::io::Write;
+
+use clap::ValueEnum;
+
+use super::failure::Failure;
+use super::open;
+use super::output::Output;
+
+/// Show what follows from L or H.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: String,
+    /// How it is written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Format {
+    /// For reading: Unicode mathematics, or the syntax of files where the locale is not UTF-8.
+    #[default]
+    Text,
+    /// For typesetting: a fragment for LaTeX with amsmath.
+    Latex,
+    /// One object, its expressions in the syntax of files.
+    Json,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let document = open::find(&arguments.name)?;
+    let model = open::read(&document)?;
+    let equations = open::derive(&document, &model)?;
+    let text = match arguments.format {
+        Format::Text => text::write(&model, &equations, text::Script::of_locale()),
+        Format::Latex => latex::write(&model, &equations),
+        Format::Json => json::write(&model, &equations),
+    };
+    let mut out = Output::open(None)?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}

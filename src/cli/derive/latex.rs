@@ -1,0 +1,67 @@
+//! What follows from a law of motion as a fragment for LaTeX with amsmath.
+
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Equations, Flow};
+use crate::model::{Mechanics, Model};
+
+pub(super) fn write(model: &Model, equations: &Equations) -> String {
+    let pool = &equations.pool;
+    let symbol = |s: Symbol| pool.symbol_info(s).latex.clone();
+    let mut lines: Vec<String> = Vec::new();
+    let (name, law) = match &model.mechanics {
+        Mechanics::Lagrangian { lagrangian, .. } => ("L", *lagrangian),
+        Mechanics::Hamiltonian { hamiltonian, .. } => ("H", *hamiltonian),
+    };
+    lines.push(format!("{name} &= {}", pool.latex(law)));
+    if let Mechanics::Lagrangian { dissipation, .. } = &model.mechanics
+        && *dissipation != Expr::ZERO
+    {
+        lines.push(format!("F &= {}", pool.latex(*dissipation)));
+    }
+    let (Mechanics::Lagrangian { forces, .. } | Mechanics::Hamiltonian { forces, .. }) =
+        &model.mechanics;
+    let forces = model.coordinates.iter().zip(forces).filter(|(_, force)| **force != Expr::ZERO);
+    lines.extend(
+        forces.map(|(c, &force)| format!("Q_{{{}}} &= {}", symbol(c.position), pool.latex(force))),
+    );
+    if model.is_lagrangian() {
+        for (c, &p) in model.coordinates.iter().zip(&equations.momenta) {
+            lines.push(format!("{} &= {}", symbol(c.momentum), pool.latex(p)));
+        }
+    }
+    let rates = rates(model, &symbol);
+    match (&equations.solved, &equations.flow) {
+        (Ok(solved), _) => {
+            let solved = rates.iter().zip(solved);
+            lines.extend(solved.map(|(rate, &e)| format!("{rate} &= {}", pool.latex(e))));
+        }
+        (Err(_), Flow::Lagrange { mass, force, .. }) => {
+            let row = |row: &Vec<_>| row.iter().map(|&m| pool.latex(m)).collect::<Vec<_>>();
+            let mass: Vec<String> = mass.iter().map(|m| row(m).join(" & ")).collect();
+            lines.push(format!("{} {} &= {}", matrix(&mass), matrix(&rates), matrix(&row(force))));
+        }
+        // q̇ and ṗ are solved for as they stand
+        (Err(_), Flow::Hamilton { .. }) => {}
+    }
+    if model.is_lagrangian() {
+        lines.extend(equations.hamiltonian.iter().map(|&h| format!("H &= {}", pool.latex(h))));
+        lines.push(format!("E &= {}", pool.latex(equations.energy)));
+    }
+    lines.push(format!("\\frac{{dE}}{{dt}} &= {}", pool.latex(equations.energy_rate)));
+    let title = model.info.title.replace('\n', " ");
+    format!("% {title}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
+}
+
+fn matrix(rows: &[String]) -> String {
+    format!("\\begin{{pmatrix}} {} \\end{{pmatrix}}", rows.join(" \\\\ "))
+}
+
+/// The left sides of the equations of motion.
+fn rates(model: &Model, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
+    let all = model.coordinates.iter();
+    if model.is_lagrangian() {
+        return all.map(|c| symbol(c.acceleration)).collect();
+    }
+    let velocities = all.clone().map(|c| symbol(c.velocity));
+    velocities.chain(all.map(|c| format!("\\dot {}", symbol(c.momentum)))).collect()
+}

@@ -1,0 +1,221 @@
+//! What follows from a law of motion as mathematics to be read.
+
+use std::fmt::Write;
+
+use unicode_width::UnicodeWidthStr;
+
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Equations, Flow, WhyNot};
+use crate::model::{Mechanics, Model};
+use crate::view::glyphs::Glyphs;
+
+/// What the reader's terminal can show.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Script {
+    /// `θ̈ = −(g/l) sin θ`.
+    Unicode,
+    /// `theta'' = -g*sin(theta)/l`.
+    Ascii,
+}
+
+impl Script {
+    /// What the locale promises.
+    pub(super) fn of_locale() -> Script {
+        match Glyphs::from_environment(&|name| std::env::var(name).ok()) {
+            Glyphs::Ascii => Script::Ascii,
+            Glyphs::Braille | Glyphs::HalfBlock => Script::Unicode,
+        }
+    }
+}
+
+pub(super) fn write(model: &Model, equations: &Equations, script: Script) -> String {
+    let mut page = Page { equations, script, text: String::new() };
+    page.head(model);
+    page.law(model);
+    page.momenta(model);
+    page.motion(model);
+    page.energy();
+    page.conserved(model);
+    page.text
+}
+
+/// The text so far.
+struct Page<'a> {
+    equations: &'a Equations,
+    script: Script,
+    text: String,
+}
+
+impl Page<'_> {
+    fn head(&mut self, model: &Model) {
+        let info = &model.info;
+        for line in [&info.title, &info.summary, &info.source] {
+            if !line.is_empty() {
+                let line = self.words(line);
+                self.line(&line);
+            }
+        }
+    }
+
+    fn law(&mut self, model: &Model) {
+        let (title, name, law) = match &model.mechanics {
+            Mechanics::Lagrangian { lagrangian, .. } => ("Lagrangian", "L", *lagrangian),
+            Mechanics::Hamiltonian { hamiltonian, .. } => ("Hamiltonian", "H", *hamiltonian),
+        };
+        let mut rows = vec![(name.to_owned(), self.math(law))];
+        if let Mechanics::Lagrangian { dissipation, .. } = &model.mechanics
+            && *dissipation != Expr::ZERO
+        {
+            rows.push(("F".to_owned(), self.math(*dissipation)));
+        }
+        let (Mechanics::Lagrangian { forces, .. } | Mechanics::Hamiltonian { forces, .. }) =
+            &model.mechanics;
+        for (c, &force) in model.coordinates.iter().zip(forces) {
+            if force != Expr::ZERO {
+                rows.push((format!("Q_{}", self.symbol(c.position)), self.math(force)));
+            }
+        }
+        self.section(title, &rows);
+    }
+
+    fn momenta(&mut self, model: &Model) {
+        if model.is_lagrangian() {
+            let momenta = model.coordinates.iter().zip(&self.equations.momenta);
+            let rows: Vec<_> =
+                momenta.map(|(c, &p)| (self.symbol(c.momentum), self.math(p))).collect();
+            self.section("Momenta", &rows);
+        }
+    }
+
+    fn motion(&mut self, model: &Model) {
+        let rates = rates(model, self.script, &|symbol| self.symbol(symbol));
+        match &self.equations.solved {
+            Ok(solved) => {
+                let rows: Vec<_> =
+                    rates.into_iter().zip(solved.iter().map(|&e| self.math(e))).collect();
+                self.section("Equations of motion", &rows);
+            }
+            Err(why) => {
+                self.why_not("Equations of motion", why);
+                self.unsolved(&rates);
+            }
+        }
+    }
+
+    /// M q̈ = f, row by row.
+    fn unsolved(&mut self, rates: &[String]) {
+        let Flow::Lagrange { mass, force, .. } = &self.equations.flow else { return };
+        for (row, &f) in mass.iter().zip(force) {
+            let terms = row.iter().zip(rates).filter(|(m, _)| **m != Expr::ZERO);
+            let terms: Vec<String> =
+                terms.map(|(&m, rate)| format!("({}) {rate}", self.math(m))).collect();
+            let line = format!("  {} = {}", terms.join(" + "), self.math(f));
+            self.line(&line);
+        }
+    }
+
+    fn energy(&mut self) {
+        let equations = self.equations;
+        if equations.is_lagrangian() {
+            match &equations.hamiltonian {
+                Ok(h) => self.section("Hamiltonian", &[("H".to_owned(), self.math(*h))]),
+                Err(why) => self.why_not("Hamiltonian", why),
+            }
+            self.section("Energy", &[("E".to_owned(), self.math(equations.energy))]);
+        }
+        if equations.energy_rate != Expr::ZERO {
+            let rate = [("dE/dt".to_owned(), self.math(equations.energy_rate))];
+            self.section("The energy's change", &rate);
+        }
+    }
+
+    fn conserved(&mut self, model: &Model) {
+        let cyclic = self.equations.cyclic.iter();
+        let cyclic: Vec<String> =
+            cyclic.map(|&i| self.symbol(model.coordinates[i].position)).collect();
+        let cyclic = if cyclic.is_empty() { "none".to_owned() } else { cyclic.join(", ") };
+        self.line("");
+        self.line(&format!("Cyclic coordinates: {cyclic}"));
+        self.line("");
+        if self.equations.conserved.is_empty() {
+            return self.line("Conserved: nothing that is known");
+        }
+        self.line("Conserved");
+        for conserved in &self.equations.conserved {
+            let reason = self.words(&conserved.reason.to_string());
+            let momentum =
+                model.coordinates.iter().find(|c| conserved.name == format!("p_{}", c.name));
+            // what stands above needs no second formula
+            let line = match momentum {
+                Some(c) => format!("  {}   ({reason})", self.symbol(c.momentum)),
+                None if conserved.name == "energy" => format!("  E   ({reason})"),
+                None => {
+                    let name = self.words(&conserved.name);
+                    format!("  {name} = {}   ({reason})", self.math(conserved.expression))
+                }
+            };
+            self.line(&line);
+        }
+    }
+
+    /// A title and lines `name = value`, the signs of equality below each other.
+    fn section(&mut self, title: &str, rows: &[(String, String)]) {
+        self.line("");
+        self.line(title);
+        let width = rows.iter().map(|(name, _)| name.width()).max().unwrap_or(0);
+        for (name, value) in rows {
+            let gap = " ".repeat(width - name.width());
+            self.line(&format!("  {name}{gap} = {value}"));
+        }
+    }
+
+    fn why_not(&mut self, title: &str, why: &WhyNot) {
+        self.line("");
+        self.line(title);
+        let why = self.words(&why.to_string());
+        self.line(&format!("  {why}"));
+    }
+
+    fn line(&mut self, line: &str) {
+        // writing to a string cannot fail
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    fn math(&self, e: Expr) -> String {
+        match self.script {
+            Script::Unicode => self.equations.pool.unicode(e),
+            Script::Ascii => self.equations.pool.text(e),
+        }
+    }
+
+    fn symbol(&self, symbol: Symbol) -> String {
+        let info = self.equations.pool.symbol_info(symbol);
+        match self.script {
+            Script::Unicode => info.unicode.clone(),
+            Script::Ascii => info.name.clone(),
+        }
+    }
+
+    /// Words as the reader's terminal can show them.
+    fn words(&self, text: &str) -> String {
+        match self.script {
+            Script::Unicode => text.to_owned(),
+            Script::Ascii => Glyphs::Ascii.text(text).into_owned(),
+        }
+    }
+}
+
+/// The left sides of the equations of motion.
+fn rates(model: &Model, script: Script, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
+    let all = model.coordinates.iter();
+    if model.is_lagrangian() {
+        return all.map(|c| symbol(c.acceleration)).collect();
+    }
+    let velocities = all.clone().map(|c| symbol(c.velocity));
+    let mark = |p: String| match script {
+        Script::Ascii => format!("{p}'"),
+        // the dot stands over the letter p
+        Script::Unicode => p.replacen('p', "ṗ", 1),
+    };
+    velocities.chain(all.map(|c| mark(symbol(c.momentum)))).collect()
+}

@@ -1,0 +1,86 @@
+//! `phaselab [PRESET|FILE]`: the laboratory on the screen.
+
+use clap::ValueEnum;
+
+use super::failure::Failure;
+use crate::shell::{self, Ending, Refusal, Request};
+use crate::view::colour::ColourDepth;
+use crate::view::glyphs::Glyphs;
+
+/// What to open and how to show it.
+#[derive(Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct Arguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: Option<String>,
+    /// How many colours to use.
+    #[arg(long, value_enum, value_name = "COLOURS", default_value_t)]
+    color: Colours,
+    /// What to draw with.
+    #[arg(long, value_enum, value_name = "GLYPHS", default_value_t)]
+    glyphs: Drawn,
+    /// The most frames in a second; 30 where it is left out, 15 over ssh.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=240))]
+    fps: Option<u16>,
+    /// Leave out the marks round each frame, for a terminal that shows them.
+    #[arg(long)]
+    no_sync: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Colours {
+    /// What the environment says: NO_COLOR, COLORTERM, TERM.
+    #[default]
+    Auto,
+    /// None.
+    Never,
+    /// The terminal's own sixteen.
+    #[value(name = "16")]
+    Sixteen,
+    /// The xterm palette.
+    #[value(name = "256")]
+    Palette,
+    /// 24 bits.
+    True,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Drawn {
+    /// What the locale says: LC_ALL, LC_CTYPE, LANG.
+    #[default]
+    Auto,
+    /// Braille patterns, the finest.
+    Braille,
+    /// Half blocks.
+    Half,
+    /// ASCII only.
+    Ascii,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let request = Request {
+        open: arguments.name.clone(),
+        colour: match arguments.color {
+            Colours::Auto => None,
+            Colours::Never => Some(ColourDepth::None),
+            Colours::Sixteen => Some(ColourDepth::Ansi16),
+            Colours::Palette => Some(ColourDepth::Ansi256),
+            Colours::True => Some(ColourDepth::True),
+        },
+        glyphs: match arguments.glyphs {
+            Drawn::Auto => None,
+            Drawn::Braille => Some(Glyphs::Braille),
+            Drawn::Half => Some(Glyphs::HalfBlock),
+            Drawn::Ascii => Some(Glyphs::Ascii),
+        },
+        frames: arguments.fps,
+        unsynchronized: arguments.no_sync,
+    };
+    match shell::run(&request) {
+        Ok(Ending::Quit) => Ok(()),
+        Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
+        Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
+        Err(refusal) => Err(Failure::WrongUse(refusal.to_string())),
+    }
+}

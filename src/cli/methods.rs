@@ -1,0 +1,85 @@
+//! `phaselab methods`: the table of integrators.
+
+use std::io::Write;
+
+use clap::ValueEnum;
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::output::Output;
+use crate::integrate::{METHODS, Method, Preserves, Stepping};
+
+/// List the integrators.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// How the list is written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Format {
+    /// For reading.
+    #[default]
+    Text,
+    /// One object, `{"methods": [...]}`.
+    Json,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let text = match arguments.format {
+        Format::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
+        Format::Json => {
+            let methods: Vec<Value> = METHODS.iter().map(object).collect();
+            format!("{:#}\n", json!({ "methods": methods }))
+        }
+    };
+    let mut out = Output::open(None)?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}
+
+fn text(method: &Method) -> String {
+    let order = match method.order {
+        Some(order) => format!("order {order}"),
+        None => "order by tolerance".to_owned(),
+    };
+    let needs = match method.needs {
+        "" => String::new(),
+        needs => format!("    needs {needs}\n"),
+    };
+    format!(
+        "{}: {}\n    {order}, {}; preserves {}\n{needs}    {}\n",
+        method.name,
+        method.title,
+        stepping(method.stepping),
+        preserves(method.preserves),
+        method.about
+    )
+}
+
+fn stepping(stepping: Stepping) -> &'static str {
+    match stepping {
+        Stepping::Adaptive => "steps chosen by a tolerance",
+        Stepping::Fixed => "steps all alike",
+    }
+}
+
+fn preserves(preserves: Preserves) -> &'static str {
+    match preserves {
+        Preserves::Nothing => "nothing but its accuracy",
+        Preserves::Symplectic => "the symplectic form and reversibility",
+    }
+}
+
+fn object(method: &Method) -> Value {
+    json!({
+        "name": method.name,
+        "title": method.title,
+        "order": method.order,
+        "adaptive": method.stepping == Stepping::Adaptive,
+        "symplectic": method.preserves == Preserves::Symplectic,
+        "needs": method.needs,
+        "about": method.about,
+    })
+}

@@ -1,0 +1,135 @@
+//! Rows of numbers as CSV, JSON or JSON lines, written as they come.
+//!
+//! In: a [`Header`], rows, a [`Closing`]. Out: bytes. Never here: where the numbers come from.
+
+use std::io::{self, Write};
+
+use serde_json::Value;
+
+use super::decimal::shortest;
+use super::report::{Closing, Header, Status};
+
+/// How rows are written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
+pub(super) enum Format {
+    /// Comma-separated values; what is not a row stands in lines that begin with `#`.
+    #[default]
+    Csv,
+    /// One JSON object.
+    Json,
+    /// A JSON object, then one array a row, then a JSON object.
+    Jsonl,
+}
+
+/// Writes one table.
+#[derive(Debug)]
+pub(super) struct Rows<W> {
+    format: Format,
+    out: W,
+    written: u64,
+}
+
+impl<W: Write> Rows<W> {
+    /// Writes what stands before the rows.
+    pub(super) fn begin(format: Format, mut out: W, header: &Header) -> io::Result<Rows<W>> {
+        match format {
+            Format::Csv => csv_header(&mut out, header)?,
+            Format::Json => {
+                out.write_all(b"{\n")?;
+                members(&mut out, &serde_json::to_value(header)?)?;
+                out.write_all(b"  \"rows\": [")?;
+            }
+            Format::Jsonl => {
+                serde_json::to_writer(&mut out, header)?;
+                out.write_all(b"\n")?;
+            }
+        }
+        Ok(Rows { format, out, written: 0 })
+    }
+
+    /// Writes a row, one number a column.
+    pub(super) fn row(&mut self, row: &[f64]) -> io::Result<()> {
+        match self.format {
+            Format::Csv => {
+                let cells: Vec<String> =
+                    row.iter().map(|&x| shortest(x).unwrap_or_default()).collect();
+                self.out.write_all(cells.join(",").as_bytes())?;
+                self.out.write_all(b"\n")?;
+            }
+            Format::Json => {
+                let lead = if self.written == 0 { "\n    " } else { ",\n    " };
+                self.out.write_all(lead.as_bytes())?;
+                serde_json::to_writer(&mut self.out, row)?;
+            }
+            Format::Jsonl => {
+                serde_json::to_writer(&mut self.out, row)?;
+                self.out.write_all(b"\n")?;
+            }
+        }
+        self.written += 1;
+        Ok(())
+    }
+
+    /// Writes what stands after the rows and hands back the stream.
+    pub(super) fn end(mut self, closing: &Closing) -> io::Result<W> {
+        match self.format {
+            Format::Csv => {
+                if closing.status != Status::Completed {
+                    let message = closing.message.as_deref().unwrap_or_default();
+                    writeln!(self.out, "# {}: {}", closing.status.word(), one_line(message))?;
+                }
+            }
+            Format::Json => {
+                let end = if self.written == 0 { "],\n" } else { "\n  ],\n" };
+                self.out.write_all(end.as_bytes())?;
+                let mut text = Vec::new();
+                members(&mut text, &serde_json::to_value(closing)?)?;
+                let kept = text.len() - 2; // the comma and line end after the last member
+                self.out.write_all(&text[..kept])?;
+                self.out.write_all(b"\n}\n")?;
+            }
+            Format::Jsonl => {
+                serde_json::to_writer(&mut self.out, closing)?;
+                self.out.write_all(b"\n")?;
+            }
+        }
+        Ok(self.out)
+    }
+}
+
+/// The members of an object, one a line, each followed by a comma.
+fn members(out: &mut impl Write, object: &Value) -> io::Result<()> {
+    let Some(object) = object.as_object() else { return Ok(()) };
+    for (key, value) in object {
+        write!(out, "  {}: ", Value::String(key.clone()))?;
+        match value.as_array() {
+            Some(items) if items.iter().any(Value::is_object) => {
+                let lines: Vec<String> = items.iter().map(|item| format!("    {item}")).collect();
+                writeln!(out, "[\n{}\n  ],", lines.join(",\n"))?;
+            }
+            _ => writeln!(out, "{value},")?,
+        }
+    }
+    Ok(())
+}
+
+/// Version, parameters and method in `#` lines, then the names of the columns.
+fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
+    writeln!(out, "# phaselab {}: {}", header.phaselab, one_line(&header.title))?;
+    for (name, fields) in [("parameters", &header.parameters), ("method", &header.method)] {
+        let fields = fields.iter().map(|(key, value)| match value {
+            Value::String(text) => format!("{key}={text}"),
+            other => format!("{key}={other}"),
+        });
+        writeln!(out, "# {name}: {}", fields.collect::<Vec<_>>().join(" "))?;
+    }
+    let mut names = csv::WriterBuilder::new().from_writer(Vec::new());
+    names.write_record(&header.columns)?;
+    let names = names.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    out.write_all(&names)
+}
+
+/// A `#` line must stay one line.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

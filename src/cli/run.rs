@@ -1,0 +1,272 @@
+//! `phaselab run`: the motion as rows of numbers.
+
+mod invariants;
+mod progress;
+mod times;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde_json::{Map, Value};
+
+use super::assignment::{self, Assignment, number};
+use super::failure::Failure;
+use super::open;
+use super::output::Output;
+use super::report::{Closing, Header, Status};
+use super::rows::{Format, Rows};
+use crate::experiment::{self, Experiment, Progress, Setup, choose_method};
+use crate::integrate::{Method, Settings, Stepping};
+use crate::model::Model;
+use crate::system::System;
+
+use progress::{Bar, Interrupt};
+use times::Times;
+
+/// Integrate without a screen.
+///
+/// Rows go to standard output: the time, each coordinate, each velocity, each momentum, the
+/// energy, the observables of the file, then those of --observe. Numbers are written so that they
+/// read back exactly.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab run pendulum --set l=2 --init theta=pi/3 --until 20 --every 0.1
+  phaselab run planet --at 0,0.5,1 --observe 'r*cos(theta)' --format json
+  phaselab run henon-heiles --method yoshida4 --step 0.05 --until 1000 -o heiles.csv")]
+pub(super) struct Arguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: String,
+    /// Sets a parameter.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<Assignment>,
+    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    init: Vec<Assignment>,
+    /// When to end; where it is left out, the file says, or 10 after the start.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+    /// The time between two rows; 200 intervals where it is left out.
+    #[arg(long, value_name = "DT", allow_hyphen_values = true, value_parser = number)]
+    #[arg(conflicts_with = "at")]
+    every: Option<f64>,
+    /// Rows at these times and no other, increasing.
+    #[arg(long, value_name = "T,…", allow_hyphen_values = true, value_parser = number)]
+    #[arg(value_delimiter = ',')]
+    at: Option<Vec<f64>>,
+    /// The integrator, a name out of `phaselab methods`.
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
+    /// The step of an integrator of fixed step.
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
+    step: Option<f64>,
+    /// The relative tolerance of an integrator that chooses its steps.
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    tolerance: Option<f64>,
+    /// One more column: an expression, under a name of its own or as it is written.
+    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true)]
+    observe: Vec<String>,
+    /// How the rows are written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Writes to a file, which appears when it is complete.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The most steps between two looks at the clock and at signals.
+const STEPS_PER_LOOK: u64 = 4096;
+
+/// How many times the gauges are looked at, whatever the rows.
+const LOOKS: f64 = 1000.0;
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let document = open::find(&arguments.name)?;
+    let mut model = open::read(&document)?;
+    let parameters = assignment::parameters(&model, &arguments.set)?;
+    let given = assignment::initial(&model, &parameters, &arguments.init)?;
+    model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
+    let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
+    let settings = settings(arguments, &model)?;
+
+    let mut equations = open::derive(&document, &model)?;
+    let observed = arguments.observe.iter();
+    let columns: Vec<_> = observed
+        .map(|text| assignment::column(&model, &mut equations.pool, text))
+        .collect::<Result<_, _>>()?;
+    let system = System::compile(&model, &equations, &columns)
+        .map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+    refuse_twins(&system)?;
+    let name = arguments.method.as_deref().unwrap_or(&model.run.method);
+    let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
+
+    misplaced(arguments, method)?;
+
+    let header = header(&model, &system, &parameters, method, settings);
+    let setup = Setup {
+        parameters,
+        given,
+        method: method.name.to_owned(),
+        settings,
+        end: Some(times.end()),
+        spacing: times.length() / LOOKS,
+        ..Setup::of(&model)
+    };
+    let (model, equations) = (Arc::new(model), Arc::new(equations));
+    let experiment = Experiment::new(&model, &equations, &system, setup)
+        .map_err(|why| Failure::WrongUse(why.to_string()))?;
+    let interrupt = Interrupt::watch();
+    let out = Output::open(arguments.output.as_deref())?;
+    Run { experiment, times, columns: system.columns(), interrupt }.write(
+        arguments.format,
+        out,
+        &header,
+    )
+}
+
+/// A run about to be written.
+struct Run {
+    experiment: Experiment,
+    times: Times,
+    columns: usize,
+    interrupt: Interrupt,
+}
+
+/// How a run ended before its time.
+enum End {
+    Fault(experiment::Fault),
+    Signal(i32),
+    Write(std::io::Error),
+}
+
+impl Run {
+    /// Writes all rows, and what is known at the end.
+    fn write(mut self, format: Format, mut out: Output, header: &Header) -> Result<(), Failure> {
+        let begun = Rows::begin(format, &mut out, header);
+        let ended = begun.and_then(|mut rows| {
+            let end = self.rows(&mut rows);
+            if let Err(End::Write(error)) = end {
+                return Err(error);
+            }
+            rows.end(&self.closing(end.as_ref().err()))?;
+            Ok(end)
+        });
+        let end = ended.map_err(|error| out.failed(&error))?;
+        out.finish()?;
+        match end {
+            Err(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
+            Err(End::Signal(signal)) => Err(Failure::Signal(signal)),
+            _ => Ok(()),
+        }
+    }
+
+    fn rows(&mut self, rows: &mut Rows<&mut Output>) -> Result<(), End> {
+        let mut bar = Bar::new(self.times.start(), self.times.end());
+        let mut row = vec![0.0; self.columns + 1];
+        for time in self.times.rows() {
+            self.reach(time, &mut bar)?;
+            row[0] = time;
+            row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
+            rows.row(&row).map_err(End::Write)?;
+        }
+        let end = self.times.end();
+        self.reach(end, &mut bar)
+    }
+
+    fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), End> {
+        loop {
+            let progress = self.experiment.advance(time, STEPS_PER_LOOK);
+            bar.show(self.experiment.time());
+            if let experiment::Status::Faulted(fault) = self.experiment.status() {
+                return Err(End::Fault(fault));
+            }
+            if let Some(signal) = self.interrupt.signal() {
+                return Err(End::Signal(signal));
+            }
+            if progress == Progress::Arrived {
+                return Ok(());
+            }
+        }
+    }
+
+    fn closing(&self, end: Option<&End>) -> Closing {
+        let (status, message) = match end {
+            Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
+            Some(_) => (Status::Stopped, Some("stopped by a signal".to_owned())),
+            None => (Status::Completed, None),
+        };
+        let gauges = self.experiment.snapshot().gauges;
+        Closing { invariants: invariants::of(&gauges), events: Vec::new(), status, message }
+    }
+}
+
+/// Step and tolerance: as asked for, else as the file says.
+fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
+    let wrong = |what: String| Err(Failure::WrongUse(what));
+    match (arguments.step, arguments.tolerance) {
+        (Some(step), _) if step <= 0.0 => wrong(format!("--step {step}: a step is above zero")),
+        (_, Some(eps)) if eps <= 0.0 || eps >= 1.0 => {
+            wrong(format!("--tolerance {eps}: a tolerance lies between 0 and 1"))
+        }
+        (step, tolerance) => Ok(Settings {
+            step: step.or(model.run.step),
+            tolerance: tolerance.or(model.run.tolerance),
+        }),
+    }
+}
+
+/// A step is for methods of fixed step, a tolerance for the others.
+fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), Failure> {
+    let name = method.name;
+    let wrong = |what: String| Err(Failure::WrongUse(what));
+    match method.stepping {
+        Stepping::Adaptive if arguments.step.is_some() => {
+            wrong(format!("--step: {name} chooses its steps by a tolerance, --tolerance"))
+        }
+        Stepping::Fixed if arguments.tolerance.is_some() => {
+            wrong(format!("--tolerance: {name} has a fixed step, --step"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Two columns of one name could not be told apart.
+fn refuse_twins(system: &System) -> Result<(), Failure> {
+    let columns = &system.channels()[..system.columns()];
+    for (i, column) in columns.iter().enumerate() {
+        if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
+            let message = format!(
+                "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
+                column.name
+            );
+            return Err(Failure::WrongUse(message));
+        }
+    }
+    Ok(())
+}
+
+fn header(
+    model: &Model,
+    system: &System,
+    parameters: &[f64],
+    method: &Method,
+    settings: Settings,
+) -> Header {
+    let named = model.parameters.iter().zip(parameters);
+    let mut about = Map::new();
+    about.insert("name".to_owned(), method.name.into());
+    about.insert("order".to_owned(), method.order.into());
+    match method.stepping {
+        Stepping::Fixed => about.insert("step".to_owned(), settings.step.into()),
+        Stepping::Adaptive => about.insert("tolerance".to_owned(), settings.tolerance.into()),
+    };
+    let columns = system.channels()[..system.columns()].iter().map(|c| c.name.clone());
+    Header {
+        phaselab: env!("CARGO_PKG_VERSION"),
+        title: model.info.title.clone(),
+        parameters: named.map(|(p, &value)| (p.name.clone(), Value::from(value))).collect(),
+        method: about,
+        columns: std::iter::once("t".to_owned()).chain(columns).collect(),
+    }
+}

@@ -1,0 +1,83 @@
+//! How far a run is, where somebody watches; and whether it is asked to stop.
+
+use std::io::{IsTerminal, stderr};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use signal_hook::consts::{SIGINT, SIGTERM};
+
+/// A run shorter than this shows no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// The least time between two changes of the bar.
+const BETWEEN: Duration = Duration::from_millis(100);
+
+/// The bar is divided so finely.
+const PARTS: f64 = 1000.0;
+
+/// A bar on standard error, shown only on a terminal and only if the run is long.
+pub(super) struct Bar {
+    start: f64,
+    length: f64,
+    due: Instant,
+    shown: Option<ProgressBar>,
+    watched: bool,
+}
+
+impl Bar {
+    pub(super) fn new(start: f64, end: f64) -> Bar {
+        let watched = stderr().is_terminal();
+        Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
+    }
+
+    /// The run is at this time.
+    pub(super) fn show(&mut self, time: f64) {
+        if !self.watched || Instant::now() < self.due {
+            return;
+        }
+        self.due = Instant::now() + BETWEEN;
+        let bar = self.shown.get_or_insert_with(|| {
+            let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left");
+            let bar = ProgressBar::new(PARTS as u64);
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar
+        });
+        bar.set_position((PARTS * (time - self.start) / self.length) as u64);
+        bar.set_message(format!("t = {time:.6}"));
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.shown {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// The signals that end a run: what is written so far is completed.
+pub(super) struct Interrupt {
+    signal: Arc<AtomicUsize>,
+}
+
+impl Interrupt {
+    /// Watches for them from now on.
+    pub(super) fn watch() -> Interrupt {
+        let signal = Arc::new(AtomicUsize::new(0));
+        for number in [SIGINT, SIGTERM] {
+            // where it cannot be watched for, a signal ends the program as it always does
+            let _ = signal_hook::flag::register_usize(number, Arc::clone(&signal), number as usize);
+        }
+        Interrupt { signal }
+    }
+
+    /// The signal that came, if one did.
+    pub(super) fn signal(&self) -> Option<i32> {
+        match self.signal.load(Ordering::Relaxed) {
+            0 => None,
+            number => Some(number as i32),
+        }
+    }
+}

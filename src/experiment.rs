@@ -1,0 +1,282 @@
+//! The running experiment: a system, a method and a recorder, synchronous and deterministic.
+//!
+//! In: a compiled [`System`], a [`Setup`] and [`Command`]s. Out: [`Snapshot`]s, cheap to clone.
+//! Never here: threads, clocks, terminals.
+
+mod command;
+mod gauges;
+mod law;
+mod motion;
+mod obey;
+mod recorder;
+mod setup;
+mod snapshot;
+mod trail;
+
+use std::sync::Arc;
+
+use crate::integrate::Stepping;
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::system::{self, State, System};
+
+pub use crate::analysis::{Growth, Verdict};
+pub use command::Command;
+pub use setup::{NoMethod, Setup, choose_method};
+pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
+pub use trail::Trail;
+
+use gauges::{Gauges, Present};
+use motion::Motion;
+use recorder::Recorder;
+
+/// A system in motion, with its gauges and its recorded past.
+pub struct Experiment {
+    model: Arc<Model>,
+    /// What a restart would begin with.
+    setup: Setup,
+    /// The same as numbers: coordinates, then velocities or momenta.
+    initial: Arc<[f64]>,
+    motion: Motion,
+    recorder: Recorder,
+    gauges: Gauges,
+    running: bool,
+    fault: Option<Fault>,
+    epoch: u64,
+    notices: Vec<String>,
+}
+
+/// How far an experiment came.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Progress {
+    /// To the time asked for.
+    Arrived,
+    /// Not so far: the steps allowed were taken.
+    Underway,
+    /// Not so far: a fault stands in the way.
+    Stuck,
+}
+
+impl Experiment {
+    /// An experiment at its initial values, running. What is wrong with the initial values is a
+    /// fault of the experiment, not of this call.
+    ///
+    /// # Errors
+    /// Where the method is unknown or does not fit the system.
+    pub fn new(
+        model: &Arc<Model>,
+        equations: &Arc<Equations>,
+        system: &System,
+        setup: Setup,
+    ) -> Result<Experiment, NoMethod> {
+        let method = choose_method(system, &setup.method)?;
+        let motion = Motion::new(system, method, setup.settings, &setup.parameters)?;
+        let mut experiment = Experiment {
+            model: Arc::clone(model),
+            initial: Arc::default(),
+            motion,
+            recorder: Recorder::new(system.channels().len(), setup.spacing),
+            gauges: Gauges::new(model, equations, system),
+            running: true,
+            fault: None,
+            epoch: 0,
+            notices: Vec::new(),
+            setup,
+        };
+        experiment.restart();
+        Ok(experiment)
+    }
+
+    /// Gives all snapshots this epoch.
+    pub fn set_epoch(&mut self, epoch: u64) {
+        self.epoch = epoch;
+    }
+
+    /// The model it runs.
+    pub fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    /// The compiled system it runs.
+    pub fn system(&self) -> &System {
+        self.motion.system()
+    }
+
+    /// The present time.
+    pub fn time(&self) -> f64 {
+        self.motion.time()
+    }
+
+    /// Simulated seconds per second of the wall clock; infinite means flat out.
+    pub fn speed(&self) -> f64 {
+        self.setup.speed
+    }
+
+    /// Whether time runs, is held, or cannot go on.
+    pub fn status(&self) -> Status {
+        match (&self.fault, self.running) {
+            (Some(fault), _) => Status::Faulted(fault.clone()),
+            (None, true) => Status::Running,
+            (None, false) => Status::Paused,
+        }
+    }
+
+    /// Every channel's present value, in the order of the system's channels.
+    pub fn values(&self) -> &[f64] {
+        self.motion.values()
+    }
+
+    /// Carries the motion on to `time`, recording and gauging on the way; after `budget` steps and
+    /// rows it stops short. It does so also while paused: whether time runs is for the caller to
+    /// look at.
+    pub fn advance(&mut self, time: f64, mut budget: u64) -> Progress {
+        if self.fault.is_some() {
+            return Progress::Stuck;
+        }
+        while self.recorder.due() <= time {
+            match self.reach(self.recorder.due(), &mut budget) {
+                Progress::Arrived => self.record(),
+                other => return other,
+            }
+            if budget == 0 {
+                return Progress::Underway;
+            }
+            budget -= 1;
+        }
+        if time <= self.time() {
+            return Progress::Arrived;
+        }
+        let progress = self.reach(time, &mut budget);
+        if progress == Progress::Arrived {
+            self.recorder.widen(self.motion.values());
+            self.gauge(Gauges::look);
+        }
+        progress
+    }
+
+    /// What can be seen of it now.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            epoch: self.epoch,
+            time: self.time(),
+            status: self.status(),
+            speed: self.setup.speed,
+            parameters: self.setup.parameters.as_slice().into(),
+            initial: Arc::clone(&self.initial),
+            values: self.motion.values().into(),
+            bounds: self.recorder.bounds(),
+            trail: self.recorder.trail(),
+            gauges: self.show_gauges(),
+            method: self.method_fact(),
+            notices: self.notices.as_slice().into(),
+        }
+    }
+}
+
+/// How it moves.
+impl Experiment {
+    /// Begins anew at the initial values.
+    fn restart(&mut self) {
+        self.fault = None;
+        self.motion.forget(self.setup.start);
+        self.recorder.restart(self.setup.start);
+        let state = self.initial_state();
+        self.show_initial(state.as_ref().ok());
+        let begun = state.and_then(|state| self.motion.begin(&state, &self.setup.parameters));
+        match begun {
+            Ok(()) => {
+                self.gauge(Gauges::refer);
+                self.record();
+            }
+            Err(fault) => self.fault = Some(fault.into()),
+        }
+    }
+
+    fn initial_state(&self) -> Result<State, system::Fault> {
+        let Setup { start, parameters, given, .. } = &self.setup;
+        self.system().initial(*start, parameters, given)
+    }
+
+    /// Keeps the initial values to be shown: those of the state they lead to, where they do.
+    fn show_initial(&mut self, state: Option<&State>) {
+        let system = self.system();
+        self.initial = match state {
+            Some(state) => state.values[..2 * system.degrees()].into(),
+            None => system.initial_values(&self.setup.parameters).into(),
+        };
+    }
+
+    /// Moves the present on, or meets a fault.
+    fn reach(&mut self, time: f64, budget: &mut u64) -> Progress {
+        // a motion that is a polynomial would be over in one step; any other is not cut short
+        let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
+        let limit = self.setup.end.unwrap_or(self.time() + ahead).max(time);
+        match self.motion.reach(time, limit, budget) {
+            Ok(true) => Progress::Arrived,
+            Ok(false) => Progress::Underway,
+            Err(fault) => {
+                // what was computed before the fault is still shown, as far as it can be
+                let _ = self.motion.reach_end();
+                self.fault = Some(fault.into());
+                Progress::Stuck
+            }
+        }
+    }
+
+    /// Records the present as the row that is due.
+    fn record(&mut self) {
+        self.recorder.record(self.motion.time(), self.motion.values());
+        self.recorder.set_spacing(self.spacing());
+        self.gauge(Gauges::sample);
+    }
+
+    /// The time to the next row: so short that the curve through the rows is smooth, which a step
+    /// of the method tells; not shorter than the setup's; and not so long that the trail lags
+    /// behind at the present speed.
+    fn spacing(&self) -> f64 {
+        let least = self.setup.spacing;
+        let per_step = match self.motion.method().stepping {
+            Stepping::Adaptive => ROWS_PER_LONG_STEP,
+            Stepping::Fixed => 1.0,
+        };
+        let smooth = self.motion.step_size().abs() / per_step;
+        let most = least.max(self.setup.speed * LONGEST_LAG);
+        if smooth <= least {
+            return least;
+        }
+        // in powers of two, so that it does not change with every step
+        (least * (smooth / least).log2().floor().exp2()).min(most)
+    }
+
+    /// Has the gauges look at the present.
+    fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
+        let parameter = |symbol| self.setup.parameter(&self.model, symbol);
+        look(&mut self.gauges, &self.motion.present(&parameter));
+    }
+
+    fn show_gauges(&self) -> Arc<[Gauge]> {
+        let parameter = |symbol| self.setup.parameter(&self.model, symbol);
+        self.gauges.show(&self.motion.present(&parameter))
+    }
+
+    fn method_fact(&self) -> MethodFact {
+        MethodFact {
+            name: self.motion.method().name,
+            step: self.motion.step_size(),
+            steps: self.motion.steps(),
+            tolerance: self.motion.settings().tolerance,
+        }
+    }
+}
+
+/// How many of the closest rows a step may reach ahead.
+const HORIZON: f64 = 4096.0;
+
+/// How many times as long as the last one a step may be.
+const GROWTH: f64 = 8.0;
+
+/// A step of high order covers about a sixth of an oscillation.
+const ROWS_PER_LONG_STEP: f64 = 32.0;
+
+/// The longest time between two rows, in seconds of the wall clock: a frame.
+const LONGEST_LAG: f64 = 1.0 / 60.0;

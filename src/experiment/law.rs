@@ -1,0 +1,48 @@
+//! Why the energy is not conserved, in words and in a formula.
+//!
+//! dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q, *The Principles of Dynamics*, §§ 1.3.1, 1.4.2.
+
+use crate::expr::Expr;
+use crate::mechanics::Equations;
+use crate::model::{Mechanics, Model};
+
+/// A formula longer than this is given by its general form.
+const LONGEST: usize = 48;
+
+/// Why the energy changes.
+pub(super) struct EnergyLaw {
+    /// In words: `friction`, `explicit time`.
+    pub(super) cause: String,
+    /// In a formula: `dE/dt = −c θ̇²`.
+    pub(super) rate: String,
+}
+
+impl EnergyLaw {
+    pub(super) fn of(model: &Model, equations: &Equations) -> EnergyLaw {
+        let any = |all: &[Expr]| all.iter().any(|&e| e != Expr::ZERO);
+        let timed = |e: Expr| model.pool.depends(e, model.symbols.time);
+        let terms = match &model.mechanics {
+            Mechanics::Lagrangian { lagrangian, dissipation, forces } => [
+                (timed(*lagrangian), "explicit time", "− ∂L/∂t"),
+                (*dissipation != Expr::ZERO, "friction", "− q̇·∂F/∂q̇"),
+                (any(forces), "forces", "+ q̇·Q"),
+            ],
+            Mechanics::Hamiltonian { hamiltonian, forces } => [
+                (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
+                (any(forces), "forces", "+ q̇·Q"),
+                (false, "", ""),
+            ],
+        };
+        let present = || terms.iter().filter(|term| term.0);
+        let cause = present().map(|term| term.1).collect::<Vec<_>>().join(", ");
+        let mut rate = equations.pool.unicode(equations.energy_rate);
+        if rate.chars().count() > LONGEST {
+            rate = present().map(|term| term.2).collect::<Vec<_>>().join(" ");
+            rate = match rate.strip_prefix("− ") {
+                Some(rest) => format!("−{rest}"),
+                None => rate.trim_start_matches("+ ").to_owned(),
+            };
+        }
+        EnergyLaw { cause, rate: format!("dE/dt = {rate}") }
+    }
+}

@@ -1,0 +1,179 @@
+//! What each command does to an experiment, and what the user is told of it.
+//!
+//! A parameter changed by a jump keeps q and p, not q̇ (L jumps, ∂L/∂q̇ does not): *The Principles
+//! of Dynamics*, § 1.3.3 with no blow.
+
+use super::gauges::Gauges;
+use super::setup::choose_method;
+use super::{Command, Experiment, NoMethod};
+use crate::integrate::{Method, Settings, Stepping};
+use crate::system::{self, ChannelKind, Form, Given, State};
+
+/// How many notices are kept.
+const NOTICES: usize = 16;
+
+/// A frame on the screen, in seconds.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// The most integrator steps for one single step of the user's.
+const SINGLE_STEP_BUDGET: u64 = 20_000;
+
+impl Experiment {
+    /// Does what a command asks. What cannot be done is told in a notice.
+    pub fn obey(&mut self, command: Command) {
+        match command {
+            Command::Play => self.running = true,
+            Command::Pause => self.running = false,
+            Command::Step(count) => self.step(count),
+            Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
+            Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
+            Command::Parameter { index, value } => self.change_parameter(index, value),
+            Command::Initial { index, value } => self.change_initial(index, value),
+            Command::Reset => self.restart(),
+            Command::FullReset => {
+                self.setup.parameters = self.model.parameter_values();
+                self.setup.given.clear();
+                self.restart();
+            }
+            Command::Method(name) => match choose_method(self.system(), &name) {
+                Ok(method) => self.change_method(method, self.motion.settings()),
+                Err(why) => self.tell(why.to_string()),
+            },
+            Command::StepSize(step) => self.change_step(step),
+            Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
+            Command::Reference => {
+                self.gauge(Gauges::refer);
+                self.tell(format!("the gauges measure from t = {}", short(self.time())));
+            }
+        }
+    }
+
+    /// Keeps a notice for the user.
+    pub fn tell(&mut self, notice: String) {
+        if self.notices.len() == NOTICES {
+            self.notices.remove(0);
+        }
+        self.notices.push(notice);
+    }
+
+    fn step(&mut self, count: u32) {
+        self.running = false;
+        let speed =
+            if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
+        let time = self.time() + f64::from(count) * FRAME * speed;
+        self.advance(time, SINGLE_STEP_BUDGET);
+    }
+
+    fn change_parameter(&mut self, index: usize, value: f64) {
+        let Some(parameter) = self.model.parameters.get(index) else { return };
+        let name = parameter.shown.clone();
+        if !value.is_finite() {
+            return self.tell(format!("{name} cannot be {value}"));
+        }
+        let old = self.setup.parameters.clone();
+        self.setup.parameters[index] = value;
+        if !self.motion.has_begun() {
+            return self.restart();
+        }
+        let initial = self.initial_state();
+        self.show_initial(initial.as_ref().ok());
+        let before = self.energy();
+        let new = &self.setup.parameters;
+        let state = self.system().change_parameters(self.motion.state(), &old, new);
+        self.go_on(state);
+        self.gauge(Gauges::refer);
+        let jump = self.energy() - before;
+        if jump.abs() > 1e-12 * before.abs() {
+            self.tell_jump(&format!("{name}: energy jumped by"), jump);
+        }
+    }
+
+    /// Tells of a jump; a parameter that is turned on and on tells of it once.
+    fn tell_jump(&mut self, lead: &str, jump: f64) {
+        if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
+            self.notices.pop();
+        }
+        let sign = if jump < 0.0 { '−' } else { '+' };
+        self.tell(format!("{lead} {sign}{}; the gauges measure from here", short(jump.abs())));
+    }
+
+    fn energy(&self) -> f64 {
+        let kinds = self.system().channels().iter().map(|c| c.kind);
+        let place = kinds.into_iter().position(|kind| kind == ChannelKind::Energy);
+        place.map_or(f64::NAN, |i| self.motion.values()[i])
+    }
+
+    fn change_initial(&mut self, index: usize, value: f64) {
+        let system = self.system();
+        let n = system.degrees();
+        let given = match (index < n, system.form()) {
+            (true, _) => Given::Position(index, value),
+            (false, Form::Velocity) => Given::Velocity(index - n, value),
+            (false, Form::Momentum) => Given::Momentum(index - n, value),
+        };
+        if index >= 2 * n || !value.is_finite() {
+            return self.tell(format!("an initial value cannot be {value}"));
+        }
+        let is_rate = |g: &Given| matches!(g, Given::Velocity(i, _) | Given::Momentum(i, _) if i + n == index);
+        let same = |g: &Given| is_rate(g) || matches!(g, Given::Position(i, _) if *i == index);
+        self.setup.given.retain(|g| !same(g));
+        self.setup.given.push(given);
+        self.restart();
+    }
+
+    fn change_step(&mut self, step: f64) {
+        if !(step > 0.0 && step.is_finite()) {
+            return self.tell(format!("a step is above zero; {step} is not"));
+        }
+        if self.motion.method().stepping == Stepping::Adaptive {
+            let name = self.motion.method().name;
+            self.tell(format!("{name} chooses its steps itself; its tolerance can be set"));
+        }
+        let settings = Settings { step: Some(step), ..self.motion.settings() };
+        self.change_method(self.motion.method(), settings);
+    }
+
+    fn change_tolerance(&mut self, tolerance: f64) {
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            return self.tell(format!("a tolerance lies between 0 and 1; {tolerance} does not"));
+        }
+        if self.motion.method().stepping == Stepping::Fixed {
+            let name = self.motion.method().name;
+            self.tell(format!("{name} has no tolerance; its step can be set"));
+        }
+        let settings = Settings { tolerance: Some(tolerance), ..self.motion.settings() };
+        self.change_method(self.motion.method(), settings);
+    }
+
+    /// Goes on from the present state by another method. What drifted so far is not its doing, so
+    /// the gauges measure from here.
+    fn change_method(&mut self, method: &'static Method, settings: Settings) {
+        if let Err(refusal) = self.motion.change_method(method, settings) {
+            return self.tell(NoMethod::from(refusal).to_string());
+        }
+        self.setup.settings = settings;
+        method.name.clone_into(&mut self.setup.method);
+        if !self.motion.has_begun() {
+            return self.restart();
+        }
+        self.go_on(Ok(self.motion.state().clone()));
+        self.gauge(Gauges::refer);
+    }
+
+    /// Goes on from a state, if there is one to go on from.
+    fn go_on(&mut self, state: Result<State, system::Fault>) {
+        let begun = state.and_then(|state| self.motion.begin(&state, &self.setup.parameters));
+        self.fault = begun.err().map(super::Fault::from);
+    }
+}
+
+/// A number in a notice: four significant digits.
+fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    let value: f64 = digits.parse().unwrap_or(x);
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}

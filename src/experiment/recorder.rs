@@ -1,0 +1,215 @@
+//! Records a motion in bounded memory: the newest rows as they come, older ones thinned to every
+//! second, fourth and eighth, the oldest forgotten. And the bounds of every channel, of all rows
+//! ever recorded.
+//!
+//! In: rows at even times. Out: a [`Trail`], cheap to clone. Never here: when a row is due for
+//! drawing, or what its numbers mean.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::Trail;
+
+/// Rows in a sealed chunk.
+const CHUNK: usize = 128;
+
+/// How many chunks are kept of each thinning; the first are the newest rows, all of them.
+const CHUNKS: [usize; 4] = [64, 32, 32, 32];
+
+/// The most numbers kept, for systems of very many channels: 48 MB.
+const NUMBERS: usize = 6_000_000;
+
+/// Records rows.
+#[derive(Clone, Debug)]
+pub(super) struct Recorder {
+    width: usize,
+    /// The time from which the present spacing counts.
+    origin: f64,
+    spacing: f64,
+    count: u64,
+    /// `sealed[k]` holds every 2ᵏ-th row, the oldest chunk first.
+    sealed: [VecDeque<Arc<Vec<f64>>>; CHUNKS.len()],
+    limits: [usize; CHUNKS.len()],
+    open: Arc<Vec<f64>>,
+    bounds: Vec<(f64, f64)>,
+}
+
+impl Recorder {
+    /// A recorder of rows of that many channels, one each `spacing` of time.
+    pub(super) fn new(channels: usize, spacing: f64) -> Recorder {
+        let width = channels + 1;
+        let most = NUMBERS / (width * CHUNK);
+        let all: usize = CHUNKS.iter().sum();
+        Recorder {
+            width,
+            origin: 0.0,
+            spacing,
+            count: 0,
+            sealed: Default::default(),
+            limits: CHUNKS.map(|limit| limit.min((limit * most / all).max(2))),
+            open: Arc::default(),
+            bounds: vec![(f64::INFINITY, f64::NEG_INFINITY); channels],
+        }
+    }
+
+    /// Forgets everything; the next row is due at `origin`.
+    pub(super) fn restart(&mut self, origin: f64) {
+        *self = Recorder { origin, ..Recorder::new(self.width - 1, self.spacing) };
+    }
+
+    /// Changes the time between two rows, from the last one on.
+    pub(super) fn set_spacing(&mut self, spacing: f64) {
+        if spacing != self.spacing {
+            let last = self.count.saturating_sub(1) as f64;
+            self.origin += last * self.spacing;
+            self.count = self.count.min(1);
+            self.spacing = spacing;
+        }
+    }
+
+    /// When the next row is due. Counted, not summed, so that rounding does not gather.
+    pub(super) fn due(&self) -> f64 {
+        self.origin + self.count as f64 * self.spacing
+    }
+
+    /// Records the row that is due.
+    pub(super) fn record(&mut self, time: f64, values: &[f64]) {
+        self.count += 1;
+        self.widen(values);
+        // copies the open chunk where a snapshot still holds it
+        let open = Arc::make_mut(&mut self.open);
+        open.push(time);
+        open.extend_from_slice(values);
+        if open.len() == CHUNK * self.width {
+            let full = std::mem::take(&mut self.open);
+            self.sealed[0].push_back(full);
+            self.thin();
+        }
+    }
+
+    /// Widens the bounds to hold these values.
+    pub(super) fn widen(&mut self, values: &[f64]) {
+        for ((least, greatest), &value) in self.bounds.iter_mut().zip(values) {
+            if value.is_finite() {
+                *least = least.min(value);
+                *greatest = greatest.max(value);
+            }
+        }
+    }
+
+    /// What is recorded.
+    pub(super) fn trail(&self) -> Trail {
+        let sealed = self.sealed.iter().rev().flatten().cloned().collect();
+        Trail { sealed, open: Arc::clone(&self.open), width: self.width }
+    }
+
+    /// The least and greatest value of every channel; (0, 0) where none was finite.
+    pub(super) fn bounds(&self) -> Arc<[(f64, f64)]> {
+        let seen = |&(least, greatest): &(f64, f64)| {
+            if least <= greatest { (least, greatest) } else { (0.0, 0.0) }
+        };
+        self.bounds.iter().map(seen).collect()
+    }
+
+    /// Makes one chunk of two wherever a thinning holds too many.
+    fn thin(&mut self) {
+        for level in 0..CHUNKS.len() {
+            if self.sealed[level].len() <= self.limits[level] {
+                return;
+            }
+            let older = self.sealed[level].pop_front();
+            if level + 1 == CHUNKS.len() {
+                return;
+            }
+            let newer = self.sealed[level].pop_front();
+            let rows = older.iter().chain(&newer).flat_map(|c| c.chunks_exact(self.width));
+            let kept: Vec<f64> = rows.step_by(2).flatten().copied().collect();
+            self.sealed[level + 1].push_back(Arc::new(kept));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A recorder that was given `count` rows of one channel, its value the row's number.
+    fn filled(count: u64) -> Recorder {
+        let mut recorder = Recorder::new(1, 0.5);
+        recorder.restart(10.0);
+        for k in 0..count {
+            let due = recorder.due();
+            recorder.record(due, &[k as f64]);
+        }
+        recorder
+    }
+
+    fn numbers(recorder: &Recorder) -> Vec<f64> {
+        recorder.trail().rows().map(|row| row[1]).collect()
+    }
+
+    #[test]
+    fn rows_are_due_at_even_times_and_kept_in_order() {
+        let recorder = filled(1000);
+        assert_eq!(recorder.due(), 510.0);
+        assert_eq!(numbers(&recorder), (0..1000).map(f64::from).collect::<Vec<_>>());
+        assert!(recorder.trail().rows().all(|row| row[0] == 10.0 + 0.5 * row[1]));
+    }
+
+    #[test]
+    fn another_spacing_counts_from_the_last_row() {
+        let mut recorder = filled(3);
+        recorder.set_spacing(4.0);
+        assert_eq!(recorder.due(), 15.0);
+        recorder.record(15.0, &[0.0]);
+        recorder.set_spacing(4.0);
+        assert_eq!(recorder.due(), 19.0);
+    }
+
+    #[test]
+    fn memory_is_bounded_the_newest_rows_are_whole_and_older_ones_evenly_thinned() {
+        let count = 300_000;
+        let recorder = filled(count);
+        let rows = numbers(&recorder);
+        assert!((15_000..=21_000).contains(&rows.len()), "{}", rows.len());
+        assert_eq!(rows.last(), Some(&(count as f64 - 1.0)));
+        let gaps: Vec<f64> = rows.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(gaps.windows(2).all(|pair| pair[1] <= pair[0]), "thinning only grows with age");
+        assert_eq!((gaps[0], gaps[gaps.len() - 1]), (8.0, 1.0));
+        assert!(gaps.iter().rev().take(8000).all(|&gap| gap == 1.0));
+    }
+
+    #[test]
+    fn many_channels_keep_fewer_rows() {
+        let mut recorder = Recorder::new(2000, 1.0);
+        for _ in 0..20_000 {
+            let due = recorder.due();
+            recorder.record(due, &vec![1.0; 2000]);
+        }
+        let rows = recorder.trail().len();
+        assert!((1000..4000).contains(&rows), "{rows}");
+    }
+
+    #[test]
+    fn bounds_outlive_the_rows_and_pass_over_what_is_not_finite() {
+        let mut recorder = filled(200_000);
+        recorder.widen(&[f64::NAN]);
+        recorder.widen(&[f64::INFINITY]);
+        assert_eq!(recorder.bounds()[0], (0.0, 199_999.0));
+        recorder.restart(0.0);
+        assert_eq!(recorder.bounds()[0], (0.0, 0.0));
+        assert!(recorder.trail().is_empty());
+    }
+
+    #[test]
+    fn a_snapshot_keeps_what_it_saw() {
+        let mut recorder = filled(100);
+        let trail = recorder.trail();
+        for _ in 0..10_000 {
+            let due = recorder.due();
+            recorder.record(due, &[-1.0]);
+        }
+        assert_eq!(trail.len(), 100);
+        assert!(trail.rows().all(|row| row[1] >= 0.0));
+    }
+}

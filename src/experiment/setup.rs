@@ -1,0 +1,90 @@
+//! How an experiment begins: values, method, and the spacing of what it records.
+
+use crate::expr::{Symbol, nearest};
+use crate::integrate::{METHODS, Method, Refusal, Settings};
+use crate::model::Model;
+use crate::system::{Given, System};
+
+/// Everything an experiment is told at its beginning.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Setup {
+    /// The parameters, in the model's order.
+    pub parameters: Vec<f64>,
+    /// Initial values that take the place of the file's.
+    pub given: Vec<Given>,
+    /// The method's name in the table of methods, or `auto`.
+    pub method: String,
+    /// Its step or tolerance.
+    pub settings: Settings,
+    /// The time of the initial values.
+    pub start: f64,
+    /// No step is to reach beyond this time; `None` where the motion has no end.
+    pub end: Option<f64>,
+    /// The least time between two recorded rows, and between two looks at the gauges. It becomes
+    /// longer where steps are long and time runs fast.
+    pub spacing: f64,
+    /// Simulated seconds per second of the wall clock.
+    pub speed: f64,
+}
+
+/// Rows per second of the wall clock, at the speed the file proposes: two a frame.
+const ROWS_PER_SECOND: f64 = 120.0;
+
+impl Setup {
+    /// As the file proposes.
+    pub fn of(model: &Model) -> Setup {
+        let run = &model.run;
+        Setup {
+            parameters: model.parameter_values(),
+            given: Vec::new(),
+            method: run.method.clone(),
+            settings: Settings { step: run.step, tolerance: run.tolerance },
+            start: run.start,
+            end: None,
+            spacing: run.speed / ROWS_PER_SECOND,
+            speed: run.speed,
+        }
+    }
+
+    /// The value of a parameter's symbol; not a number for any other.
+    pub(super) fn parameter(&self, model: &Model, symbol: Symbol) -> f64 {
+        let index = model.parameters.iter().position(|p| p.symbol == symbol);
+        index.map_or(f64::NAN, |i| self.parameters[i])
+    }
+}
+
+/// Why a method cannot be had.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum NoMethod {
+    /// There is none of that name.
+    #[error("there is no method `{name}`{}", help(near.as_deref()))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The most similar name there is.
+        near: Option<&'static str>,
+    },
+    /// It does not fit the system.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+fn help(near: Option<&str>) -> String {
+    near.map_or(String::new(), |name| format!("; did you mean `{name}`?"))
+}
+
+/// The method of a name, if it fits the system; for `auto` the first in the table that does.
+pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, NoMethod> {
+    if name == "auto" {
+        let fits = |method: &&Method| (method.fits)(system).is_ok();
+        return METHODS.iter().find(fits).ok_or_else(|| unknown(name));
+    }
+    let method = METHODS.iter().find(|method| method.name == name).ok_or_else(|| unknown(name))?;
+    (method.fits)(system)?;
+    Ok(method)
+}
+
+fn unknown(name: &str) -> NoMethod {
+    let near = nearest(name, METHODS.iter().map(|method| method.name));
+    NoMethod::Unknown { name: name.to_owned(), near }
+}

@@ -1,0 +1,120 @@
+//! What can be seen of an experiment at one moment. Cheap to clone: everything long is shared.
+
+use std::sync::Arc;
+
+use super::Trail;
+use crate::analysis::Verdict;
+
+/// The state of an experiment as the screen and the reports see it.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// Counts rebuilt systems; two snapshots of one epoch speak of the same system.
+    pub epoch: u64,
+    /// Simulated time.
+    pub time: f64,
+    /// Running, paused or faulted.
+    pub status: Status,
+    /// Simulated seconds per second asked for; infinite means flat out.
+    pub speed: f64,
+    /// Parameters, in the model's order.
+    pub parameters: Arc<[f64]>,
+    /// Initial values: coordinates, then velocities or momenta.
+    pub initial: Arc<[f64]>,
+    /// The value of every channel now, in the order of the system's channels.
+    pub values: Arc<[f64]>,
+    /// The least and greatest value of every channel since the last restart, for axes that keep
+    /// still.
+    pub bounds: Arc<[(f64, f64)]>,
+    /// The recorded motion: every channel at past times.
+    pub trail: Trail,
+    /// One gauge for each invariant watched.
+    pub gauges: Arc<[Gauge]>,
+    /// The method and its step.
+    pub method: MethodFact,
+    /// What the user is told in passing: "energy reference taken anew: …". The newest last.
+    pub notices: Arc<[String]>,
+}
+
+impl Snapshot {
+    /// A snapshot that shows nothing.
+    pub fn empty(epoch: u64) -> Snapshot {
+        Snapshot {
+            epoch,
+            time: 0.0,
+            status: Status::Paused,
+            speed: 1.0,
+            parameters: Arc::default(),
+            initial: Arc::default(),
+            values: Arc::default(),
+            bounds: Arc::default(),
+            trail: Trail::default(),
+            gauges: Arc::default(),
+            method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
+            notices: Arc::default(),
+        }
+    }
+}
+
+/// Whether time runs.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Status {
+    /// Time runs.
+    Running,
+    /// Held by the user.
+    Paused,
+    /// It cannot go on.
+    Faulted(Fault),
+}
+
+/// Why a motion cannot go on.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Fault {
+    /// When.
+    pub time: f64,
+    /// What happened, where, and what may help, in a sentence or two.
+    pub message: String,
+}
+
+/// An invariant under watch.
+#[derive(Clone, Debug)]
+pub struct Gauge {
+    /// `energy`, `p_phi`, an observable's name, `energy ledger`.
+    pub name: String,
+    /// As shown: `E`, `p_φ`.
+    pub shown: String,
+    /// Where it comes from: `cyclic φ`, `∂L/∂t = 0`, `declared`.
+    pub reason: String,
+    /// Its value now.
+    pub value: f64,
+    /// The value that drift is measured from.
+    pub reference: f64,
+    /// When that was taken.
+    pub reference_time: f64,
+    /// |value − reference| over the size of its terms.
+    pub drift: f64,
+    /// The greatest drift since the reference.
+    pub max_drift: f64,
+    /// Drift at past times (evenly thinned), the oldest first: the small history.
+    pub history: Arc<[f32]>,
+    /// What to think of it.
+    pub verdict: Verdict,
+}
+
+/// The method in use.
+#[derive(Clone, PartialEq, Debug)]
+pub struct MethodFact {
+    /// Its name in the table of methods.
+    pub name: &'static str,
+    /// The step last taken.
+    pub step: f64,
+    /// Steps taken since the last reset.
+    pub steps: u64,
+    /// The tolerance of an adaptive method.
+    pub tolerance: Option<f64>,
+}
+
+impl From<crate::system::Fault> for Fault {
+    fn from(fault: crate::system::Fault) -> Fault {
+        Fault { time: fault.time, message: fault.to_string() }
+    }
+}

@@ -1,0 +1,43 @@
+//! The recorded motion: rows of channel values, sealed in shared chunks, so that a snapshot copies
+//! only the open one.
+
+use std::sync::Arc;
+
+/// Recorded rows, the oldest first. Each row is the time followed by every channel's value.
+#[derive(Clone, Debug, Default)]
+pub struct Trail {
+    pub(super) sealed: Vec<Arc<Vec<f64>>>,
+    pub(super) open: Arc<Vec<f64>>,
+    pub(super) width: usize,
+}
+
+impl Trail {
+    /// A trail of given rows, each `width` numbers: time, then the channels.
+    pub fn from_rows(width: usize, rows: &[Vec<f64>]) -> Trail {
+        let open = rows.iter().flat_map(|row| row.iter().copied().take(width)).collect();
+        Trail { sealed: Vec::new(), open: Arc::new(open), width }
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        if self.width == 0 {
+            return 0;
+        }
+        let sealed: usize = self.sealed.iter().map(|chunk| chunk.len()).sum();
+        (sealed + self.open.len()) / self.width
+    }
+
+    /// Whether nothing is recorded.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The rows, the oldest first: `row[0]` is the time, `row[1 + channel]` a channel's value.
+    pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[f64]> {
+        let width = self.width.max(1);
+        self.sealed
+            .iter()
+            .chain(std::iter::once(&self.open))
+            .flat_map(move |c| c.chunks_exact(width))
+    }
+}

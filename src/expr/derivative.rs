@@ -1,0 +1,124 @@
+//! Exact differentiation. A derivation is a map from symbols to expressions, continued by the
+//! rules of sum, product and chain; so a total time derivative is one pass like any partial one.
+
+use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::symbol::Symbol;
+
+impl Pool {
+    /// `∂e/∂symbol`.
+    pub fn derivative(&mut self, e: Expr, symbol: Symbol) -> Expr {
+        self.derivation(e, &[(symbol, Expr::ONE)])
+    }
+
+    /// The derivation that takes each listed symbol to its expression and every other symbol to
+    /// zero. With `[(q, q'), (q', q''), (t, 1)]` it is d/dt.
+    pub fn derivation(&mut self, e: Expr, seeds: &[(Symbol, Expr)]) -> Expr {
+        let seeds: FxHashMap<Symbol, Expr> = seeds.iter().copied().collect();
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let derived = self.derive_node(part, &seeds, &done);
+            done.insert(part, derived);
+        }
+        done[&e]
+    }
+
+    fn derive_node(
+        &mut self,
+        e: Expr,
+        seeds: &FxHashMap<Symbol, Expr>,
+        done: &FxHashMap<Expr, Expr>,
+    ) -> Expr {
+        match &*self.shared(e) {
+            Node::Number(_) | Node::Pi => Expr::ZERO,
+            Node::Symbol(s) => seeds.get(s).copied().unwrap_or(Expr::ZERO),
+            Node::Sum(_, terms) => {
+                let terms: Vec<(Number, Expr)> = terms
+                    .iter()
+                    .map(|(c, t)| (*c, done[t]))
+                    .filter(|t| t.1 != Expr::ZERO)
+                    .collect();
+                self.linear(Number::ZERO, &terms)
+            }
+            Node::Product(c, factors) => {
+                let mut terms = Vec::new();
+                for (i, &(base, n)) in factors.iter().enumerate() {
+                    let slope = done[&base];
+                    if slope == Expr::ZERO {
+                        continue;
+                    }
+                    let mut rest = factors.to_vec();
+                    rest[i].1 = n + Number::MINUS_ONE;
+                    rest.push((slope, Number::ONE));
+                    terms.push((Number::ONE, self.monomial(*c * n, &rest)));
+                }
+                self.linear(Number::ZERO, &terms)
+            }
+            Node::Power(base, exponent) => {
+                let (db, de) = (done[base], done[exponent]);
+                let mut terms = Vec::new();
+                if db != Expr::ZERO {
+                    let lowered = self.linear(Number::MINUS_ONE, &[(Number::ONE, *exponent)]);
+                    let power = self.pow(*base, lowered);
+                    terms.push(self.product(&[*exponent, power, db]));
+                }
+                if de != Expr::ZERO {
+                    let logarithm = self.call(FunctionId::Ln, &[*base]);
+                    terms.push(self.product(&[e, logarithm, de]));
+                }
+                self.sum(&terms)
+            }
+            Node::Call(function, arguments) => {
+                let mut terms = Vec::new();
+                for (i, argument) in arguments.iter().enumerate() {
+                    let slope = done[argument];
+                    if slope != Expr::ZERO {
+                        let partial = (function.row().derivative)(self, arguments, i);
+                        terms.push(self.mul(partial, slope));
+                    }
+                }
+                self.sum(&terms)
+            }
+        }
+    }
+
+    /// Replaces symbols by expressions, all at once.
+    pub fn substitute(&mut self, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let replaced = match self.as_symbol(part) {
+                Some(s) => replacements.get(&s).copied().unwrap_or(part),
+                None => self.rebuild(part, &done),
+            };
+            done.insert(part, replaced);
+        }
+        done[&e]
+    }
+
+    /// The same node over other parts (parts missing from the map stay).
+    pub(super) fn rebuild(&mut self, e: Expr, parts: &FxHashMap<Expr, Expr>) -> Expr {
+        let of = |p: &Expr| parts.get(p).copied().unwrap_or(*p);
+        match &*self.shared(e) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => e,
+            Node::Sum(constant, terms) => {
+                let terms: Vec<(Number, Expr)> = terms.iter().map(|(c, t)| (*c, of(t))).collect();
+                self.linear(*constant, &terms)
+            }
+            Node::Product(c, factors) => {
+                let factors: Vec<(Expr, Number)> =
+                    factors.iter().map(|(b, n)| (of(b), *n)).collect();
+                self.monomial(*c, &factors)
+            }
+            Node::Power(base, exponent) => self.pow(of(base), of(exponent)),
+            Node::Call(function, arguments) => {
+                let arguments: Vec<Expr> = arguments.iter().map(of).collect();
+                self.call(*function, &arguments)
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The value of an expression, node by node: the plain oracle beside the compiled program, and
+//! what initial values and quick numerical checks use.
+
+use rustc_hash::FxHashMap;
+
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::symbol::Symbol;
+
+impl Pool {
+    /// The value of `e` where each symbol has the value `at` gives it.
+    pub fn evaluate(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> f64 {
+        self.evaluate_with_size(e, at).0
+    }
+
+    /// The value, and the largest magnitude met among the summands on the way: what rounding has
+    /// to be measured against.
+    pub fn evaluate_with_size(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
+        let mut values: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let value = match self.node(part) {
+                Node::Number(n) => sized(n.value()),
+                Node::Pi => sized(std::f64::consts::PI),
+                Node::Symbol(s) => sized(at(*s)),
+                Node::Sum(constant, terms) => {
+                    let (mut total, mut size) = (constant.value(), constant.value().abs());
+                    for (c, t) in terms {
+                        let (value, part) = values[t];
+                        total += c.value() * value;
+                        size += (c.value() * part).abs();
+                    }
+                    (total, size)
+                }
+                Node::Product(c, factors) => {
+                    let (mut value, mut size) = sized(c.value());
+                    for (base, n) in factors {
+                        let (b, s) = values[base];
+                        value *= real_power(b, *n);
+                        let grown = if n.is_negative() { b.abs() } else { s };
+                        size *= real_power(grown, *n).abs();
+                    }
+                    (value, size)
+                }
+                Node::Power(base, exponent) => sized(values[base].0.powf(values[exponent].0)),
+                Node::Call(function, arguments) => {
+                    let arguments: Vec<f64> = arguments.iter().map(|a| values[a].0).collect();
+                    sized((function.row().value)(&arguments))
+                }
+            };
+            values.insert(part, value);
+        }
+        values[&e]
+    }
+}
+
+fn sized(value: f64) -> (f64, f64) {
+    (value, value.abs())
+}
+
+/// `base ^ exponent` for a numeric exponent, exact for integers and halves where it can be.
+pub(super) fn real_power(base: f64, exponent: Number) -> f64 {
+    match exponent {
+        Number::Rational(n, 1) => match i32::try_from(n) {
+            Ok(n) => base.powi(n),
+            Err(_) => base.powf(n as f64),
+        },
+        Number::Rational(1, 2) => base.sqrt(),
+        Number::Rational(-1, 2) => 1.0 / base.sqrt(),
+        _ => base.powf(exponent.value()),
+    }
+}

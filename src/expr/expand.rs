@@ -1,0 +1,193 @@
+//! Multiplying out: a sum of monomials, sines and cosines of sums opened, even powers of cosines
+//! turned into sines. Two expressions that are equal as polynomials in their symbols, sines and
+//! cosines expand to the same one.
+
+use rustc_hash::FxHashMap;
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+
+/// The most monomials a product is multiplied out to in a proof before it is left as it is.
+pub(super) const PROOF_TERMS: usize = 4000;
+
+impl Pool {
+    /// Products of sums and small positive powers of sums multiplied out, everywhere in `e`, where
+    /// that gives no more than `most` terms.
+    pub(super) fn expand(&mut self, e: Expr, most: usize) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rebuilt = self.rebuild(part, &done);
+            let expanded = self.expand_top(rebuilt, most);
+            done.insert(part, expanded);
+        }
+        done[&e]
+    }
+
+    /// Expands the product at the top of `e`, whose factors are expanded already.
+    fn expand_top(&mut self, e: Expr, most: usize) -> Expr {
+        let shared = self.shared(e);
+        let (c, factors) = match &*shared {
+            Node::Product(c, factors) => (*c, factors.to_vec()),
+            Node::Sum(constant, terms) => {
+                let terms: Vec<(Number, Expr)> =
+                    terms.iter().map(|&(c, t)| (c, self.expand_top(t, most))).collect();
+                return self.linear(*constant, &terms);
+            }
+            _ => return e,
+        };
+        let mut single: Vec<(Expr, Number)> = Vec::new();
+        let mut sums: Vec<Expr> = Vec::new();
+        let mut size = 1_usize;
+        for &(base, n) in &factors {
+            match (self.node(base), n.as_integer()) {
+                (Node::Sum(_, terms), Some(k @ 1..=12)) => {
+                    for _ in 0..k {
+                        size = size.saturating_mul(terms.len() + 1);
+                    }
+                    sums.extend(std::iter::repeat_n(base, k as usize));
+                }
+                _ => single.push((base, n)),
+            }
+        }
+        if sums.is_empty() || size > most {
+            return e;
+        }
+        let mut total = self.monomial(c, &single);
+        for sum in sums {
+            total = self.multiply_out(total, sum, most);
+        }
+        total
+    }
+
+    /// `a · b`, term by term.
+    fn multiply_out(&mut self, a: Expr, b: Expr, most: usize) -> Expr {
+        let (left, right) = (self.summands(a), self.summands(b));
+        let mut terms = Vec::with_capacity(left.len() * right.len());
+        for &(c, x) in &left {
+            for &(d, y) in &right {
+                let product = self.mul(x, y);
+                let product = self.expand_top(product, most);
+                terms.push((c * d, product));
+            }
+        }
+        self.linear(Number::ZERO, &terms)
+    }
+
+    /// The terms of a sum with their coefficients; anything else is its own only term.
+    pub fn summands(&self, e: Expr) -> Vec<(Number, Expr)> {
+        match self.node(e) {
+            Node::Sum(constant, terms) => {
+                let mut all = terms.to_vec();
+                if !constant.is_zero() {
+                    all.push((*constant, Expr::ONE));
+                }
+                all
+            }
+            _ => vec![(Number::ONE, e)],
+        }
+    }
+
+    /// Opens sines and cosines of sums and multiples, and writes tan, cot and tanh as quotients:
+    /// what is left are sines and cosines of the simplest arguments.
+    pub(super) fn open_angles(&mut self, e: Expr) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rebuilt = self.rebuild(part, &done);
+            let opened = match self.shared(rebuilt).as_ref() {
+                Node::Call(function, arguments) => self.open_call(*function, arguments[0]),
+                _ => None,
+            };
+            done.insert(part, opened.unwrap_or(rebuilt));
+        }
+        done[&e]
+    }
+
+    fn open_call(&mut self, function: FunctionId, argument: Expr) -> Option<Expr> {
+        let (above, below) = match function {
+            FunctionId::Sin => return self.open_sine(argument).map(|(sine, _)| sine),
+            FunctionId::Cos => return self.open_sine(argument).map(|(_, cosine)| cosine),
+            FunctionId::Tan => (FunctionId::Sin, FunctionId::Cos),
+            FunctionId::Cot => (FunctionId::Cos, FunctionId::Sin),
+            FunctionId::Tanh => (FunctionId::Sinh, FunctionId::Cosh),
+            _ => return None,
+        };
+        let above = self.call(above, &[argument]);
+        let below = self.call(below, &[argument]);
+        let above = self.open_angles(above);
+        let below = self.open_angles(below);
+        Some(self.div(above, below))
+    }
+
+    /// The sine and cosine of a sum or a small multiple, by the addition theorems.
+    fn open_sine(&mut self, argument: Expr) -> Option<(Expr, Expr)> {
+        let mut parts: Vec<Expr> = Vec::new();
+        for (c, term) in self.summands(argument) {
+            match c.as_integer() {
+                Some(n) if n.abs() <= 4 && term != Expr::ONE => {
+                    let unit = if n < 0 { self.neg(term) } else { term };
+                    parts.extend(std::iter::repeat_n(unit, n.unsigned_abs() as usize));
+                }
+                _ => parts.push(self.scale(c, term)),
+            }
+        }
+        if let Node::Product(c, factors) = &*self.shared(argument)
+            && let Some(n @ 2..=4) = c.as_integer()
+        {
+            let unit = self.finish_product(Number::ONE, factors.to_vec());
+            parts = vec![unit; n as usize];
+        }
+        if parts.len() < 2 || parts.len() > 6 {
+            return None;
+        }
+        let (mut sine, mut cosine) = (Expr::ZERO, Expr::ONE);
+        for part in parts {
+            let (s, c) = (self.call(FunctionId::Sin, &[part]), self.call(FunctionId::Cos, &[part]));
+            let (a, b) = (self.mul(sine, c), self.mul(cosine, s));
+            let (d, f) = (self.mul(cosine, c), self.mul(sine, s));
+            sine = self.add(a, b);
+            cosine = self.sub(d, f);
+        }
+        Some((sine, cosine))
+    }
+
+    /// `cos²u → 1 − sin²u` and `cosh²u → 1 + sinh²u` in an expanded expression, multiplied out
+    /// again.
+    pub(super) fn reduce_squares(&mut self, e: Expr, most: usize) -> Expr {
+        let mut terms = Vec::new();
+        for (c, term) in self.summands(e) {
+            let factors = match &*self.shared(term) {
+                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
+                _ => vec![(term, Number::ONE)],
+            };
+            let mut reduced = Vec::new();
+            let mut changed = false;
+            for (base, n) in factors {
+                let Some((square, k)) = self.square_of(base, n) else {
+                    reduced.push((base, n));
+                    continue;
+                };
+                changed = true;
+                reduced.push((square, Number::integer(k.div_euclid(2))));
+                reduced.push((base, Number::integer(k.rem_euclid(2))));
+            }
+            let term = if changed { self.monomial(Number::ONE, &reduced) } else { term };
+            let term = if changed { self.expand_top(term, most) } else { term };
+            terms.push((c, term));
+        }
+        self.linear(Number::ZERO, &terms)
+    }
+
+    /// For `cos^n u`, `n ≥ 2`: what `cos²u` is in sines, and `n`. Likewise for `cosh`.
+    fn square_of(&mut self, base: Expr, n: Number) -> Option<(Expr, i64)> {
+        let k = n.as_integer().filter(|k| *k >= 2)?;
+        let (other, sign, argument) = match self.node(base) {
+            Node::Call(FunctionId::Cos, u) => (FunctionId::Sin, Number::MINUS_ONE, u[0]),
+            Node::Call(FunctionId::Cosh, u) => (FunctionId::Sinh, Number::ONE, u[0]),
+            _ => return None,
+        };
+        let other = self.call(other, &[argument]);
+        let square = self.powi(other, 2);
+        Some((self.linear(Number::ONE, &[(sign, square)]), k))
+    }
+}

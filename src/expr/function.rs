@@ -1,0 +1,201 @@
+//! The functions an expression may call: one row each, one file each, with value, derivative and
+//! Taylor rule side by side. To add a function, write its file and add its line to [`FUNCTIONS`]
+//! and to [`FunctionId`]; parser, printers, derivatives and the integrators follow from the row.
+
+mod abs;
+mod acos;
+mod asin;
+mod atan;
+mod atan2;
+mod cos;
+mod cosh;
+mod cot;
+mod exp;
+mod ln;
+mod max;
+mod min;
+mod series;
+mod sign;
+mod sin;
+mod sinh;
+mod sqrt;
+mod tan;
+mod tanh;
+
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::real::Recurrence;
+
+/// Which function: the place of its row in [`FUNCTIONS`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+#[expect(missing_docs, reason = "each variant is the function of that name; its row describes it")]
+#[repr(u8)]
+pub enum FunctionId {
+    Sin,
+    Cos,
+    Tan,
+    Cot,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Sqrt,
+    Abs,
+    Sign,
+    Min,
+    Max,
+}
+
+/// The table, in the order of [`FunctionId`].
+pub const FUNCTIONS: [Function; 18] = [
+    sin::FUNCTION,
+    cos::FUNCTION,
+    tan::FUNCTION,
+    cot::FUNCTION,
+    asin::FUNCTION,
+    acos::FUNCTION,
+    atan::FUNCTION,
+    atan2::FUNCTION,
+    sinh::FUNCTION,
+    cosh::FUNCTION,
+    tanh::FUNCTION,
+    exp::FUNCTION,
+    ln::FUNCTION,
+    sqrt::FUNCTION,
+    abs::FUNCTION,
+    sign::FUNCTION,
+    min::FUNCTION,
+    max::FUNCTION,
+];
+
+/// One function: how it is written, what it is worth, how it varies.
+pub struct Function {
+    /// Its handle.
+    pub id: FunctionId,
+    /// As written in a file.
+    pub name: &'static str,
+    /// As shown on a screen.
+    pub unicode: &'static str,
+    /// As typeset.
+    pub latex: &'static str,
+    /// How many arguments it takes, 1 or 2.
+    pub arity: usize,
+    /// Its value.
+    pub value: fn(&[f64]) -> f64,
+    /// A simpler canonical form of the call, if there is one: special values, parity.
+    pub fold: fn(&mut Pool, &[Expr]) -> Option<Expr>,
+    /// The partial derivative with respect to an argument, as an expression.
+    pub derivative: fn(&mut Pool, &[Expr], usize) -> Expr,
+    /// How a Taylor series is carried through it.
+    pub rule: Rule,
+}
+
+/// How a power series in time is carried through a function.
+pub enum Rule {
+    /// A recurrence for the normalised coefficients.
+    Series(Recurrence),
+    /// Two smooth branches on the two sides of a switching surface, which an integrator locates.
+    Branch(fn(&mut Pool, &[Expr]) -> Branches),
+    /// A numeric power; the call is rewritten as one and never met in a canonical expression.
+    Power,
+}
+
+/// A function with a kink: equal to `positive` where `switch > 0`, to `negative` where
+/// `switch < 0`, and to their mean on the surface between.
+#[derive(Clone, Copy, Debug)]
+pub struct Branches {
+    /// Changes sign at the kink.
+    pub switch: Expr,
+    /// The function where `switch > 0`.
+    pub positive: Expr,
+    /// The function where `switch < 0`.
+    pub negative: Expr,
+}
+
+impl FunctionId {
+    /// The function's row.
+    pub fn row(self) -> &'static Function {
+        static ROWS: [Function; 18] = FUNCTIONS;
+        &ROWS[self as usize]
+    }
+
+    /// The function of a name.
+    pub fn by_name(name: &str) -> Option<FunctionId> {
+        FUNCTIONS.iter().find(|row| row.name == name).map(|row| row.id)
+    }
+}
+
+impl Pool {
+    /// A function applied to as many arguments as its arity says.
+    pub fn call(&mut self, function: FunctionId, arguments: &[Expr]) -> Expr {
+        debug_assert_eq!(arguments.len(), function.row().arity, "arity is checked by the parser");
+        match (function.row().fold)(self, arguments) {
+            Some(simpler) => simpler,
+            None => self.intern(Node::Call(function, arguments.into())),
+        }
+    }
+
+    /// Whether an expression is written with a leading minus: `−x`, `−2x + y`.
+    fn leads_negative(&self, e: Expr) -> bool {
+        match self.node(e) {
+            Node::Number(n) => n.is_negative(),
+            Node::Product(c, _) => c.is_negative(),
+            Node::Sum(_, terms) => terms[0].0.is_negative(),
+            _ => false,
+        }
+    }
+
+    /// `f(−u) = −f(u)`.
+    fn fold_odd(&mut self, function: FunctionId, u: Expr) -> Option<Expr> {
+        if u == Expr::ZERO {
+            return Some(Expr::ZERO);
+        }
+        self.leads_negative(u).then(|| {
+            let positive = self.neg(u);
+            let call = self.call(function, &[positive]);
+            self.neg(call)
+        })
+    }
+
+    /// `f(−u) = f(u)`.
+    fn fold_even(&mut self, function: FunctionId, u: Expr) -> Option<Expr> {
+        self.leads_negative(u).then(|| {
+            let positive = self.neg(u);
+            self.call(function, &[positive])
+        })
+    }
+
+    /// The rational `r` where `e = r π`.
+    fn turns(&self, e: Expr) -> Option<Number> {
+        match self.node(e) {
+            Node::Number(n) if n.is_zero() => Some(Number::ZERO),
+            Node::Pi => Some(Number::ONE),
+            Node::Product(c, factors) => match **factors {
+                [(base, n)] if n.is_one() && *self.node(base) == Node::Pi => Some(*c),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+/// The sine of `r π` where it is rational.
+fn exact_sine(r: Number) -> Option<Number> {
+    let Number::Rational(n, d) = r else { return None };
+    if 6 % d != 0 {
+        return None;
+    }
+    match (n.rem_euclid(2 * d)) * (6 / d) {
+        0 | 6 => Some(Number::ZERO),
+        1 | 5 => Some(Number::HALF),
+        3 => Some(Number::ONE),
+        7 | 11 => Some(-Number::HALF),
+        9 => Some(Number::MINUS_ONE),
+        _ => None,
+    }
+}

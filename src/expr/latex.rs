@@ -1,0 +1,94 @@
+//! LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::print::{Level, Piece, Printer, Style};
+
+impl Pool {
+    /// The expression in LaTeX, for math mode.
+    pub fn latex(&self, e: Expr) -> String {
+        Printer { pool: self, style: &Latex }.piece(e).text
+    }
+}
+
+struct Latex;
+
+impl Style for Latex {
+    fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str {
+        pool.as_symbol(e).map_or("", |s| &pool.symbol_info(s).latex)
+    }
+
+    fn pi(&self) -> &'static str {
+        "\\pi"
+    }
+
+    fn minus(&self) -> &'static str {
+        "-"
+    }
+
+    fn number(&self, n: Number) -> Piece {
+        let text = match n {
+            Number::Rational(n, 1) => n.to_string(),
+            Number::Rational(n, d) => format!("\\frac{{{n}}}{{{d}}}"),
+            Number::Real(x) => match format!("{x:?}").split_once('e') {
+                Some((mantissa, exponent)) => format!("{mantissa}\\cdot 10^{{{exponent}}}"),
+                None => format!("{x:?}"),
+            },
+        };
+        Piece { text, level: Level::Atom }
+    }
+
+    fn parenthesise(&self, inner: &str) -> String {
+        format!("\\left({inner}\\right)")
+    }
+
+    fn join(&self, factors: &[String]) -> String {
+        factors.join(" ")
+    }
+
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+        let text = format!("\\frac{{{}}}{{{}}}", above.text, below.text);
+        Piece { text, level: Level::Power }
+    }
+
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+        if exponent == Number::HALF {
+            let text = format!("\\sqrt{{{}}}", printer.piece(base).text);
+            return Piece { text, level: Level::Atom };
+        }
+        if let (Node::Call(function, arguments), Some(n)) =
+            (printer.pool.node(base), exponent.as_integer())
+            && function.row().arity == 1
+            && *function != FunctionId::Abs
+        {
+            let inner = printer.piece(arguments[0]).text;
+            let name = function.row().latex;
+            let text = format!("{name}^{{{n}}}\\left({inner}\\right)");
+            return Piece { text, level: Level::Power };
+        }
+        // a dotted symbol takes an exponent, a power or a fraction needs its parentheses
+        let exponent = self.number(exponent);
+        self.power(&printer.at_least(base, Level::Atom), &exponent)
+    }
+
+    fn power(&self, base: &str, exponent: &Piece) -> Piece {
+        Piece { text: format!("{{{base}}}^{{{}}}", exponent.text), level: Level::Power }
+    }
+
+    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+        let inner: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
+        let text = match function {
+            FunctionId::Abs => format!("\\left|{}\\right|", inner[0]),
+            FunctionId::Exp => {
+                return Piece { text: format!("e^{{{}}}", inner[0]), level: Level::Power };
+            }
+            _ => format!("{}\\left({}\\right)", function.row().latex, inner.join(", ")),
+        };
+        Piece { text, level: Level::Atom }
+    }
+
+    fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
+        !has_denominator && matches!(n, Number::Rational(_, d) if d != 1)
+    }
+}

@@ -1,0 +1,120 @@
+//! How a plain ASCII name is shown: Greek letters by their names, trailing digits and what
+//! follows an underscore as subscripts (`theta1` → θ₁, `omega_0` → ω₀, `p_x` → p_x in LaTeX's way).
+
+const GREEK: [(&str, &str); 34] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ε"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("iota", "ι"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("upsilon", "υ"),
+    ("phi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+    ("Gamma", "Γ"),
+    ("Delta", "Δ"),
+    ("Theta", "Θ"),
+    ("Lambda", "Λ"),
+    ("Xi", "Ξ"),
+    ("Pi", "Π"),
+    ("Sigma", "Σ"),
+    ("Upsilon", "Υ"),
+    ("Phi", "Φ"),
+    ("Psi", "Ψ"),
+    ("Omega", "Ω"),
+    ("ell", "ℓ"),
+];
+
+/// A name for the screen: `omega0` → `ω₀`, `x1` → `x₁`.
+pub fn unicode_name(name: &str) -> String {
+    let (stem, subscript) = split(name);
+    let stem = GREEK.iter().find(|(n, _)| *n == stem).map_or(stem, |(_, g)| g);
+    let lowered: Option<String> = subscript.chars().map(subscript_character).collect();
+    match lowered {
+        Some(lowered) => format!("{stem}{lowered}"),
+        None => format!("{stem}_{}", unicode_name(subscript)),
+    }
+}
+
+/// A name for LaTeX: `omega0` → `\omega_{0}`.
+pub fn latex_name(name: &str) -> String {
+    let (stem, subscript) = split(name);
+    let stem = if GREEK.iter().any(|(n, _)| *n == stem) {
+        format!("\\{stem}")
+    } else if stem.chars().count() > 1 {
+        format!("\\mathrm{{{}}}", stem.replace('_', "\\_"))
+    } else {
+        stem.to_owned()
+    };
+    if subscript.is_empty() { stem } else { format!("{stem}_{{{}}}", latex_name(subscript)) }
+}
+
+/// LaTeX for a symbol given in Unicode by a file (`θ`, `I₁`): letters by their names.
+pub fn latex_of_unicode(shown: &str) -> String {
+    let mut latex = String::new();
+    let mut below = String::new();
+    for c in shown.chars() {
+        if let Some(digit) = ('0'..='9').find(|&d| subscript_character(d) == Some(c)) {
+            below.push(digit);
+        } else if let Some((name, _)) = GREEK.iter().find(|(_, g)| g.chars().eq([c])) {
+            latex.push('\\');
+            latex.push_str(name);
+            latex.push(' ');
+        } else {
+            latex.push(c);
+        }
+    }
+    let latex = latex.trim_end().to_owned();
+    if below.is_empty() { latex } else { format!("{latex}_{{{below}}}") }
+}
+
+/// The name proper and its subscript.
+fn split(name: &str) -> (&str, &str) {
+    if let Some((stem, subscript)) = name.split_once('_')
+        && !stem.is_empty()
+        && !subscript.is_empty()
+    {
+        return (stem, subscript);
+    }
+    let digits = name.bytes().rev().take_while(u8::is_ascii_digit).count();
+    let (stem, subscript) = name.split_at(name.len() - digits);
+    if stem.is_empty() { (name, "") } else { (stem, subscript) }
+}
+
+fn subscript_character(c: char) -> Option<char> {
+    Some(match c {
+        '0'..='9' => char::from_u32('₀' as u32 + c as u32 - '0' as u32)?,
+        'i' => 'ᵢ',
+        'j' => 'ⱼ',
+        'r' => 'ᵣ',
+        'x' => 'ₓ',
+        _ => return None,
+    })
+}
+
+/// An integer in superscript digits.
+pub(super) fn superscript(n: i64) -> String {
+    n.to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
+        })
+        .collect()
+}

@@ -1,0 +1,209 @@
+//! Writing an expression: the order of terms and factors, where parentheses stand, what goes
+//! below a fraction line. The three ways of writing (file, screen, LaTeX) differ only in a
+//! [`Style`].
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::symbol::Rank;
+
+/// How tightly a written piece holds together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Level {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+/// A written piece.
+pub(super) struct Piece {
+    pub(super) text: String,
+    pub(super) level: Level,
+}
+
+/// What one way of writing decides.
+pub(super) trait Style {
+    fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str;
+    fn pi(&self) -> &'static str;
+    fn minus(&self) -> &'static str;
+    /// A positive number as a factor.
+    fn number(&self, n: Number) -> Piece;
+    fn parenthesise(&self, inner: &str) -> String;
+    /// Pieces side by side as one product.
+    fn join(&self, factors: &[String]) -> String;
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece;
+    /// `base ^ exponent` for a positive numeric exponent other than one.
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece;
+    fn power(&self, base: &str, exponent: &Piece) -> Piece;
+    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece;
+    /// Whether a fractional coefficient is written in front (`½ m`) and not in the fraction.
+    fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;
+}
+
+/// Writes expressions of one pool in one style.
+pub(super) struct Printer<'p> {
+    pub(super) pool: &'p Pool,
+    pub(super) style: &'p dyn Style,
+}
+
+impl Printer<'_> {
+    pub(super) fn piece(&self, e: Expr) -> Piece {
+        match self.pool.node(e) {
+            Node::Number(n) => self.signed_number(*n),
+            Node::Pi => Piece { text: self.style.pi().to_owned(), level: Level::Atom },
+            Node::Symbol(_) => {
+                Piece { text: self.style.symbol(self.pool, e).to_owned(), level: Level::Atom }
+            }
+            Node::Sum(constant, terms) => self.sum(*constant, terms),
+            Node::Product(c, factors) => self.product(*c, factors),
+            Node::Power(base, exponent) => {
+                let base = self.at_least(*base, Level::Atom);
+                self.style.power(&base, &self.piece(*exponent))
+            }
+            Node::Call(function, arguments) => self.style.call(self, *function, arguments),
+        }
+    }
+
+    /// The text of a part, in parentheses where it does not hold together well enough.
+    pub(super) fn at_least(&self, e: Expr, level: Level) -> String {
+        self.wrap(self.piece(e), level)
+    }
+
+    fn wrap(&self, piece: Piece, level: Level) -> String {
+        if piece.level < level { self.style.parenthesise(&piece.text) } else { piece.text }
+    }
+
+    fn signed_number(&self, n: Number) -> Piece {
+        if !n.is_negative() {
+            return self.style.number(n);
+        }
+        let positive = self.wrap(self.style.number(-n), Level::Product);
+        Piece { text: format!("{}{positive}", self.style.minus()), level: Level::Sum }
+    }
+
+    fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> Piece {
+        let mut ordered = terms.to_vec();
+        ordered.sort_by_key(|&(_, t)| (std::cmp::Reverse(self.rank(t)), t));
+        let mut parts: Vec<(bool, String)> =
+            ordered.iter().map(|&(c, t)| (c.is_negative(), self.term(c.abs(), t))).collect();
+        if !constant.is_zero() {
+            let text = self.wrap(self.style.number(constant.abs()), Level::Product);
+            parts.push((constant.is_negative(), text));
+        }
+        // a sum starts with something positive where it can
+        if parts[0].0
+            && let Some(first) = parts.iter().position(|(negative, _)| !negative)
+        {
+            parts[..=first].rotate_right(1);
+        }
+        let mut text = String::new();
+        for (i, (negative, part)) in parts.iter().enumerate() {
+            match (i, negative) {
+                (0, false) => {}
+                (0, true) => text.push_str(self.style.minus()),
+                (_, false) => text.push_str(" + "),
+                (_, true) => text.extend([" ", self.style.minus(), " "]),
+            }
+            text.push_str(part);
+        }
+        Piece { text, level: Level::Sum }
+    }
+
+    /// `c · e` for a positive `c`, as a summand.
+    fn term(&self, c: Number, e: Expr) -> String {
+        let piece = match self.pool.node(e) {
+            Node::Product(_, factors) => self.product(c, factors),
+            _ if c.is_one() => self.piece(e),
+            _ => self.product(c, &[(e, Number::ONE)]),
+        };
+        self.wrap(piece, Level::Product)
+    }
+
+    fn product(&self, c: Number, factors: &[(Expr, Number)]) -> Piece {
+        if c.is_negative() {
+            let positive = self.product(-c, factors);
+            let text = self.wrap(positive, Level::Product);
+            return Piece { text: format!("{}{text}", self.style.minus()), level: Level::Sum };
+        }
+        let mut ordered = factors.to_vec();
+        ordered.sort_by_key(|&(base, _)| self.order(base));
+        let below: Vec<(Expr, Number)> =
+            ordered.iter().filter(|(_, n)| n.is_negative()).map(|&(b, n)| (b, -n)).collect();
+        let above: Vec<(Expr, Number)> =
+            ordered.into_iter().filter(|(_, n)| !n.is_negative()).collect();
+        let (front, over, under) = match c {
+            Number::Rational(n, d) if !self.style.coefficient_in_front(c, !below.is_empty()) => {
+                (Number::ONE, Number::integer(n), Number::integer(d))
+            }
+            _ => (c, Number::ONE, Number::ONE),
+        };
+        let above = self.factors(if front.is_one() { over } else { front }, &above);
+        if below.is_empty() && under.is_one() {
+            return above;
+        }
+        let below = self.factors(under, &below);
+        self.style.fraction(&above, &below)
+    }
+
+    fn factors(&self, c: Number, factors: &[(Expr, Number)]) -> Piece {
+        if factors.is_empty() {
+            return self.style.number(c);
+        }
+        let mut pieces = Vec::new();
+        if !c.is_one() {
+            pieces.push(self.wrap(self.style.number(c), Level::Product));
+        }
+        if let (true, &[(base, n)]) = (pieces.is_empty(), factors) {
+            return if n.is_one() {
+                self.piece(base)
+            } else {
+                self.style.numeric_power(self, base, n)
+            };
+        }
+        for &(base, n) in factors {
+            let piece =
+                if n.is_one() { self.piece(base) } else { self.style.numeric_power(self, base, n) };
+            pieces.push(self.wrap(piece, Level::Power));
+        }
+        Piece { text: self.style.join(&pieces), level: Level::Product }
+    }
+
+    /// The highest rank among a term's symbols, those of variables and constants taken as one.
+    fn rank(&self, term: Expr) -> Rank {
+        let ranks = self.pool.symbols_of(term).into_iter().map(|s| self.pool.symbol_info(s).rank);
+        ranks.max().unwrap_or_default().max(Rank::Variable)
+    }
+
+    /// Constants, then variables, then rates, then brackets, then functions.
+    fn order(&self, e: Expr) -> (u8, u32) {
+        let class = match self.pool.node(e) {
+            Node::Number(_) | Node::Pi => 0,
+            Node::Symbol(s) => match self.pool.symbol_info(*s).rank {
+                Rank::Constant => return (1, s.0),
+                Rank::Variable | Rank::Momentum => return (2, s.0),
+                Rank::Rate => return (3, s.0),
+            },
+            Node::Sum(..) | Node::Product(..) => 4,
+            Node::Power(..) => 5,
+            Node::Call(..) => 6,
+        };
+        (class, e.0)
+    }
+}
+
+impl Pool {
+    /// How many pieces an expression has when written out, a common part counted wherever it
+    /// stands. Saturates at `u64::MAX`.
+    pub fn weight(&self, e: Expr) -> u64 {
+        let mut weights = rustc_hash::FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let mut weight = 1_u64;
+            for below in self.node(part).parts() {
+                weight = weight.saturating_add(weights[&below]);
+            }
+            weights.insert(part, weight);
+        }
+        weights[&e]
+    }
+}

@@ -1,0 +1,214 @@
+//! Products and powers in canonical form: exponents of equal bases collected, numbers gathered,
+//! sums in it primitive, exponentials joined. Nothing is done that would change a value where
+//! the original has one: `sqrt(x^2)` stays as it is.
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+
+type Factor = (Expr, Number);
+
+impl Pool {
+    /// `a · b`.
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        self.monomial(Number::ONE, &[(a, Number::ONE), (b, Number::ONE)])
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
+        self.monomial(Number::ONE, &[(a, Number::ONE), (b, Number::MINUS_ONE)])
+    }
+
+    /// `Π parts`.
+    pub fn product(&mut self, parts: &[Expr]) -> Expr {
+        let factors: Vec<Factor> = parts.iter().map(|&e| (e, Number::ONE)).collect();
+        self.monomial(Number::ONE, &factors)
+    }
+
+    /// `base ^ n` for an integer `n`.
+    pub fn powi(&mut self, base: Expr, n: i64) -> Expr {
+        self.monomial(Number::ONE, &[(base, Number::integer(n))])
+    }
+
+    /// The square root.
+    pub fn sqrt(&mut self, e: Expr) -> Expr {
+        self.monomial(Number::ONE, &[(e, Number::HALF)])
+    }
+
+    /// `base ^ exponent`.
+    pub fn pow(&mut self, base: Expr, exponent: Expr) -> Expr {
+        if let Some(n) = self.as_number(exponent) {
+            return self.monomial(Number::ONE, &[(base, n)]);
+        }
+        if base == Expr::ONE {
+            return Expr::ONE;
+        }
+        self.intern(Node::Power(base, exponent))
+    }
+
+    /// `coefficient · Π base ^ exponent`, the general constructor of products.
+    pub fn monomial(&mut self, coefficient: Number, factors: &[Factor]) -> Expr {
+        let mut coefficient = coefficient;
+        let mut factors = factors.to_vec();
+        loop {
+            merge(&mut factors);
+            let mut settled = true;
+            let mut next: Vec<Factor> = Vec::with_capacity(factors.len());
+            for &(base, exponent) in &factors {
+                match self.settle(base, exponent) {
+                    None => next.push((base, exponent)),
+                    Some((c, opened)) => {
+                        coefficient = coefficient * c;
+                        next.extend(opened);
+                        settled = false;
+                    }
+                }
+            }
+            settled &= !self.join_exponentials(&mut next);
+            factors = next;
+            if settled {
+                break;
+            }
+        }
+        self.finish_product(coefficient, factors)
+    }
+
+    /// Builds the node of a merged and settled product.
+    pub(super) fn finish_product(&mut self, coefficient: Number, factors: Vec<Factor>) -> Expr {
+        if coefficient.is_zero() {
+            return Expr::ZERO;
+        }
+        match factors.as_slice() {
+            [] => self.number(coefficient),
+            &[(base, exponent)] if exponent.is_one() => {
+                if coefficient.is_one() {
+                    base
+                } else if matches!(self.node(base), Node::Sum(..)) {
+                    self.linear(Number::ZERO, &[(coefficient, base)])
+                } else {
+                    self.intern(Node::Product(coefficient, factors.into_boxed_slice()))
+                }
+            }
+            _ => self.intern(Node::Product(coefficient, factors.into_boxed_slice())),
+        }
+    }
+
+    /// Opens a factor that is not canonical under its exponent: `Some((c, factors))` says
+    /// `base^exponent = c · Π factors`, `None` that it stays.
+    fn settle(&mut self, base: Expr, exponent: Number) -> Option<(Number, Vec<Factor>)> {
+        let integer = exponent.as_integer();
+        match &*self.shared(base) {
+            Node::Number(n) => self.settle_number(*n, exponent),
+            Node::Product(c, inner) => {
+                if let Some(k) = integer {
+                    let opened = inner.iter().map(|&(b, n)| (b, n * exponent)).collect();
+                    return Some((c.powi(k), opened));
+                }
+                if let &[(b, n)] = &**inner
+                    && c.is_one()
+                {
+                    let combined = n * exponent;
+                    let odd = n.as_integer().is_none_or(|n| n % 2 != 0);
+                    return (odd && combined.as_integer().is_none())
+                        .then(|| (Number::ONE, vec![(b, combined)]));
+                }
+                if !c.is_one() && !c.is_negative() {
+                    let root = self.number(*c);
+                    let bare = self.finish_product(Number::ONE, inner.to_vec());
+                    return Some((Number::ONE, vec![(root, exponent), (bare, exponent)]));
+                }
+                None
+            }
+            Node::Sum(constant, terms) => {
+                let content = content(*constant, terms, integer.is_some());
+                if content.is_one() {
+                    return None;
+                }
+                let outside = content.exact_power(exponent)?;
+                let primitive = self.scale(content.recip(), base);
+                Some((outside, vec![(primitive, exponent)]))
+            }
+            Node::Power(b, e) if !exponent.is_one() && integer.is_some() => {
+                let e = self.scale(exponent, *e);
+                let power = self.pow(*b, e);
+                Some((Number::ONE, vec![(power, Number::ONE)]))
+            }
+            Node::Call(FunctionId::Abs, arguments) if integer.is_some_and(|n| n % 2 == 0) => {
+                Some((Number::ONE, vec![(arguments[0], exponent)]))
+            }
+            _ => None,
+        }
+    }
+
+    /// A numeric base: folded where exact, else brought to an exponent in (0, 1).
+    fn settle_number(&mut self, n: Number, exponent: Number) -> Option<(Number, Vec<Factor>)> {
+        if let Some(exact) = n.exact_power(exponent) {
+            return Some((exact, Vec::new()));
+        }
+        let inexact = Number::Real(n.value().powf(exponent.value()));
+        let (Number::Rational(en, ed), false) = (exponent, n.value() <= 0.0) else {
+            return Some((inexact, Vec::new()));
+        };
+        if matches!(n, Number::Real(_)) || ed == 1 {
+            return Some((inexact, Vec::new()));
+        }
+        let whole = en.div_euclid(ed);
+        if whole == 0 {
+            return None;
+        }
+        let outside = n.powi(whole);
+        if matches!(outside, Number::Real(_)) {
+            return Some((inexact, Vec::new()));
+        }
+        let base = self.number(n);
+        Some((outside, vec![(base, Number::Rational(en.rem_euclid(ed), ed))]))
+    }
+
+    /// `exp(a)^m exp(b)^n → exp(m a + n b)`. Says whether anything was joined.
+    fn join_exponentials(&mut self, factors: &mut Vec<Factor>) -> bool {
+        let exponentials: Vec<(Number, Expr)> = factors
+            .iter()
+            .filter_map(|&(base, n)| match self.node(base) {
+                Node::Call(FunctionId::Exp, arguments) => Some((n, arguments[0])),
+                _ => None,
+            })
+            .collect();
+        if exponentials.is_empty() || matches!(exponentials.as_slice(), [(n, _)] if n.is_one()) {
+            return false;
+        }
+        factors.retain(|&(base, _)| !matches!(self.node(base), Node::Call(FunctionId::Exp, _)));
+        let exponent = self.linear(Number::ZERO, &exponentials);
+        let joined = self.call(FunctionId::Exp, &[exponent]);
+        factors.push((joined, Number::ONE));
+        true
+    }
+}
+
+/// Sorts by base and adds the exponents of equal bases.
+fn merge(factors: &mut Vec<Factor>) {
+    factors.sort_unstable_by_key(|&(base, _)| base);
+    let mut merged: Vec<Factor> = Vec::with_capacity(factors.len());
+    for &(base, exponent) in factors.iter() {
+        match merged.last_mut() {
+            Some((last, total)) if *last == base => *total = *total + exponent,
+            _ => merged.push((base, exponent)),
+        }
+    }
+    merged.retain(|(_, exponent)| !exponent.is_zero());
+    *factors = merged;
+}
+
+/// What can be taken out of a sum: the common divisor of its coefficients and, where `signed`,
+/// the sign of its first term.
+fn content(constant: Number, terms: &[(Number, Expr)], signed: bool) -> Number {
+    let real = |n: &Number| matches!(n, Number::Real(_));
+    if real(&constant) || terms.iter().any(|(c, _)| real(c)) {
+        return Number::ONE;
+    }
+    let first = terms[0].0;
+    let mut divisor = if constant.is_zero() { first.abs() } else { constant.abs() };
+    for &(c, _) in terms {
+        divisor = divisor.common_divisor(c);
+    }
+    if signed && first.is_negative() { -divisor } else { divisor }
+}

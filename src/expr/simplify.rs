@@ -1,0 +1,126 @@
+//! Making an expression shorter without changing its value: terms joined by trigonometry, common
+//! factors taken out, multiplied out where that is cheaper.
+
+use rustc_hash::FxHashMap;
+
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+
+/// An expression heavier than this is only joined and factored, not multiplied out for trial.
+const TRIAL_LIMIT: u64 = 400;
+
+/// The most terms tried for: what is longer would not be chosen.
+const TRIAL_TERMS: usize = 120;
+
+impl Pool {
+    /// An equal expression, no longer than `e` and often shorter.
+    pub fn simplify(&mut self, e: Expr) -> Expr {
+        let mut best = self.simplify_parts(e);
+        if self.weight(e) <= TRIAL_LIMIT {
+            let expanded = self.expand(e, TRIAL_TERMS);
+            let candidate = self.simplify_parts(expanded);
+            best = self.lighter(best, candidate);
+            let opened = self.open_angles(e);
+            let opened = self.expand(opened, TRIAL_TERMS);
+            let opened = self.reduce_squares(opened, TRIAL_TERMS);
+            let candidate = self.simplify_parts(opened);
+            best = self.lighter(best, candidate);
+        }
+        self.lighter(e, best)
+    }
+
+    /// An equal sum whose terms are simplified one by one, so that a kinetic and a potential part
+    /// stay apart; joined across terms only where that is much shorter.
+    pub fn simplify_terms(&mut self, e: Expr) -> Expr {
+        let terms: Vec<(Number, Expr)> =
+            self.summands(e).into_iter().map(|(c, term)| (c, self.simplify(term))).collect();
+        let apart = self.linear(Number::ZERO, &terms);
+        let joined = self.simplify(e);
+        let (joined_cost, apart_cost) = (self.cost(joined), self.cost(apart));
+        if joined_cost.saturating_mul(5) < apart_cost.saturating_mul(3) { joined } else { apart }
+    }
+
+    fn lighter(&self, a: Expr, b: Expr) -> Expr {
+        if self.cost(b) < self.cost(a) { b } else { a }
+    }
+
+    /// What a reader pays: weight, and more for what stands below a line.
+    fn cost(&self, e: Expr) -> u64 {
+        let mut costs: FxHashMap<Expr, u64> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let own = match self.node(part) {
+                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Power(..) => 2,
+                Node::Sum(constant, terms) => {
+                    let coefficients = terms.iter().filter(|(c, _)| !c.abs().is_one()).count();
+                    1 + 2 * u64::from(!constant.is_zero()) + coefficients as u64
+                }
+                Node::Product(c, factors) => {
+                    let powers = factors.iter().filter(|(_, n)| !n.abs().is_one()).count();
+                    1 + u64::from(!c.abs().is_one()) + powers as u64
+                }
+                Node::Call(..) => 3,
+            };
+            let mut total = own;
+            for below in self.node(part).parts() {
+                total = total.saturating_add(costs[&below]);
+            }
+            costs.insert(part, total);
+        }
+        costs[&e]
+    }
+
+    fn simplify_parts(&mut self, e: Expr) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rebuilt = self.rebuild(part, &done);
+            let joined = self.join_terms(rebuilt);
+            let factored = self.factor_out(joined);
+            let better = self.lighter(joined, factored);
+            done.insert(part, better);
+        }
+        done[&e]
+    }
+
+    /// A sum with its common factors taken out: `a x² + a x y → a x (x + y)`.
+    fn factor_out(&mut self, e: Expr) -> Expr {
+        let shared = self.shared(e);
+        let Node::Sum(constant, terms) = &*shared else { return e };
+        if !constant.is_zero() {
+            return e;
+        }
+        let lists: Vec<Vec<(Expr, Number)>> = terms
+            .iter()
+            .map(|&(_, term)| match self.node(term) {
+                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
+                _ => vec![(term, Number::ONE)],
+            })
+            .collect();
+        let mut common = lists[0].clone();
+        for list in &lists[1..] {
+            common.retain_mut(|(base, n)| match list.iter().find(|(b, _)| b == base) {
+                Some((_, m)) if m.is_negative() == n.is_negative() => {
+                    *n = if n.is_negative() { (*n).max(*m) } else { (*n).min(*m) };
+                    true
+                }
+                _ => false,
+            });
+        }
+        if common.is_empty() {
+            return e;
+        }
+        let inverse: Vec<(Expr, Number)> = common.iter().map(|&(b, n)| (b, -n)).collect();
+        let inner: Vec<(Number, Expr)> = terms
+            .iter()
+            .zip(&lists)
+            .map(|(&(c, _), list)| {
+                let mut list = list.clone();
+                list.extend_from_slice(&inverse);
+                (c, self.monomial(Number::ONE, &list))
+            })
+            .collect();
+        let inner = self.linear(Number::ZERO, &inner);
+        let inner = self.join_terms(inner);
+        common.push((inner, Number::ONE));
+        self.monomial(Number::ONE, &common)
+    }
+}

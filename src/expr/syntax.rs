@@ -1,0 +1,206 @@
+//! The tree as written: what the parser gives, with a span at every node, before any name is
+//! looked up. [`Syntax::lower`] turns it into a canonical expression with the help of whoever
+//! knows the names.
+
+use super::function::{FUNCTIONS, FunctionId};
+use super::number::Number;
+use super::pool::{Expr, Pool};
+
+/// A range of bytes in the source text of one expression.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// A mistake in one expression: where, what, and what would be right.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct SyntaxError {
+    /// Where in the expression.
+    pub span: Span,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right, where that can be said.
+    pub help: Option<String>,
+}
+
+impl SyntaxError {
+    /// A mistake without a suggestion.
+    pub fn new(span: Span, message: impl Into<String>) -> SyntaxError {
+        SyntaxError { span, message: message.into(), help: None }
+    }
+
+    /// The same mistake with a suggestion.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> SyntaxError {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// One node as written.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Syntax {
+    /// Where it stands.
+    pub span: Span,
+    /// What it is.
+    pub kind: SyntaxKind,
+}
+
+/// The operators that join the parts of sums and products.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[expect(missing_docs, reason = "the four operations of arithmetic")]
+pub enum BinaryOperator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+}
+
+/// What a node is. Long sums and products are flat lists, so that the depth of a tree is that of
+/// its parentheses.
+#[derive(Clone, PartialEq, Debug)]
+pub enum SyntaxKind {
+    /// A numeric literal.
+    Number(Number),
+    /// A name with the count of its primes: `x''` is `("x", 2)`.
+    Name(String, usize),
+    /// A function's name, its span, and its arguments.
+    Call(String, Span, Vec<Syntax>),
+    /// The first part, then each operator with what follows it, grouping to the left.
+    Chain(Box<Syntax>, Vec<(BinaryOperator, Syntax)>),
+    /// `−x`.
+    Negate(Box<Syntax>),
+    /// `base ^ exponent`.
+    Power(Box<Syntax>, Box<Syntax>),
+}
+
+/// Whoever knows what the names of an expression mean.
+pub trait Resolve {
+    /// The expression of a name with so many primes; `None` after a complaint.
+    fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr>;
+    /// Whether a name is known as something that is not a function.
+    fn is_variable(&self, name: &str) -> bool;
+    /// Takes note of a mistake.
+    fn complain(&mut self, error: SyntaxError);
+}
+
+impl Syntax {
+    /// The canonical expression. All mistakes go to the resolver; where there was one the result
+    /// is of no use: what is not known stands for itself in it, so that it causes no others.
+    pub fn lower(&self, pool: &mut Pool, names: &mut dyn Resolve) -> Expr {
+        match &self.kind {
+            SyntaxKind::Number(n) => pool.number(*n),
+            SyntaxKind::Name(name, 0) if name == "pi" => pool.pi(),
+            SyntaxKind::Name(name, primes) => {
+                if *primes == 0 && !names.is_variable(name) && FunctionId::by_name(name).is_some() {
+                    names.complain(
+                        SyntaxError::new(
+                            self.span,
+                            format!("`{name}` is a function and needs arguments"),
+                        )
+                        .with_help(format!("write {name}(...)")),
+                    );
+                    return pool.named(name);
+                }
+                match names.name(pool, name, *primes, self.span) {
+                    Some(e) => e,
+                    None => pool.named(&format!("{name}{}", "'".repeat(*primes))),
+                }
+            }
+            SyntaxKind::Negate(inner) => {
+                let inner = inner.lower(pool, names);
+                pool.neg(inner)
+            }
+            SyntaxKind::Power(base, exponent) => {
+                let base = base.lower(pool, names);
+                let exponent = exponent.lower(pool, names);
+                pool.pow(base, exponent)
+            }
+            SyntaxKind::Chain(first, rest) => lower_chain(first, rest, pool, names),
+            SyntaxKind::Call(name, span, arguments) => {
+                let lowered: Vec<Expr> = arguments.iter().map(|a| a.lower(pool, names)).collect();
+                match check_call(name, *span, self.span, arguments.len(), names) {
+                    Some(function) => pool.call(function, &lowered),
+                    None => pool.named(name),
+                }
+            }
+        }
+    }
+}
+
+fn lower_chain(
+    first: &Syntax,
+    rest: &[(BinaryOperator, Syntax)],
+    pool: &mut Pool,
+    names: &mut dyn Resolve,
+) -> Expr {
+    let head = first.lower(pool, names);
+    let additive = matches!(rest[0].0, BinaryOperator::Add | BinaryOperator::Subtract);
+    let mut parts = vec![(head, Number::ONE)];
+    for (operator, part) in rest {
+        let inverse = matches!(operator, BinaryOperator::Subtract | BinaryOperator::Divide);
+        let lowered = part.lower(pool, names);
+        if *operator == BinaryOperator::Divide && lowered == Expr::ZERO {
+            names.complain(SyntaxError::new(part.span, "division by zero"));
+        }
+        parts.push((lowered, if inverse { Number::MINUS_ONE } else { Number::ONE }));
+    }
+    if additive {
+        let terms: Vec<(Number, Expr)> = parts.into_iter().map(|(e, c)| (c, e)).collect();
+        pool.linear(Number::ZERO, &terms)
+    } else {
+        pool.monomial(Number::ONE, &parts)
+    }
+}
+
+/// The function of a call, after its name and its number of arguments have been checked.
+fn check_call(
+    name: &str,
+    name_span: Span,
+    span: Span,
+    count: usize,
+    names: &mut dyn Resolve,
+) -> Option<FunctionId> {
+    let Some(function) = FunctionId::by_name(name) else {
+        let error = SyntaxError::new(name_span, format!("there is no function `{name}`"));
+        let error = if names.is_variable(name) {
+            SyntaxError::new(name_span, format!("`{name}` is not a function"))
+                .with_help(format!("a product is written with `*`: {name}*(...)"))
+        } else {
+            match nearest(name, FUNCTIONS.iter().map(|row| row.name)) {
+                Some(near) => error.with_help(format!("did you mean `{near}`?")),
+                None => {
+                    let all: Vec<&str> = FUNCTIONS.iter().map(|row| row.name).collect();
+                    error.with_help(format!("the functions are {}", all.join(" ")))
+                }
+            }
+        };
+        names.complain(error);
+        return None;
+    };
+    let arity = function.row().arity;
+    if arity != count {
+        let arguments = if arity == 1 { "one argument" } else { "two arguments" };
+        names.complain(SyntaxError::new(span, format!("`{name}` takes {arguments}, not {count}")));
+        return None;
+    }
+    Some(function)
+}
+
+/// The candidate most like a misspelt word, if any is near enough to be meant: at most a third of
+/// the letters differ, and not all of them. Words of more than 64 letters are not compared.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let folded = word.to_lowercase();
+    let longer = |c: &str| word.chars().count().max(c.chars().count());
+    candidates
+        .into_iter()
+        .filter(|c| longer(c) <= 64)
+        .map(|c| (strsim::damerau_levenshtein(&folded, &c.to_lowercase()), c))
+        .filter(|&(distance, c)| distance <= (longer(c) / 3).max(1) && distance < longer(c))
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, c)| c)
+}

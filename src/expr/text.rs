@@ -1,0 +1,81 @@
+//! The file's own syntax: what is printed here parses back to the same expression.
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Pool};
+use super::print::{Level, Piece, Printer, Style};
+
+impl Pool {
+    /// The expression in the syntax of preset files.
+    pub fn text(&self, e: Expr) -> String {
+        Printer { pool: self, style: &Text }.piece(e).text
+    }
+}
+
+struct Text;
+
+impl Style for Text {
+    fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str {
+        pool.as_symbol(e).map_or("", |s| &pool.symbol_info(s).name)
+    }
+
+    fn pi(&self) -> &'static str {
+        "pi"
+    }
+
+    fn minus(&self) -> &'static str {
+        "-"
+    }
+
+    fn number(&self, n: Number) -> Piece {
+        match n {
+            Number::Rational(n, 1) => Piece { text: n.to_string(), level: Level::Atom },
+            Number::Rational(n, d) => Piece { text: format!("{n}/{d}"), level: Level::Product },
+            Number::Real(x) => Piece { text: format!("{x:?}"), level: Level::Atom },
+        }
+    }
+
+    fn parenthesise(&self, inner: &str) -> String {
+        format!("({inner})")
+    }
+
+    fn join(&self, factors: &[String]) -> String {
+        factors.join("*")
+    }
+
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+        let wrap = |piece: &Piece, level| {
+            if piece.level < level { format!("({})", piece.text) } else { piece.text.clone() }
+        };
+        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
+        Piece { text, level: Level::Product }
+    }
+
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+        if exponent == Number::HALF {
+            let inner = printer.piece(base).text;
+            return Piece { text: format!("sqrt({inner})"), level: Level::Atom };
+        }
+        let exponent = self.number(exponent);
+        self.power(&printer.at_least(base, Level::Atom), &exponent)
+    }
+
+    fn power(&self, base: &str, exponent: &Piece) -> Piece {
+        let text = if exponent.level == Level::Atom {
+            format!("{base}^{}", exponent.text)
+        } else {
+            format!("{base}^({})", exponent.text)
+        };
+        Piece { text, level: Level::Power }
+    }
+
+    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+        let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
+        let text = format!("{}({})", function.row().name, arguments.join(", "));
+        Piece { text, level: Level::Atom }
+    }
+
+    fn coefficient_in_front(&self, n: Number, _: bool) -> bool {
+        matches!(n, Number::Rational(1, d) if d != 1)
+    }
+}

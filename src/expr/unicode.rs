@@ -1,0 +1,159 @@
+//! Mathematics for a screen: `½ m l² θ̇² + m g l cos θ`.
+
+use super::function::FunctionId;
+use super::notation::superscript;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::print::{Level, Piece, Printer, Style};
+
+impl Pool {
+    /// The expression in Unicode mathematics.
+    pub fn unicode(&self, e: Expr) -> String {
+        Printer { pool: self, style: &Unicode }.piece(e).text
+    }
+}
+
+struct Unicode;
+
+const FRACTIONS: [(i64, i64, &str); 15] = [
+    (1, 2, "½"),
+    (1, 3, "⅓"),
+    (2, 3, "⅔"),
+    (1, 4, "¼"),
+    (3, 4, "¾"),
+    (1, 5, "⅕"),
+    (2, 5, "⅖"),
+    (3, 5, "⅗"),
+    (4, 5, "⅘"),
+    (1, 6, "⅙"),
+    (5, 6, "⅚"),
+    (1, 8, "⅛"),
+    (3, 8, "⅜"),
+    (5, 8, "⅝"),
+    (7, 8, "⅞"),
+];
+
+fn glyph(n: Number) -> Option<&'static str> {
+    let Number::Rational(n, d) = n else { return None };
+    FRACTIONS.iter().find(|f| (f.0, f.1) == (n, d)).map(|f| f.2)
+}
+
+impl Style for Unicode {
+    fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str {
+        pool.as_symbol(e).map_or("", |s| &pool.symbol_info(s).unicode)
+    }
+
+    fn pi(&self) -> &'static str {
+        "π"
+    }
+
+    fn minus(&self) -> &'static str {
+        "−"
+    }
+
+    fn number(&self, n: Number) -> Piece {
+        if let Some(glyph) = glyph(n) {
+            return Piece { text: glyph.to_owned(), level: Level::Atom };
+        }
+        match n {
+            Number::Rational(n, 1) => Piece { text: n.to_string(), level: Level::Atom },
+            Number::Rational(_, d) if is_decimal(d) => {
+                Piece { text: n.value().to_string(), level: Level::Atom }
+            }
+            Number::Rational(n, d) => Piece { text: format!("{n}/{d}"), level: Level::Product },
+            Number::Real(x) => Piece { text: scientific(x), level: Level::Atom },
+        }
+    }
+
+    fn parenthesise(&self, inner: &str) -> String {
+        format!("({inner})")
+    }
+
+    fn join(&self, factors: &[String]) -> String {
+        factors.join(" ")
+    }
+
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+        let wrap = |piece: &Piece, level| {
+            if piece.level < level { format!("({})", piece.text) } else { piece.text.clone() }
+        };
+        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
+        Piece { text, level: Level::Product }
+    }
+
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+        if exponent == Number::HALF {
+            let text = format!("√{}", printer.at_least(base, Level::Atom));
+            return Piece { text, level: Level::Power };
+        }
+        let Some(n) = exponent.as_integer() else {
+            let exponent = self.number(exponent);
+            return self.power(&printer.at_least(base, Level::Atom), &exponent);
+        };
+        if let Node::Call(function, arguments) = printer.pool.node(base)
+            && function.row().arity == 1
+            && *function != FunctionId::Abs
+        {
+            let name = format!("{}{}", function.row().unicode, superscript(n));
+            return applied(printer, &name, arguments[0]);
+        }
+        let text = format!("{}{}", printer.at_least(base, Level::Atom), superscript(n));
+        Piece { text, level: Level::Power }
+    }
+
+    fn power(&self, base: &str, exponent: &Piece) -> Piece {
+        let text = if exponent.level == Level::Atom {
+            format!("{base}^{}", exponent.text)
+        } else {
+            format!("{base}^({})", exponent.text)
+        };
+        Piece { text, level: Level::Power }
+    }
+
+    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+        if function == FunctionId::Abs {
+            let text = format!("|{}|", printer.piece(arguments[0]).text);
+            return Piece { text, level: Level::Atom };
+        }
+        if function == FunctionId::Exp {
+            return self.power("e", &printer.piece(arguments[0]));
+        }
+        if let [argument] = arguments {
+            return applied(printer, function.row().unicode, *argument);
+        }
+        let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
+        let text = format!("{}({})", function.row().unicode, arguments.join(", "));
+        Piece { text, level: Level::Atom }
+    }
+
+    fn coefficient_in_front(&self, n: Number, _: bool) -> bool {
+        glyph(n).is_some() || matches!(n, Number::Rational(_, d) if is_decimal(d))
+    }
+}
+
+/// `sin θ`, `sin(2 θ)`.
+fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> Piece {
+    let inner = printer.piece(argument);
+    if inner.level == Level::Atom && !inner.text.contains(' ') {
+        Piece { text: format!("{name} {}", inner.text), level: Level::Power }
+    } else {
+        Piece { text: format!("{name}({})", inner.text), level: Level::Atom }
+    }
+}
+
+/// Whether 1/d is a short decimal that reads better than a fraction: 9.81, not 981/100.
+fn is_decimal(d: i64) -> bool {
+    d > 8 && 1_000_000 % d == 0
+}
+
+/// A real with its exponent as a power of ten.
+fn scientific(x: f64) -> String {
+    let text = format!("{x:?}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => match exponent.parse() {
+            Ok(n) => format!("{mantissa}·10{}", superscript(n)),
+            Err(_) => text,
+        },
+        None => text,
+    }
+}

@@ -1,0 +1,22 @@
+//! Steps in time: one table of methods, one file per method.
+//!
+//! In: a [`System`](crate::system::System) and a state. Out: steppers, which carry the state from
+//! step to step and tell it anywhere inside the last one. Never here: rows, gauges, clocks.
+
+mod dop853;
+mod fixed;
+mod gauss;
+mod leapfrog;
+mod method;
+mod pace;
+mod rk4;
+mod roots;
+mod rounding;
+mod splitting;
+mod stepper;
+mod taylor;
+mod yoshida;
+
+pub use method::{METHODS, Made, Method, Preserves, Refusal, Settings, Stepping, method_named};
+pub use roots::first_crossing;
+pub use stepper::Stepper;

@@ -1,0 +1,268 @@
+//! Dormand and Prince's Runge–Kutta method of order 8 with error estimates of orders 5 and 3 and
+//! an interpolant of order 7.
+//!
+//! Every number of the state is judged by its own size within the step, so units do not matter.
+//! Where a step fails, what rounding alone does to the rates is found as well, and no more is
+//! asked of a number than its rounding allows: one that is zero by symmetry, up to rounding,
+//! would else stop the clock.
+//!
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, second
+//! edition, II.4 (step control), II.5 (method), II.6 (interpolant).
+
+mod tableau;
+
+use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
+use super::method::{Method, Preserves, Refusal, Settings, Stepping};
+use super::stepper::Stepper;
+use super::{pace, rounding};
+use crate::expr::Double;
+use crate::system::{Fault, FaultKind, Rates, State, System};
+
+/// The tolerance where none is asked for.
+const TOLERANCE: f64 = 1e-13;
+
+/// The first step as a part of the motion's [pace](pace::of); the next ones grow from there.
+const FIRST: f64 = 0.05;
+
+/// How much of the step that would just do is taken.
+const SAFETY: f64 = 0.9;
+
+/// How many times what rounding does to a rate is allowed for.
+const ROUNDINGS: f64 = 4.0;
+
+/// What is left of it in the next step.
+const FORGETTING: f64 = 0.8;
+
+/// How much shorter and longer than the last a step may be.
+const SHORTER: f64 = 0.333;
+const LONGER: f64 = 6.0;
+
+pub(super) const METHOD: Method = Method {
+    name: "dop853",
+    title: "Dormand–Prince 8(5,3)",
+    order: Some(8),
+    stepping: Stepping::Adaptive,
+    preserves: Preserves::Nothing,
+    needs: "",
+    about: "The Runge–Kutta method of order 8 that many programs use, for comparison. Kinks are \
+            stepped over, not located. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
+            Equations I, II.5.",
+    fits: |_| Ok(()),
+    make: |system, settings| Ok(Box::new(DormandPrince::new(system, settings)?)),
+};
+
+struct DormandPrince {
+    system: System,
+    rates: Rates,
+    tolerance: f64,
+    /// The size of the step to be tried next.
+    size: f64,
+    before: State,
+    state: State,
+    next: State,
+    /// The slopes of all stages of the step under way; that of the result is the next one's first.
+    slopes: Vec<Vec<f64>>,
+    /// The slopes of the last step, those of the interpolant only once it is asked for.
+    last: Vec<Vec<f64>>,
+    has_interpolant: bool,
+    numbers: Vec<f64>,
+    /// What rounding does to each rate, as it was found where a step failed.
+    noise: Vec<f64>,
+}
+
+impl DormandPrince {
+    fn new(system: &System, settings: &Settings) -> Result<DormandPrince, Refusal> {
+        let tolerance = settings.tolerance.unwrap_or(TOLERANCE);
+        if !(1e-15..1.0).contains(&tolerance) {
+            let reason = format!("the tolerance {tolerance:e} is not between 1e-15 and 1");
+            return Err(Refusal { method: METHOD.name, reason });
+        }
+        let zeros = vec![0.0; system.state_len()];
+        let state = State::new(0.0, system.form(), zeros.clone());
+        Ok(DormandPrince {
+            system: system.clone(),
+            rates: system.native_rates(),
+            tolerance,
+            size: 0.0,
+            before: state.clone(),
+            next: state.clone(),
+            state,
+            slopes: vec![zeros.clone(); STAGES.len()],
+            last: vec![zeros.clone(); STAGES.len()],
+            has_interpolant: false,
+            numbers: zeros.clone(),
+            noise: zeros,
+        })
+    }
+
+    /// Makes the stages of a step of this size and its result, in `next`.
+    fn attempt(&mut self, step: f64) -> Result<(), Fault> {
+        for stage in 1..METHOD_STAGES {
+            let (rates, numbers) = (&mut self.rates, &mut self.numbers);
+            evaluate(rates, stage, step, &self.state, &mut self.slopes, numbers)?;
+        }
+        self.next.copy_from(&self.state);
+        for i in 0..self.numbers.len() {
+            let change = step * sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
+            self.next.set(i, self.state.exact(i) + Double::from(change));
+        }
+        Ok(())
+    }
+
+    /// The error of the step attempted, measured by what is allowed.
+    fn error(&self, step: f64) -> f64 {
+        if !self.next.is_finite() {
+            return f64::INFINITY;
+        }
+        let (mut fifth, mut third) = (0.0, 0.0);
+        for i in 0..self.numbers.len() {
+            let (begin, end) = (self.state.values[i], self.next.values[i]);
+            let size = begin.abs().max(end.abs()).max((step * self.slopes[0][i]).abs());
+            let allowed = self.tolerance * size + ROUNDINGS * step.abs() * self.noise[i];
+            if allowed > 0.0 {
+                let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
+                fifth += (sum(FIFTH, &self.slopes, i) / allowed).powi(2);
+                third += ((whole - sum(THIRD, &self.slopes, i)) / allowed).powi(2);
+            }
+        }
+        let both = fifth + 0.01 * third;
+        let error = step.abs() * fifth / (both * self.numbers.len() as f64).sqrt();
+        match both {
+            0.0 => 0.0,
+            _ if error.is_nan() => f64::INFINITY,
+            _ => error,
+        }
+    }
+
+    /// The slopes that only the interpolant needs.
+    fn complete(&mut self) -> Result<(), Fault> {
+        if !self.has_interpolant {
+            let step = self.last_step();
+            for stage in METHOD_STAGES + 1..STAGES.len() {
+                let (rates, numbers) = (&mut self.rates, &mut self.numbers);
+                evaluate(rates, stage, step, &self.before, &mut self.last, numbers)?;
+            }
+            self.has_interpolant = true;
+        }
+        Ok(())
+    }
+
+    fn last_step(&self) -> f64 {
+        (self.state.exact_time() - self.before.exact_time()).high
+    }
+}
+
+/// The slope of a stage of the step from `origin`.
+fn evaluate(
+    rates: &mut Rates,
+    stage: usize,
+    step: f64,
+    origin: &State,
+    slopes: &mut [Vec<f64>],
+    numbers: &mut [f64],
+) -> Result<(), Fault> {
+    for (i, x) in numbers.iter_mut().enumerate() {
+        *x = origin.values[i] + (origin.carry[i] + step * sum(STAGES[stage].from, slopes, i));
+    }
+    rates.evaluate(origin.time + STAGES[stage].at * step, numbers, &mut slopes[stage])
+}
+
+/// A sum of slopes of one number.
+fn sum(terms: &[Term], slopes: &[Vec<f64>], i: usize) -> f64 {
+    terms.iter().map(|&(stage, coefficient)| coefficient * slopes[stage][i]).sum()
+}
+
+impl Stepper for DormandPrince {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        self.state = self.system.convert(state, self.system.form(), parameters)?;
+        self.before.copy_from(&self.state);
+        self.rates.set_parameters(parameters);
+        self.size = pace::of(&self.system, state, parameters) * FIRST;
+        self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+        if self.state.time == limit {
+            return Ok(());
+        }
+        let time = self.state.exact_time();
+        let left = Double::written(limit) - time;
+        for noise in &mut self.noise {
+            *noise *= FORGETTING;
+        }
+        let mut failures = 0;
+        loop {
+            // a last step that is a little longer rather than one more that is tiny
+            let last = 1.01 * self.size >= left.high.abs();
+            let step = if last { left.high } else { self.size.copysign(left.high) };
+            if step.abs() <= 1e-16 * time.high.abs() || step.abs() < 1e-290 {
+                let kind = FaultKind::StepUnderflow(step);
+                return Err(self.system.fault(kind, time.high, &self.state.values));
+            }
+            self.attempt(step)?;
+            let mut error = self.error(step);
+            if error > 1.0 && error.is_finite() {
+                let (at, slope) = ((time.high, self.state.values.as_slice()), &self.slopes[0]);
+                rounding::listen(&mut self.rates, at, slope, (step, failures), &mut self.noise)?;
+                error = self.error(step);
+            }
+            let most = if failures > 0 { 1.0 } else { LONGER };
+            let factor = (SAFETY * error.powf(-1.0 / 8.0)).clamp(SHORTER, most);
+            if error <= 1.0 {
+                let end = if last { Double::from(limit) } else { time + Double::from(step) };
+                (self.next.time, self.next.time_carry) = (end.high, end.low);
+                let slope = &mut self.slopes[METHOD_STAGES];
+                self.rates.evaluate(end.high, &self.next.values, slope)?;
+                // a step that was cut short says little of the next
+                self.size =
+                    if last { self.size.max(step.abs() * factor) } else { self.size * factor };
+                break;
+            }
+            self.size = step.abs() * factor;
+            failures += 1;
+        }
+        std::mem::swap(&mut self.before, &mut self.state);
+        std::mem::swap(&mut self.state, &mut self.next);
+        std::mem::swap(&mut self.slopes, &mut self.last);
+        self.slopes[0].clone_from(&self.last[METHOD_STAGES]);
+        self.has_interpolant = false;
+        Ok(())
+    }
+
+    fn state(&self) -> &State {
+        &self.state
+    }
+
+    fn interval(&self) -> (f64, f64) {
+        (self.before.time, self.state.time)
+    }
+
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+        if time == self.state.time {
+            out.copy_from(&self.state);
+            return Ok(());
+        }
+        self.complete()?;
+        out.copy_from(&self.before);
+        let step = self.last_step();
+        let part = (Double::written(time) - self.before.exact_time()).high / step;
+        let rest = 1.0 - part;
+        for i in 0..self.numbers.len() {
+            let change = (self.state.exact(i) - self.before.exact(i)).high;
+            let (first, last) = (step * self.last[0][i], step * self.last[METHOD_STAGES][i]);
+            // u = s (c₁ + (1 − s) (c₂ + s (c₃ + (1 − s) (c₄ + …))))
+            let mut coefficients =
+                [change, first - change, 2.0 * change - last - first, 0.0, 0.0, 0.0, 0.0];
+            for (c, terms) in coefficients[3..].iter_mut().zip(DENSE) {
+                *c = step * sum(terms, &self.last, i);
+            }
+            let mut moved = 0.0;
+            for (k, c) in coefficients.iter().enumerate().rev() {
+                moved = (moved + c) * if k % 2 == 0 { part } else { rest };
+            }
+            out.set(i, self.before.exact(i) + Double::from(moved));
+        }
+        (out.time, out.time_carry) = (time, 0.0);
+        self.system.check_finite(out)
+    }
+}

@@ -1,0 +1,156 @@
+//! What all methods of fixed step have in common: the clock, the direction, looks between steps,
+//! and the step where none is asked for. A method itself is a [`Scheme`].
+
+use super::method::{Refusal, Settings};
+use super::pace;
+use super::stepper::Stepper;
+use crate::expr::Double;
+use crate::system::{Fault, FaultKind, Form, State, System};
+
+/// The step where none is asked for, as a part of the motion's [pace](pace::of).
+const PART_OF_PACE: f64 = 1.0 / 10.0;
+
+/// One step of a method.
+pub(super) trait Scheme: Clone + Send {
+    /// The form of its states.
+    fn form(&self) -> Form;
+
+    /// Sets the parameters and forgets the motion so far.
+    fn begin(&mut self, parameters: &[f64]);
+
+    /// Moves the numbers of `state` by one step; its time is that of the beginning, and left
+    /// alone.
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault>;
+}
+
+/// A motion in steps that are all alike.
+pub(super) struct FixedStep<S> {
+    system: System,
+    scheme: S,
+    /// Takes the shorter steps of looks between, so that what the scheme remembers of its last
+    /// step stays as it is.
+    aside: S,
+    parameters: Vec<f64>,
+    asked: Option<f64>,
+    /// The step; negative where the motion runs backwards.
+    step: Double,
+    /// When the steps began, and how many there were: the time is counted, not summed.
+    origin: Double,
+    count: f64,
+    before: State,
+    state: State,
+    next: State,
+}
+
+impl<S: Scheme> FixedStep<S> {
+    pub(super) fn new(
+        method: &'static str,
+        system: &System,
+        settings: &Settings,
+        scheme: S,
+    ) -> Result<FixedStep<S>, Refusal> {
+        if let Some(step) = settings.step.filter(|&h| !(h > 0.0 && h.is_finite())) {
+            return Err(Refusal { method, reason: format!("the step {step} is not above zero") });
+        }
+        let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
+        Ok(FixedStep {
+            system: system.clone(),
+            aside: scheme.clone(),
+            scheme,
+            parameters: Vec::new(),
+            asked: settings.step,
+            step: Double::ZERO,
+            origin: Double::ZERO,
+            count: 0.0,
+            before: state.clone(),
+            next: state.clone(),
+            state,
+        })
+    }
+
+    /// Counts on from the present time with another step.
+    fn count_from_here(&mut self, step: Double) {
+        self.step = step;
+        self.origin = self.state.exact_time();
+        self.count = 0.0;
+        self.scheme.begin(&self.parameters);
+    }
+}
+
+impl<S: Scheme> Stepper for FixedStep<S> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        self.state = self.system.convert(state, self.scheme.form(), parameters)?;
+        self.before.copy_from(&self.state);
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        let step = match self.asked {
+            Some(step) => Double::written(step),
+            None => {
+                let pace = pace::of(&self.system, state, parameters) * PART_OF_PACE;
+                // two digits are enough, and times are then short decimals
+                Double::written(format!("{pace:.1e}").parse().unwrap_or(pace))
+            }
+        };
+        self.count_from_here(step);
+        Ok(())
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+        if self.state.time == limit {
+            return Ok(());
+        }
+        if (limit > self.state.time) != (self.step.high > 0.0) {
+            self.count_from_here(-self.step);
+        }
+        self.next.copy_from(&self.state);
+        self.scheme.advance(self.step.high, &mut self.next)?;
+        let time = self.origin + self.step * (self.count + 1.0);
+        (self.next.time, self.next.time_carry) = (time.high, time.low);
+        if time.high == self.state.time {
+            let kind = FaultKind::StepUnderflow(self.step.high);
+            return Err(self.system.fault(kind, time.high, &self.state.values));
+        }
+        self.system.check_finite(&self.next)?;
+        self.count += 1.0;
+        std::mem::swap(&mut self.before, &mut self.state);
+        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+
+    fn state(&self) -> &State {
+        &self.state
+    }
+
+    fn interval(&self) -> (f64, f64) {
+        (self.before.time, self.state.time)
+    }
+
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+        if time == self.state.time {
+            out.copy_from(&self.state);
+            return Ok(());
+        }
+        out.copy_from(&self.before);
+        if time == self.before.time {
+            return Ok(());
+        }
+        self.aside.begin(&self.parameters);
+        let step = Double::written(time) - self.before.exact_time();
+        self.aside.advance(step.high, out)?;
+        (out.time, out.time_carry) = (time, 0.0);
+        self.system.check_finite(out)
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step.high
+    }
+}
+
+/// Adds `factor · rates` to the numbers of a state, with what rounding cuts off.
+pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
+    for (i, &rate) in rates.iter().enumerate() {
+        if rate != 0.0 {
+            state.set(i, state.exact(i) + Double::from(factor * rate));
+        }
+    }
+}

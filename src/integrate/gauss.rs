@@ -1,0 +1,226 @@
+//! The collocation methods of Gauss, of order 4 and 6, in canonical form: symplectic for any H,
+//! and through p = ∂L/∂q̇ for any L.
+//!
+//! Y_i = y + h Σ_j a_ij f(t + c_i h, Y_j), solved by iterating, and y moves by h Σ_j b_j f(Y_j);
+//! the c are the zeros of Legendre's polynomial on [0, 1].
+//!
+//! - The iteration starts from the polynomial of the step before, carried on.
+//! - It ends where no number of any stage moves less from one pass to the next: what is left is
+//!   rounding. Fewer passes would leave an error that acts the same way at every step.
+//! - The last pass is made with all digits of the coefficients, and sums carry what rounding cuts
+//!   off, for the same reason: energy then wanders like a random walk.
+//!
+//! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VIII.6;
+//! E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
+
+mod tableau;
+
+use self::tableau::Tableau;
+use super::fixed::{FixedStep, Scheme};
+use super::method::{Method, Preserves, Stepping};
+use super::rounding;
+use crate::expr::Double;
+use crate::system::{Fault, FaultKind, Form, Rates, State, System};
+
+/// How often the iteration may be repeated.
+const PASSES: usize = 120;
+
+/// A number moves by rounding alone only where it moves by less than this part of its size …
+const SMALL: f64 = 1e-9;
+
+/// … or, looked at where so many passes did not suffice, by so many times what rounding does to
+/// its rate.
+const PATIENCE: usize = 12;
+const ROUNDINGS: f64 = 64.0;
+
+pub(super) const FOURTH_ORDER: Method = Method {
+    name: "gauss4",
+    title: "Gauss, order 4",
+    order: Some(4),
+    stepping: Stepping::Fixed,
+    preserves: Preserves::Symplectic,
+    needs: "",
+    about: "Collocation at two points, solved by iteration: symplectic for any system that has \
+            momenta, whatever its H. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
+            II.1.3.",
+    fits: |_| Ok(()),
+    make: |system, settings| {
+        let scheme = Gauss::new(system, tableau::of_two_stages());
+        Ok(Box::new(FixedStep::new(FOURTH_ORDER.name, system, settings, scheme)?))
+    },
+};
+
+pub(super) const SIXTH_ORDER: Method = Method {
+    name: "gauss6",
+    title: "Gauss, order 6",
+    order: Some(6),
+    stepping: Stepping::Fixed,
+    preserves: Preserves::Symplectic,
+    needs: "",
+    about: "Collocation at three points, solved by iteration: symplectic for any system that has \
+            momenta, whatever its H. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
+            II.1.3.",
+    fits: |_| Ok(()),
+    make: |system, settings| {
+        let scheme = Gauss::new(system, tableau::of_three_stages());
+        Ok(Box::new(FixedStep::new(SIXTH_ORDER.name, system, settings, scheme)?))
+    },
+};
+
+#[derive(Clone)]
+struct Gauss {
+    rates: Rates,
+    tableau: Tableau,
+    /// The slopes at the stages; before a step those of the step before, if `contiguous`.
+    slopes: Vec<Vec<f64>>,
+    contiguous: bool,
+    stages: Vec<Vec<f64>>,
+    /// By how much each number moved in the last pass, and in the one before.
+    moves: Vec<[f64; 2]>,
+    resting: Vec<bool>,
+    /// What rounding does to each rate, once it is asked for.
+    noise: Vec<f64>,
+    scratch: Vec<Vec<f64>>,
+}
+
+impl Gauss {
+    fn new(system: &System, tableau: Tableau) -> Gauss {
+        let (s, n) = (tableau.nodes.len(), system.state_len());
+        let zeros = vec![vec![0.0; n]; s];
+        Gauss {
+            rates: system.canonical_rates(),
+            tableau,
+            slopes: zeros.clone(),
+            contiguous: false,
+            stages: zeros.clone(),
+            moves: vec![[0.0; 2]; s * n],
+            resting: vec![false; s * n],
+            noise: vec![0.0; n],
+            scratch: zeros,
+        }
+    }
+
+    /// The slopes to begin with: the last step's polynomial, carried on into this one; else the
+    /// slope at the beginning.
+    fn guess(&mut self, state: &State) -> Result<(), Fault> {
+        if !self.contiguous {
+            for slope in &mut self.slopes {
+                self.rates.evaluate(state.time, &state.values, slope)?;
+            }
+            return Ok(());
+        }
+        for (weights, guess) in self.tableau.onward.iter().zip(&mut self.scratch) {
+            for (i, x) in guess.iter_mut().enumerate() {
+                *x = weights.iter().zip(&self.slopes).map(|(w, slope)| w * slope[i]).sum();
+            }
+        }
+        std::mem::swap(&mut self.slopes, &mut self.scratch);
+        Ok(())
+    }
+
+    /// The stages that belong to the slopes.
+    fn place(&mut self, step: f64, state: &State) {
+        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+            for (i, x) in stage.iter_mut().enumerate() {
+                let pairs = weights.iter().zip(&self.slopes);
+                let slope: f64 = pairs.map(|(a, slope)| a.high * slope[i]).sum();
+                *x = state.values[i] + (state.carry[i] + step * slope);
+            }
+        }
+    }
+
+    /// The slopes that belong to the stages.
+    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), Fault> {
+        for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
+        {
+            self.rates.evaluate(time + c.high * step, stage, slope)?;
+        }
+        Ok(())
+    }
+
+    /// One pass; whether all numbers have come to rest.
+    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, Fault> {
+        self.evaluate(step, state.time)?;
+        for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
+            old.clone_from(stage);
+        }
+        self.place(step, state);
+        let n = state.values.len();
+        let mut rest = true;
+        for (s, stage) in self.stages.iter().enumerate() {
+            for (i, x) in stage.iter().enumerate() {
+                let moved = (x - self.scratch[s][i]).abs();
+                let [before, last] = self.moves[s * n + i];
+                let small = SMALL * x.abs().max((step * self.slopes[s][i]).abs())
+                    + ROUNDINGS * step.abs() * self.noise[i];
+                // two passes back, as positions and momenta may shrink in turn
+                let level = count >= 2 && moved >= before && moved <= small;
+                self.moves[s * n + i] = [last, moved];
+                self.resting[s * n + i] |= moved == 0.0 || level;
+                rest &= self.resting[s * n + i];
+            }
+        }
+        Ok(rest)
+    }
+
+    fn solve(&mut self, step: f64, state: &State) -> Result<(), Fault> {
+        self.noise.fill(0.0);
+        self.resting.fill(false);
+        self.place(step, state);
+        for count in 0..PASSES {
+            if count >= PATIENCE {
+                let (time, values, slope) = (state.time, &state.values, &mut self.scratch[0]);
+                self.rates.evaluate(time, values, slope)?;
+                let round = (step, count - PATIENCE);
+                rounding::listen(&mut self.rates, (time, values), slope, round, &mut self.noise)?;
+            }
+            if self.pass(count, step, state)? {
+                return Ok(());
+            }
+            if self.stages.iter().flatten().any(|x| !x.is_finite()) {
+                break;
+            }
+        }
+        self.rates.evaluate(state.time, &state.values, &mut self.slopes[0])?;
+        let system = self.rates.system();
+        let mut here = state.clone();
+        here.values.clone_from(&self.slopes[0]);
+        system.check_finite(&here)?;
+        Err(system.fault(FaultKind::NoConvergence(step), state.time, &state.values))
+    }
+}
+
+impl Scheme for Gauss {
+    fn form(&self) -> Form {
+        Form::Momentum
+    }
+
+    fn begin(&mut self, parameters: &[f64]) {
+        self.rates.set_parameters(parameters);
+        self.contiguous = false;
+    }
+
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+        self.guess(state)?;
+        self.contiguous = false;
+        self.solve(step, state)?;
+        self.evaluate(step, state.time)?;
+        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+            for (i, x) in stage.iter_mut().enumerate() {
+                *x = (state.exact(i) + change(weights, &self.slopes, i, step)).high;
+            }
+        }
+        self.evaluate(step, state.time)?;
+        for i in 0..state.values.len() {
+            state.set(i, state.exact(i) + change(&self.tableau.weights, &self.slopes, i, step));
+        }
+        self.contiguous = true;
+        Ok(())
+    }
+}
+
+/// h Σ w f of one number, in all digits.
+fn change(weights: &[Double], slopes: &[Vec<f64>], i: usize, step: f64) -> Double {
+    let pairs = weights.iter().zip(slopes);
+    pairs.fold(Double::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
+}

@@ -1,0 +1,65 @@
+//! The coefficients of Gauss's methods of two and of three stages.
+//!
+//! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, table II.1.1.
+
+use crate::expr::{Double, Real};
+
+/// The coefficients of one method.
+#[derive(Clone, Debug)]
+pub(super) struct Tableau {
+    /// c: at which parts of a step the stages stand.
+    pub(super) nodes: Vec<Double>,
+    /// b.
+    pub(super) weights: Vec<Double>,
+    /// a, row by row.
+    pub(super) matrix: Vec<Vec<Double>>,
+    /// Row i: the polynomial through the slopes at the nodes, taken at 1 + c_i.
+    pub(super) onward: Vec<Vec<f64>>,
+}
+
+pub(super) fn of_two_stages() -> Tableau {
+    let root = root_of(3);
+    let quarter = Double::from(0.25);
+    Tableau::new(
+        vec![half() - root / 6.0, half() + root / 6.0],
+        vec![half(), half()],
+        vec![vec![quarter, quarter - root / 6.0], vec![quarter + root / 6.0, quarter]],
+    )
+}
+
+pub(super) fn of_three_stages() -> Tableau {
+    let root = root_of(15);
+    let [outer, middle] = [Double::from(5.0) / 36.0, Double::from(2.0) / 9.0];
+    Tableau::new(
+        vec![half() - root / 10.0, half(), half() + root / 10.0],
+        vec![outer * 2.0, middle * 2.0, outer * 2.0],
+        vec![
+            vec![outer, middle - root / 15.0, outer - root / 30.0],
+            vec![outer + root / 24.0, middle, outer - root / 24.0],
+            vec![outer + root / 30.0, middle + root / 15.0, outer],
+        ],
+    )
+}
+
+fn root_of(n: i64) -> Double {
+    Double::integer(n).sqrt()
+}
+
+fn half() -> Double {
+    Double::from(0.5)
+}
+
+impl Tableau {
+    fn new(nodes: Vec<Double>, weights: Vec<Double>, matrix: Vec<Vec<Double>>) -> Tableau {
+        let c: Vec<f64> = nodes.iter().map(|c| c.high).collect();
+        let row = |x: f64| (0..c.len()).map(|j| lagrange(&c, j, 1.0 + x)).collect();
+        let onward = c.iter().map(|&x| row(x)).collect();
+        Tableau { nodes, weights, matrix, onward }
+    }
+}
+
+/// The polynomial that is 1 at node j and 0 at the others, at `x`.
+fn lagrange(nodes: &[f64], j: usize, x: f64) -> f64 {
+    let others = nodes.iter().enumerate().filter(|&(k, _)| k != j);
+    others.map(|(_, c)| (x - c) / (nodes[j] - c)).product()
+}

@@ -1,0 +1,77 @@
+//! Splitting: H = T(p) + V(q, t) is moved by V alone and by T alone in turn, each exactly.
+//!
+//! Störmer and Verlet's step is half a kick, a drift, half a kick. Its composition with steps
+//! w₁ h, w₂ h, …, symmetric and of sum h, is of a higher order where the w are right.
+//!
+//! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
+
+use super::fixed::{FixedStep, Scheme, add};
+use super::method::{Made, Method, Refusal, Settings};
+use crate::system::{Fault, Form, Rates, State, System};
+
+/// What a system must be for it.
+pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
+
+/// Whether a system is so.
+pub(super) fn fits(method: &Method, system: &System) -> Result<(), Refusal> {
+    system.separable().map_err(|why| Refusal { method: method.name, reason: why.to_owned() })
+}
+
+/// A stepper by `weights`, the parts of the step in order.
+pub(super) fn make(
+    method: &Method,
+    system: &System,
+    settings: &Settings,
+    weights: Vec<f64>,
+) -> Made {
+    fits(method, system)?;
+    let Some((drift, kick)) = system.split_rates() else {
+        return Err(Refusal { method: method.name, reason: format!("{NEEDS} does not hold") });
+    };
+    let zeros = vec![0.0; system.state_len()];
+    let scheme =
+        Splitting { drift, kick, weights, velocity: zeros.clone(), force: zeros, known: false };
+    Ok(Box::new(FixedStep::new(method.name, system, settings, scheme)?))
+}
+
+#[derive(Clone)]
+struct Splitting {
+    drift: Rates,
+    kick: Rates,
+    weights: Vec<f64>,
+    velocity: Vec<f64>,
+    force: Vec<f64>,
+    /// `force` is that of the present place: of the last kick, which changed only momenta.
+    known: bool,
+}
+
+impl Scheme for Splitting {
+    fn form(&self) -> Form {
+        Form::Momentum
+    }
+
+    fn begin(&mut self, parameters: &[f64]) {
+        self.drift.set_parameters(parameters);
+        self.kick.set_parameters(parameters);
+        self.known = false;
+    }
+
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+        if !self.known {
+            self.kick.evaluate(state.time, &state.values, &mut self.force)?;
+        }
+        self.known = false;
+        let (mut before, mut gone) = (0.0, 0.0);
+        for &w in &self.weights {
+            add(state, 0.5 * (before + w) * step, &self.force);
+            self.drift.evaluate(state.time, &state.values, &mut self.velocity)?;
+            add(state, w * step, &self.velocity);
+            gone += w;
+            self.kick.evaluate(state.time + gone * step, &state.values, &mut self.force)?;
+            before = w;
+        }
+        add(state, 0.5 * before * step, &self.force);
+        self.known = true;
+        Ok(())
+    }
+}

@@ -1,0 +1,242 @@
+//! Kinks: which branch the functions with a kink take, where along a step a switch changes sign,
+//! and what becomes of the motion there.
+//!
+//! At a switching surface each side says where its own branch leads. If one leads away from the
+//! surface, the motion goes that way. If both lead back (dry friction bringing a body to rest),
+//! the motion stays on the surface: the branches are mixed with the weight that keeps the switch
+//! at zero, until that weight leaves [−1, 1] (A. F. Filippov, Differential Equations with
+//! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
+
+use super::super::roots::{first_crossing, value_and_slope};
+use crate::expr::Double;
+use crate::system::{Fault, Series, Side, State};
+
+/// Switches that cross within this part of a step of each other cross together.
+const TOGETHER: f64 = 1e-12;
+
+/// A term smaller than this part of the largest says nothing about a direction.
+const SIGNIFICANT: f64 = 1e-9;
+
+/// How many switches at once are tried in every combination.
+const COMBINED: usize = 5;
+
+/// Surfaces met at one and the same time before the motion counts as stuck.
+const PATIENCE: u32 = 64;
+
+/// Where the motion stands with respect to its switching surfaces.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Kinks {
+    /// The switches whose surface the present state lies on.
+    on_surface: Vec<usize>,
+    /// How many steps in a row ended on a surface without moving the clock.
+    stalled: u32,
+}
+
+/// A surface met within a step.
+pub(super) struct Crossing {
+    /// The time after the series' origin, in its unit.
+    pub(super) after: Double,
+    switches: Vec<usize>,
+}
+
+impl Kinks {
+    /// Chooses the sides at the first state: by the sign of each switch, and where one is zero by
+    /// where the motion goes.
+    pub(super) fn begin(&mut self, series: &mut Series, state: &State) -> Result<(), Fault> {
+        *self = Kinks::default();
+        if series.switches() == 0 {
+            return Ok(());
+        }
+        // a switch may itself depend on the sides of others
+        for _ in 0..=series.switches() {
+            series.build(state)?;
+            let mut settled = true;
+            self.on_surface.clear();
+            for i in 0..series.switches() {
+                let value = series.switch(i)[0];
+                let side = if value < 0.0 { Side::Negative } else { Side::Positive };
+                settled &= series.sides()[i] == side;
+                series.set_side(i, side);
+                if value == 0.0 {
+                    self.on_surface.push(i);
+                }
+            }
+            if settled {
+                break;
+            }
+        }
+        for &i in &self.on_surface {
+            // so that the positive side, behind the surface, is tried first
+            series.set_side(i, Side::Negative);
+        }
+        Ok(())
+    }
+
+    /// On a surface: the choices of sides there, the likeliest first.
+    pub(super) fn undecided(&self, series: &Series) -> Option<Vec<Vec<Side>>> {
+        let before: Vec<Side> = self.on_surface.iter().map(|&i| series.sides()[i]).collect();
+        (!before.is_empty()).then(|| candidates(&before))
+    }
+
+    /// Takes a choice of sides on the surface.
+    pub(super) fn choose(&self, series: &mut Series, sides: &[Side]) {
+        for (&i, &side) in self.on_surface.iter().zip(sides) {
+            series.set_side(i, side);
+        }
+    }
+
+    /// Whether the motion goes on to the sides chosen; `step` is how far the series reaches.
+    pub(super) fn leads_on(&self, series: &Series, step: f64) -> bool {
+        let reach = (step / series.scale().abs()).min(1.0);
+        self.on_surface.iter().all(|&i| leads_on(series, i, reach))
+    }
+
+    /// The first surface that the series meets before `end`, in its unit of time.
+    pub(super) fn first(&self, series: &Series, end: f64) -> Option<Crossing> {
+        let met = |i: usize, end: f64| match series.sides()[i] {
+            Side::Between => leaves_weight(series.weight(i), end),
+            side => self.leaves_side(i, series.switch(i), side, end),
+        };
+        let mut earliest: Option<(f64, usize)> = None;
+        for i in 0..series.switches() {
+            let end = earliest.map_or(end, |(x, _)| x);
+            if let Some(x) = met(i, end) {
+                earliest = Some((x, i));
+            }
+        }
+        let (x, first) = earliest?;
+        let near = x + TOGETHER * end.min(x.max(1e-3 * end));
+        let switches = (0..series.switches()).filter(|&i| i == first || met(i, near).is_some());
+        let switches: Vec<usize> = switches.collect();
+        let after = match series.sides()[first] {
+            Side::Between => Double::from(x),
+            _ => self.polish(series, first, x),
+        };
+        Some(Crossing { after, switches })
+    }
+
+    /// A step ends on a surface, or on none. False where the clock no longer moves.
+    pub(super) fn arrive(
+        &mut self,
+        crossing: Option<Crossing>,
+        series: &Series,
+        state: &mut State,
+    ) -> bool {
+        let moved = state.exact_time() != series.time();
+        self.stalled = if moved { 0 } else { self.stalled + 1 };
+        self.on_surface = crossing.map_or(Vec::new(), |crossing| crossing.switches);
+        for &i in &self.on_surface {
+            // a number of the state that has come to zero is zero, not a rounding error
+            if let (Some(number), true) = (series.switch_number(i), moved) {
+                state.set(number, Double::ZERO);
+            }
+        }
+        self.stalled < PATIENCE
+    }
+
+    /// Where a switch leaves its side. One whose surface the step begins on begins with its first
+    /// term that matters, whatever rounding says of those before it.
+    fn leaves_side(&self, i: usize, switch: &[f64], side: Side, end: f64) -> Option<f64> {
+        let sign = if side == Side::Negative { -1.0 } else { 1.0 };
+        let from = if self.on_surface.contains(&i) { first_that_matters(switch, end)? } else { 0 };
+        let mut signed = [0.0; 64];
+        let signed = &mut signed[..switch.len() - from];
+        for (c, x) in signed.iter_mut().zip(&switch[from..]) {
+            *c = sign * x;
+        }
+        falls(signed, end)
+    }
+
+    /// A root to the precision of the series' lowest orders.
+    fn polish(&self, series: &Series, i: usize, x: f64) -> Double {
+        let origin = if self.on_surface.contains(&i) {
+            series.switch_after(i, Double::ZERO)
+        } else {
+            Double::ZERO
+        };
+        let mut x = Double::from(x);
+        for _ in 0..2 {
+            let (_, slope) = value_and_slope(series.switch(i), x.high);
+            let correction = (series.switch_after(i, x) - origin) / slope;
+            // a root of higher order is known to fewer digits and is left alone
+            if correction.high.abs() < 1e-6 * x.high {
+                x = x - correction;
+            }
+        }
+        x
+    }
+}
+
+/// Whether the motion goes on to the side chosen at a surface: the first term of the switch that
+/// matters has that sign.
+fn leads_on(series: &Series, i: usize, reach: f64) -> bool {
+    let sign = match series.sides()[i] {
+        Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
+        Side::Positive => 1.0,
+        Side::Negative => -1.0,
+    };
+    let switch = series.switch(i);
+    first_that_matters(switch, reach).is_none_or(|k| sign * switch[k] > 0.0)
+}
+
+/// The first term beyond the constant one that is not negligible beside the largest at a time.
+fn first_that_matters(switch: &[f64], time: f64) -> Option<usize> {
+    let terms = || {
+        let powers = std::iter::successors(Some(time), |x| Some(x * time));
+        switch.iter().enumerate().skip(1).zip(powers).map(|((k, c), x)| (k, (c * x).abs()))
+    };
+    let largest = terms().fold(0.0_f64, |m, (_, term)| m.max(term));
+    terms().find(|(_, term)| *term > SIGNIFICANT * largest).map(|(k, _)| k)
+}
+
+/// Where a weight leaves [−1, 1]. One that begins at the edge may leave at once.
+fn leaves_weight(weight: &[f64], end: f64) -> Option<f64> {
+    let edge = |sign: f64| {
+        let mut distance = [0.0; 64];
+        for (d, w) in distance.iter_mut().zip(weight) {
+            *d = -sign * w;
+        }
+        distance[0] = 1.0 - sign * weight[0];
+        let from = usize::from(distance[0] < 1e-12);
+        falls(&distance[from..weight.len()], end)
+    };
+    match (edge(1.0), edge(-1.0)) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (one, None) | (None, one) => one,
+    }
+}
+
+/// Where a polynomial that ought to be positive falls below zero: at once, later, or not.
+fn falls(coefficients: &[f64], end: f64) -> Option<f64> {
+    match coefficients.iter().find(|c| **c != 0.0) {
+        Some(c) if *c < 0.0 => Some(0.0),
+        Some(_) => first_crossing(coefficients, end),
+        None => None,
+    }
+}
+
+/// The choices of sides to try, the likeliest first: through the surface; back or through; held
+/// on it.
+fn candidates(before: &[Side]) -> Vec<Vec<Side>> {
+    let through = |side: &Side| match side {
+        Side::Positive => Side::Negative,
+        Side::Negative | Side::Between => Side::Positive,
+    };
+    let flipped: Vec<Side> = before.iter().map(through).collect();
+    let mut all = vec![flipped];
+    if before.len() > COMBINED {
+        all.push(vec![Side::Between; before.len()]);
+        return all;
+    }
+    let sides = [Side::Positive, Side::Negative, Side::Between];
+    let mut others: Vec<Vec<Side>> = vec![Vec::new()];
+    for _ in before {
+        let longer = |list: &Vec<Side>| {
+            sides.map(|side| list.iter().copied().chain([side]).collect::<Vec<_>>())
+        };
+        others = others.iter().flat_map(longer).collect();
+    }
+    others.sort_by_key(|list| list.iter().filter(|side| **side == Side::Between).count());
+    all.extend(others);
+    all
+}

@@ -1,0 +1,110 @@
+//! How long a step a series allows.
+//!
+//! Each number of the state is judged by its own size, so units do not matter and nothing small
+//! is lost beside something large. Its series is cut off at order p; the step h is such that the
+//! last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j |c_j| h^j, and stays inside the radius
+//! of convergence however small those terms are: a body far from a collision hardly feels it.
+
+use crate::system::Series;
+
+/// The part of the tolerance that the last terms may have: they stand for all that is cut off,
+/// and cutting off errs in one direction step by step, while rounding does not.
+const SHARE: f64 = 0.01;
+
+/// How many of the last orders are looked at. More than two, because symmetric motions have
+/// coefficients that vanish in a regular pattern.
+const LAST: usize = 4;
+
+/// How many orders before these are looked at too, with some indulgence.
+const BEFORE: usize = 6;
+const INDULGENCE: f64 = 1.5;
+
+/// The step's part of the radius of convergence at most.
+const PART_OF_RADIUS: f64 = 0.6;
+
+/// The tolerance of an integral carried along (action, work), in tolerances of the motion: its
+/// errors act back on nothing.
+const SPARED: f64 = 1e3;
+
+/// How far the argument of a function may move in one step: a potential that is felt only from
+/// nearby is not to be jumped over.
+const FARTHEST_ARGUMENT: f64 = 6.0;
+
+/// The order at which a tolerance costs least: the step grows with the order, the work with its
+/// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 where each order costs the same work;
+/// orders cost less here).
+pub(super) fn order_for(tolerance: f64) -> usize {
+    ((-tolerance.ln() * 0.66).ceil() as usize).clamp(12, 44)
+}
+
+/// Whether all rates of change are finite.
+pub(super) fn has_velocity(series: &Series) -> bool {
+    numbers(series).all(|c| c[1].is_finite())
+}
+
+/// The longest step that a tolerance allows, in the unit of the series; infinite for a
+/// polynomial. `None` where a coefficient is not finite.
+pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
+    let tolerance = tolerance * SHARE;
+    let mut logs = [0.0; 64];
+    let mut shortest = f64::INFINITY;
+    let judged = numbers(series).chain((0..series.switches()).map(|i| series.switch(i)));
+    let judged = judged.map(|c| (c, tolerance));
+    let integrals = integrals(series).map(|c| (c, tolerance * SPARED));
+    for (c, tolerance) in judged.chain(integrals) {
+        if c.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        for (log, x) in logs.iter_mut().zip(c) {
+            *log = x.abs().ln();
+        }
+        shortest = shortest.min(of_one(&logs[..c.len()], tolerance.ln()));
+    }
+    for u in series.arguments() {
+        for k in 1..=3 {
+            let bound = (FARTHEST_ARGUMENT / u[k].abs()).powf(1.0 / k as f64);
+            if bound.is_finite() {
+                shortest = shortest.min(bound);
+            }
+        }
+    }
+    Some(shortest)
+}
+
+/// The coordinates' and rates' series.
+fn numbers(series: &Series) -> impl Iterator<Item = &[f64]> {
+    (0..series.inputs()).map(|i| series.coefficients(i))
+}
+
+/// The series of the integrals carried along.
+fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
+    (series.inputs()..series.len()).map(|i| series.coefficients(i))
+}
+
+/// The step of one number, from the logarithms of its coefficients.
+fn of_one(logs: &[f64], log_tolerance: f64) -> f64 {
+    let p = logs.len() - 1;
+    let mut shortest = f64::INFINITY;
+    for k in (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p {
+        if logs[k] == f64::NEG_INFINITY {
+            continue;
+        }
+        let (mut by_tolerance, mut radius) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for j in 0..k {
+            let root = (logs[j] - logs[k]) / (k - j) as f64;
+            by_tolerance = by_tolerance.max(root + log_tolerance / (p - j) as f64);
+            if (2..k - 1).contains(&j) {
+                radius = radius.max(root);
+            }
+        }
+        let mut log_step = by_tolerance;
+        if radius > f64::NEG_INFINITY {
+            log_step = log_step.min(radius + PART_OF_RADIUS.ln());
+        }
+        if k + LAST <= p {
+            log_step += INDULGENCE.ln();
+        }
+        shortest = shortest.min(log_step.exp());
+    }
+    shortest
+}

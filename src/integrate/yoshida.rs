@@ -1,0 +1,70 @@
+//! Yoshida's symmetric compositions of leapfrogs, of order 4, 6 and 8.
+//!
+//! Source: H. Yoshida, Physics Letters A 150 (1990) 262: equation 4.1 for order 4, solution A of
+//! table 1 for order 6, solution D of table 2 for order 8. Order 6 with the further digits of
+//! E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, V.3.2.
+
+use super::method::{Method, Preserves, Stepping};
+use super::splitting;
+
+/// Of order 6: all but the middle one.
+const SIXTH: [f64; 3] = [0.784_513_610_477_557_3, 0.235_573_213_359_358_13, -1.177_679_984_178_871];
+
+/// Of order 8.
+const EIGHTH: [f64; 7] = [
+    0.914_844_246_229_740,
+    0.253_693_336_566_229,
+    -1.444_852_236_860_48,
+    -0.158_240_635_368_243,
+    1.938_139_137_622_76,
+    -1.960_610_232_975_49,
+    0.102_799_849_391_985,
+];
+
+pub(super) const FOURTH_ORDER: Method = Method {
+    name: "yoshida4",
+    title: "Yoshida, order 4",
+    order: Some(4),
+    stepping: Stepping::Fixed,
+    preserves: Preserves::Symplectic,
+    needs: splitting::NEEDS,
+    about: "Three leapfrogs, the middle one backwards: order 4 without a drift of energy. \
+            Yoshida, Physics Letters A 150 (1990) 262, eq. 4.1.",
+    fits: |system| splitting::fits(&FOURTH_ORDER, system),
+    make: |system, settings| {
+        let outer = 1.0 / (2.0 - 2.0_f64.cbrt());
+        splitting::make(&FOURTH_ORDER, system, settings, palindrome(&[outer]))
+    },
+};
+
+pub(super) const SIXTH_ORDER: Method = Method {
+    name: "yoshida6",
+    title: "Yoshida, order 6",
+    order: Some(6),
+    stepping: Stepping::Fixed,
+    preserves: Preserves::Symplectic,
+    needs: splitting::NEEDS,
+    about: "Seven leapfrogs of different length: order 6 without a drift of energy. Yoshida, \
+            Physics Letters A 150 (1990) 262, solution A.",
+    fits: |system| splitting::fits(&SIXTH_ORDER, system),
+    make: |system, settings| splitting::make(&SIXTH_ORDER, system, settings, palindrome(&SIXTH)),
+};
+
+pub(super) const EIGHTH_ORDER: Method = Method {
+    name: "yoshida8",
+    title: "Yoshida, order 8",
+    order: Some(8),
+    stepping: Stepping::Fixed,
+    preserves: Preserves::Symplectic,
+    needs: splitting::NEEDS,
+    about: "Fifteen leapfrogs of different length: order 8 without a drift of energy, for small \
+            errors at large steps. Yoshida, Physics Letters A 150 (1990) 262, solution D.",
+    fits: |system| splitting::fits(&EIGHTH_ORDER, system),
+    make: |system, settings| splitting::make(&EIGHTH_ORDER, system, settings, palindrome(&EIGHTH)),
+};
+
+/// The weights `outer`, one that brings their sum to 1, and `outer` backwards.
+fn palindrome(outer: &[f64]) -> Vec<f64> {
+    let middle = 1.0 - 2.0 * outer.iter().sum::<f64>();
+    outer.iter().copied().chain([middle]).chain(outer.iter().rev().copied()).collect()
+}

@@ -1,0 +1,18 @@
+//! phaselab: a laboratory for analytical mechanics that lives in a terminal.
+//!
+//! The way of the data, one folder a stage: a file becomes a [`model`], the model [`mechanics`]'
+//! equations, …; `ARCHITECTURE.md` has the whole picture.
+
+pub mod analysis;
+pub mod app;
+pub mod cli;
+pub mod experiment;
+pub mod expr;
+pub mod integrate;
+pub mod mechanics;
+pub mod model;
+pub mod preset;
+pub mod shell;
+pub mod system;
+pub mod view;
+pub mod worker;

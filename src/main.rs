@@ -1,0 +1,8 @@
+//! The thin binary.
+
+use std::process::ExitCode;
+
+fn main() -> color_eyre::Result<ExitCode> {
+    phaselab::shell::report_panics()?;
+    Ok(phaselab::cli::main(std::env::args_os()))
+}

@@ -1,0 +1,55 @@
+//! From a law to equations of motion: one file per arrow, all of it symbolic.
+//!
+//! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
+//! of its change, what is conserved and why. Never here: numbers in motion.
+
+mod equations;
+mod hamilton;
+mod invariants;
+mod lagrange;
+mod legendre;
+mod linear;
+mod observe;
+mod symmetry;
+
+use crate::expr::NODE_LIMIT;
+use crate::model::{Mechanics, Model};
+
+pub use equations::{Conserved, CoordinateSymbols, Equations, Flow, Reason, Separable, WhyNot};
+pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
+
+/// The most pieces a solved or transformed expression may have and still be worth writing down.
+pub const CLOSED_FORM_LIMIT: u64 = 10_000;
+
+/// Derives everything that follows from a model's law of motion.
+///
+/// # Errors
+/// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
+pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
+    let mut pool = model.pool.clone();
+    let mut equations = match &model.mechanics {
+        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
+            lagrange::equations(&mut pool, model, *lagrangian, *dissipation, forces)
+        }
+        Mechanics::Hamiltonian { hamiltonian, forces } => {
+            hamilton::equations(&mut pool, model, *hamiltonian, forces)
+        }
+    };
+    equations.pool = pool;
+    invariants::find(&mut equations, model);
+    if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
+        return Err(WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes")));
+    }
+    Ok(equations)
+}
+
+/// The pieces of the longest expression derived, written out.
+fn longest(equations: &Equations) -> u64 {
+    let (first, second) = match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => (mass.concat(), force),
+        Flow::Hamilton { velocities, momentum_rates } => (velocities.clone(), momentum_rates),
+    };
+    let others = [equations.energy, equations.energy_rate, equations.action_rate];
+    let all = first.iter().chain(second).chain(&equations.momenta).chain(&others);
+    all.map(|&e| equations.pool.weight(e)).max().unwrap_or(0)
+}

@@ -1,0 +1,155 @@
+//! What follows from a law of motion.
+
+use crate::expr::{Expr, Pool, Symbol};
+use crate::model::{CommonSymbols, Model};
+
+/// Everything derived from one model. All expressions live in `pool`; they are functions of
+/// (q, q̇, t) for a Lagrangian system and of (q, p, t) for a Hamiltonian one, unless said
+/// otherwise.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// The model's pool, grown by what was derived.
+    pub pool: Pool,
+    /// The four symbols of each coordinate.
+    pub coordinates: Vec<CoordinateSymbols>,
+    /// Time, `energy` and `action`.
+    pub symbols: CommonSymbols,
+    /// p_i: ∂L/∂q̇_i for a Lagrangian, the symbol p_i itself for a Hamiltonian.
+    pub momenta: Vec<Expr>,
+    /// The equations of motion in the form they are integrated in.
+    pub flow: Flow,
+    /// L, given or found from H by the inverse Legendre transform.
+    pub lagrangian: Result<Expr, WhyNot>,
+    /// H(q, p, t), given or found from L.
+    pub hamiltonian: Result<Expr, WhyNot>,
+    /// For a Lagrangian system q̇(q, p, t) where it exists in closed form; for a Hamiltonian one
+    /// ∂H/∂p.
+    pub velocities: Result<Vec<Expr>, WhyNot>,
+    /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, or H.
+    pub energy: Expr,
+    /// dh/dt by its law: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q, or ∂H/∂t + Σ force ∂H/∂p. Exactly zero where
+    /// energy is conserved; its integral is the energy ledger's other side.
+    pub energy_rate: Expr,
+    /// d(action)/dt = L (for a Hamiltonian system Σ p ∂H/∂p − H).
+    pub action_rate: Expr,
+    /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian); q̇ then ṗ (Hamiltonian).
+    pub solved: Result<Vec<Expr>, WhyNot>,
+    /// The cyclic coordinates, by index.
+    pub cyclic: Vec<usize>,
+    /// What is conserved, and why.
+    pub conserved: Vec<Conserved>,
+    /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
+    pub separable: Result<Separable, WhyNot>,
+}
+
+/// The symbols of one coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct CoordinateSymbols {
+    /// q.
+    pub position: Symbol,
+    /// q̇.
+    pub velocity: Symbol,
+    /// q̈.
+    pub acceleration: Symbol,
+    /// p.
+    pub momentum: Symbol,
+}
+
+/// The equations of motion as they are integrated.
+#[derive(Clone, Debug)]
+pub enum Flow {
+    /// M q̈ = f.
+    Lagrange {
+        /// M_ij = ∂²L/∂q̇_i ∂q̇_j, symmetric.
+        mass: Vec<Vec<Expr>>,
+        /// f = ∂L/∂q − (∂²L/∂q̇∂q) q̇ − ∂²L/∂q̇∂t − ∂F/∂q̇ + Q.
+        force: Vec<Expr>,
+        /// ṗ as a function of (q, q̇, t): ∂L/∂q − ∂F/∂q̇ + Q.
+        momentum_rates: Vec<Expr>,
+    },
+    /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
+    Hamilton {
+        /// q̇.
+        velocities: Vec<Expr>,
+        /// ṗ.
+        momentum_rates: Vec<Expr>,
+    },
+}
+
+/// Something conserved.
+#[derive(Clone, Debug)]
+pub struct Conserved {
+    /// `energy`, `p_phi`, or an observable's name.
+    pub name: String,
+    /// As a function of the state.
+    pub expression: Expr,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why something is conserved.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// ∂L/∂q_i = 0 and no force on it; holds the coordinate's shown name.
+    Cyclic(String),
+    /// ∂L/∂t = 0 (or ∂H/∂t = 0, as the letter says) and nothing dissipates or drives.
+    TimeTranslation(char),
+    /// Moving these coordinates together changes nothing; holds their shown names.
+    Translation(String),
+    /// Turning all points about this axis changes nothing.
+    Rotation(char),
+    /// dG/dt = 0 along the motion, proved symbolically.
+    Proved,
+    /// dG/dt = 0 to rounding at many points of phase space, no proof found.
+    Numerically,
+    /// The file says so; the drift is what there is to see.
+    Declared,
+}
+
+/// H = T(p) + V(q, t).
+#[derive(Clone, Debug)]
+pub struct Separable {
+    /// ∂T/∂p, in p only.
+    pub velocities: Vec<Expr>,
+    /// −∂V/∂q, in q and t only.
+    pub momentum_rates: Vec<Expr>,
+}
+
+/// Why something does not exist in closed form, as a sentence for the user.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct WhyNot(pub String);
+
+impl Equations {
+    /// Whether the state holds velocities (Lagrangian) or momenta (Hamiltonian).
+    pub fn is_lagrangian(&self) -> bool {
+        matches!(self.flow, Flow::Lagrange { .. })
+    }
+}
+
+impl CoordinateSymbols {
+    /// The symbols of a model's coordinates, in order.
+    pub fn of(model: &Model) -> Vec<CoordinateSymbols> {
+        let symbols = |c: &crate::model::Coordinate| CoordinateSymbols {
+            position: c.position,
+            velocity: c.velocity,
+            acceleration: c.acceleration,
+            momentum: c.momentum,
+        };
+        model.coordinates.iter().map(symbols).collect()
+    }
+}
+
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reason::Cyclic(name) => write!(f, "cyclic {name}"),
+            Reason::TimeTranslation(law) => write!(f, "∂{law}/∂t = 0"),
+            Reason::Translation(names) => write!(f, "translation of {names}"),
+            Reason::Rotation(axis) => write!(f, "rotation about {axis}"),
+            Reason::Proved => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
+            Reason::Numerically => f.write_str("checked numerically"),
+            Reason::Declared => f.write_str("declared"),
+        }
+    }
+}

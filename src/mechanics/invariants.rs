@@ -1,0 +1,120 @@
+//! What is conserved, found symbolically and never asked of the user: cyclic momenta, the energy,
+//! the momenta of common translations and rotations (`symmetry`), and those of the file's
+//! observables whose rate of change vanishes.
+//! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
+
+use super::equations::{Conserved, Equations, Flow, Reason};
+use super::symmetry;
+use crate::expr::{Expr, Symbol, Zero};
+use crate::model::{Mechanics, Model, Observable};
+
+/// Fills `cyclic` and `conserved`.
+pub(super) fn find(equations: &mut Equations, model: &Model) {
+    let rates = match &equations.flow {
+        Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. } => {
+            momentum_rates.clone()
+        }
+    };
+    for (i, (&rate, coordinate)) in rates.iter().zip(&model.coordinates).enumerate() {
+        let reason = match equations.pool.is_zero(rate) {
+            Zero::No => continue,
+            Zero::Numerically => Reason::Numerically,
+            // a force that balances a slope leaves p constant, but the coordinate is not cyclic
+            Zero::Proved if is_absent(equations, model, i) => {
+                equations.cyclic.push(i);
+                Reason::Cyclic(coordinate.shown.clone())
+            }
+            Zero::Proved => Reason::Proved,
+        };
+        equations.conserved.push(Conserved {
+            name: format!("p_{}", coordinate.name),
+            expression: equations.momenta[i],
+            reason,
+        });
+    }
+    let energy = Conserved {
+        name: "energy".to_owned(),
+        expression: equations.energy,
+        reason: Reason::TimeTranslation(if equations.is_lagrangian() { 'L' } else { 'H' }),
+    };
+    let rate = equations.energy_rate;
+    match equations.pool.is_zero(rate) {
+        Zero::Proved => equations.conserved.push(energy),
+        Zero::Numerically => {
+            equations.conserved.push(Conserved { reason: Reason::Numerically, ..energy });
+        }
+        Zero::No => {}
+    }
+    symmetry::find(equations, model, &rates);
+    for observable in &model.observables {
+        name_observable(equations, observable);
+    }
+}
+
+/// Adds an observable that is conserved. One that was found already, as the momentum of a
+/// symmetry, only gives it the file's own name.
+fn name_observable(equations: &mut Equations, observable: &Observable) {
+    let expression = observable.expression;
+    let opened = equations.open(expression);
+    for i in 0..equations.conserved.len() {
+        let known = &equations.conserved[i];
+        if !matches!(known.reason, Reason::Translation(_) | Reason::Rotation(_)) {
+            continue;
+        }
+        let difference = equations.pool.sub(opened, known.expression);
+        if equations.pool.is_zero(difference) == Zero::Proved {
+            observable.name.clone_into(&mut equations.conserved[i].name);
+            return;
+        }
+    }
+    let reason = match equations.is_conserved(expression) {
+        Some(Zero::Proved) => Reason::Proved,
+        Some(Zero::Numerically) => Reason::Numerically,
+        _ if observable.conserved == Some(true) => Reason::Declared,
+        _ => return,
+    };
+    equations.conserved.push(Conserved { name: observable.name.clone(), expression, reason });
+}
+
+/// Whether the i-th coordinate does not appear in L (or H).
+fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
+    let (Mechanics::Lagrangian { lagrangian: f, .. }
+    | Mechanics::Hamiltonian { hamiltonian: f, .. }) = model.mechanics;
+    let slope = equations.pool.derivative(f, model.coordinates[i].position);
+    equations.pool.is_zero(slope) == Zero::Proved
+}
+
+impl Equations {
+    /// Whether dG/dt = 0 along the motion, for G as an observable is written; `None` where the
+    /// rate is not known in closed form.
+    pub fn is_conserved(&mut self, observable: Expr) -> Option<Zero> {
+        let rate = self.rate_of(observable)?;
+        Some(self.pool.is_zero(rate))
+    }
+
+    /// dG/dt along the motion, in the variables of the state; `None` where the accelerations are
+    /// not known in closed form or G holds the action.
+    pub fn rate_of(&mut self, observable: Expr) -> Option<Expr> {
+        let g = self.open(observable);
+        let solved = self.solved.clone().ok()?;
+        let accelerations: Vec<Symbol> = self.coordinates.iter().map(|c| c.acceleration).collect();
+        if self.pool.depends(g, self.symbols.action) || self.pool.depends_on_any(g, &accelerations)
+        {
+            return None;
+        }
+        let n = self.coordinates.len();
+        let mut seeds = vec![(self.symbols.time, Expr::ONE)];
+        for i in 0..n {
+            let c = self.coordinates[i];
+            if self.is_lagrangian() {
+                let velocity = self.pool.variable(c.velocity);
+                seeds.push((c.position, velocity));
+                seeds.push((c.velocity, solved[i]));
+            } else {
+                seeds.push((c.position, solved[i]));
+                seeds.push((c.momentum, solved[n + i]));
+            }
+        }
+        Some(self.pool.derivation(g, &seeds))
+    }
+}

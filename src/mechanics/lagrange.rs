@@ -1,0 +1,125 @@
+//! Lagrange's equations, complete: d/dt(∂L/∂q̇) − ∂L/∂q + ∂F/∂q̇ = Q, expanded to M q̈ = f.
+//! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
+
+use super::equations::{CoordinateSymbols, Equations, Flow};
+use super::{hamilton, legendre, linear};
+use crate::expr::{Expr, Number, Pool, Symbol, Zero};
+use crate::model::Model;
+
+/// All that follows from L(q, q̇, t), Rayleigh's F(q, q̇, t) and the forces Q, but for the
+/// invariants. The pool field of the result is empty: the caller moves `pool` in.
+pub(super) fn equations(
+    pool: &mut Pool,
+    model: &Model,
+    lagrangian: Expr,
+    dissipation: Expr,
+    forces: &[Expr],
+) -> Equations {
+    let coordinates = CoordinateSymbols::of(model);
+    let time = model.symbols.time;
+    let velocities: Vec<Expr> = coordinates.iter().map(|c| pool.variable(c.velocity)).collect();
+
+    // p_i = ∂L/∂q̇_i, M_ij = ∂p_i/∂q̇_j
+    let momenta: Vec<Expr> =
+        coordinates.iter().map(|c| tidy_derivative(pool, lagrangian, c.velocity)).collect();
+    let mut mass = vec![vec![Expr::ZERO; coordinates.len()]; coordinates.len()];
+    for i in 0..coordinates.len() {
+        for j in 0..=i {
+            mass[i][j] = tidy_derivative(pool, momenta[i], coordinates[j].velocity);
+            mass[j][i] = mass[i][j];
+        }
+    }
+
+    // ṗ_i = ∂L/∂q_i − ∂F/∂q̇_i + Q_i, and f_i = ṗ_i − (q̇·∂/∂q + ∂/∂t) p_i
+    let drift: Vec<(Symbol, Expr)> = coordinates
+        .iter()
+        .zip(&velocities)
+        .map(|(c, &v)| (c.position, v))
+        .chain([(time, Expr::ONE)])
+        .collect();
+    let mut momentum_rates = Vec::new();
+    let mut force = Vec::new();
+    let mut power = Vec::new();
+    for (i, c) in coordinates.iter().enumerate() {
+        let slope = tidy_derivative(pool, lagrangian, c.position);
+        let friction = tidy_derivative(pool, dissipation, c.velocity);
+        let applied = [
+            (Number::MINUS_ONE, friction),
+            (Number::ONE, forces.get(i).copied().unwrap_or(Expr::ZERO)),
+        ];
+        let applied = pool.linear(Number::ZERO, &applied);
+        let rate = pool.add(slope, applied);
+        let carried = pool.derivation(momenta[i], &drift);
+        let acting = pool.sub(rate, carried);
+        momentum_rates.push(pool.simplify(rate));
+        force.push(pool.simplify(acting));
+        power.push(pool.mul(velocities[i], applied));
+    }
+
+    // dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q
+    let explicit = tidy_derivative(pool, lagrangian, time);
+    power.push(pool.neg(explicit));
+    let energy_rate = pool.sum(&power);
+    let energy_rate = zero_if_proved(pool, energy_rate);
+    let energy = energy_function(pool, &coordinates, lagrangian);
+
+    let solved = linear::solve(pool, &mass, &force).and_then(|solution| solution.x);
+    let transformed = legendre::lagrangian_to_hamiltonian(pool, &coordinates, lagrangian);
+    let (hamiltonian, found) = match transformed {
+        Ok((h, v)) => (Ok(h), v),
+        Err(why) => (Err(why.clone()), Err(why)),
+    };
+    let free = dissipation == Expr::ZERO && forces.iter().all(|&f| f == Expr::ZERO);
+    let separable = hamilton::separate(pool, &coordinates, time, hamiltonian.as_ref(), free);
+    Equations {
+        pool: Pool::new(),
+        coordinates,
+        symbols: model.symbols,
+        momenta,
+        flow: Flow::Lagrange { mass, force, momentum_rates },
+        lagrangian: Ok(lagrangian),
+        hamiltonian,
+        velocities: found,
+        energy,
+        energy_rate,
+        action_rate: lagrangian,
+        solved,
+        cyclic: Vec::new(),
+        conserved: Vec::new(),
+        separable,
+    }
+}
+
+/// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, term by term, so that what is homogeneous in the velocities keeps
+/// its form: a term of degree d gives d − 1 times itself (Euler).
+fn energy_function(pool: &mut Pool, coordinates: &[CoordinateSymbols], lagrangian: Expr) -> Expr {
+    let scaled: Vec<(Symbol, Expr)> =
+        coordinates.iter().map(|c| (c.velocity, pool.variable(c.velocity))).collect();
+    let mut parts: Vec<(Number, Expr)> = Vec::new();
+    for (c, term) in pool.summands(lagrangian) {
+        let euler = pool.derivation(term, &scaled);
+        let degree = (0..=4).find(|&d| {
+            let difference =
+                pool.linear(Number::ZERO, &[(Number::ONE, euler), (Number::integer(-d), term)]);
+            pool.is_zero(difference) == Zero::Proved
+        });
+        match degree {
+            Some(d) => parts.push((c * Number::integer(d - 1), term)),
+            None => parts.extend([(c, euler), (-c, term)]),
+        }
+    }
+    let energy = pool.linear(Number::ZERO, &parts);
+    pool.simplify_terms(energy)
+}
+
+/// ∂e/∂symbol, simplified, and 0 where it can be proved to vanish.
+pub(super) fn tidy_derivative(pool: &mut Pool, e: Expr, symbol: Symbol) -> Expr {
+    let slope = pool.derivative(e, symbol);
+    let slope = zero_if_proved(pool, slope);
+    pool.simplify(slope)
+}
+
+/// The expression itself, or 0 where it is proved to vanish identically.
+pub(super) fn zero_if_proved(pool: &mut Pool, e: Expr) -> Expr {
+    if pool.is_zero(e) == Zero::Proved { Expr::ZERO } else { e }
+}

@@ -1,0 +1,111 @@
+//! Symbolic solution of A x = b for the matrices of mechanics: elimination on the simplest pivot
+//! first (a constant on the diagonal before anything that moves), every entry simplified, given
+//! up as soon as it is too long to be read.
+
+use super::CLOSED_FORM_LIMIT;
+use super::equations::WhyNot;
+use crate::expr::{Expr, Number, Pool, Zero};
+
+/// A x = b, solved.
+pub(super) struct Solution {
+    /// x, where it is short enough to be read.
+    pub(super) x: Result<Vec<Expr>, WhyNot>,
+    /// Where every pivot stood on the diagonal: b̃_k and d_k of b·A⁻¹b = Σ b̃_k²/d_k for
+    /// symmetric A, the sum of squares that elimination leaves.
+    pub(super) squares: Option<Vec<(Expr, Expr)>>,
+}
+
+/// Solves A x = b.
+///
+/// # Errors
+/// Where A is singular, or an entry grows beyond [`CLOSED_FORM_LIMIT`] nodes.
+pub(super) fn solve(pool: &mut Pool, a: &[Vec<Expr>], b: &[Expr]) -> Result<Solution, WhyNot> {
+    let n = b.len();
+    let mut a = a.to_vec();
+    let mut b = b.to_vec();
+    let mut rows: Vec<usize> = (0..n).collect();
+    let mut columns: Vec<usize> = (0..n).collect();
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    while !rows.is_empty() {
+        let (r, c) = pivot(pool, &a, &rows, &columns)
+            .ok_or_else(|| WhyNot("the matrix is singular".to_owned()))?;
+        rows.retain(|&i| i != r);
+        columns.retain(|&j| j != c);
+        pivots.push((r, c));
+        for &i in &rows {
+            if a[i][c] == Expr::ZERO {
+                continue;
+            }
+            let factor = pool.div(a[i][c], a[r][c]);
+            for &j in &columns {
+                a[i][j] = reduced(pool, a[i][j], factor, a[r][j])?;
+            }
+            b[i] = reduced(pool, b[i], factor, b[r])?;
+        }
+    }
+    let x = substitute_back(pool, &a, &b, &pivots);
+    let diagonal = pivots.iter().all(|&(r, c)| r == c);
+    let squares = diagonal.then(|| pivots.iter().map(|&(r, _)| (b[r], a[r][r])).collect());
+    Ok(Solution { x, squares })
+}
+
+/// x from the triangle that elimination leaves.
+fn substitute_back(
+    pool: &mut Pool,
+    a: &[Vec<Expr>],
+    b: &[Expr],
+    pivots: &[(usize, usize)],
+) -> Result<Vec<Expr>, WhyNot> {
+    let mut x = vec![Expr::ZERO; b.len()];
+    for (k, &(r, c)) in pivots.iter().enumerate().rev() {
+        let mut terms = vec![(Number::ONE, b[r])];
+        for &(_, later) in &pivots[k + 1..] {
+            terms.push((Number::MINUS_ONE, pool.mul(a[r][later], x[later])));
+        }
+        let above = pool.linear(Number::ZERO, &terms);
+        let above = bounded(pool, above)?;
+        let quotient = pool.div(above, a[r][c]);
+        x[c] = bounded(pool, quotient)?;
+    }
+    Ok(x)
+}
+
+/// `entry − factor · other`, simplified.
+fn reduced(pool: &mut Pool, entry: Expr, factor: Expr, other: Expr) -> Result<Expr, WhyNot> {
+    if other == Expr::ZERO {
+        return Ok(entry);
+    }
+    let product = pool.mul(factor, other);
+    let difference = pool.sub(entry, product);
+    bounded(pool, difference)
+}
+
+fn bounded(pool: &mut Pool, e: Expr) -> Result<Expr, WhyNot> {
+    let simpler = if pool.weight(e) > CLOSED_FORM_LIMIT { e } else { pool.simplify(e) };
+    if pool.weight(simpler) > CLOSED_FORM_LIMIT {
+        return Err(WhyNot(format!("the solved form has more than {CLOSED_FORM_LIMIT} nodes")));
+    }
+    Ok(simpler)
+}
+
+/// The simplest entry that does not vanish, one on the diagonal before others.
+fn pivot(
+    pool: &mut Pool,
+    a: &[Vec<Expr>],
+    rows: &[usize],
+    columns: &[usize],
+) -> Option<(usize, usize)> {
+    let mut candidates: Vec<(bool, u64, usize, usize)> = Vec::new();
+    for &i in rows {
+        for &j in columns {
+            if a[i][j] != Expr::ZERO {
+                candidates.push((i != j, pool.weight(a[i][j]), i, j));
+            }
+        }
+    }
+    candidates.sort_unstable();
+    candidates
+        .into_iter()
+        .find(|&(_, _, i, j)| pool.is_zero(a[i][j]) == Zero::No)
+        .map(|(_, _, i, j)| (i, j))
+}

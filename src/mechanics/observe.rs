@@ -1,0 +1,40 @@
+//! Observables in the variables of the state: `energy`, momenta beside a Lagrangian, velocities
+//! and accelerations beside a Hamiltonian are opened.
+
+use std::collections::HashMap;
+
+use super::equations::{Equations, Flow};
+use crate::expr::{Expr, Symbol};
+
+impl Equations {
+    /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a
+    /// Lagrangian system, of (q, p, t) for a Hamiltonian one. The symbol `action` stays.
+    pub fn open(&mut self, observable: Expr) -> Expr {
+        let energy = HashMap::from([(self.symbols.energy, self.energy)]);
+        let e = self.pool.substitute(observable, &energy);
+        let mut replacements: HashMap<Symbol, Expr> = HashMap::new();
+        match self.flow.clone() {
+            Flow::Lagrange { .. } => {
+                for (c, &p) in self.coordinates.iter().zip(&self.momenta) {
+                    replacements.insert(c.momentum, p);
+                }
+            }
+            Flow::Hamilton { velocities, momentum_rates } => {
+                // q̈ = d/dt ∂H/∂p along the flow
+                let mut seeds = vec![(self.symbols.time, Expr::ONE)];
+                for (i, c) in self.coordinates.iter().enumerate() {
+                    seeds.push((c.position, velocities[i]));
+                    seeds.push((c.momentum, momentum_rates[i]));
+                }
+                for (i, c) in self.coordinates.iter().enumerate() {
+                    replacements.insert(c.velocity, velocities[i]);
+                    if self.pool.depends(e, c.acceleration) {
+                        let acceleration = self.pool.derivation(velocities[i], &seeds);
+                        replacements.insert(c.acceleration, acceleration);
+                    }
+                }
+            }
+        }
+        self.pool.substitute(e, &replacements)
+    }
+}

@@ -1,0 +1,112 @@
+//! Symmetries that move several coordinates at once, tried by their names: `x1, x2, …` shifted
+//! together, and all Cartesian pairs `(x…, y…)` turned together. Each is a proof, not a guess: the
+//! rate of its generator vanishes symbolically.
+//! Source: *The Principles of Dynamics*, §§ 1.1.2, 1.4.2.
+
+use std::collections::BTreeMap;
+
+use super::equations::{Conserved, Equations, Reason};
+use crate::expr::{Expr, Number, Zero};
+use crate::model::Model;
+
+/// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.
+pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
+    for (stem, members) in families(model) {
+        if members.iter().all(|i| equations.cyclic.contains(i)) {
+            continue;
+        }
+        let momenta: Vec<Expr> = members.iter().map(|&i| equations.momenta[i]).collect();
+        let rates: Vec<Expr> = members.iter().map(|&i| rates[i]).collect();
+        let rate = equations.pool.sum(&rates);
+        if equations.pool.is_zero(rate) == Zero::Proved {
+            let shown: Vec<&str> =
+                members.iter().map(|&i| model.coordinates[i].shown.as_str()).collect();
+            equations.conserved.push(Conserved {
+                name: format!("total p_{stem}"),
+                expression: equations.pool.sum(&momenta),
+                reason: Reason::Translation(shown.join(", ")),
+            });
+        }
+    }
+    for (first, second, axis) in [('x', 'y', 'z'), ('y', 'z', 'x'), ('z', 'x', 'y')] {
+        let pairs = pairs(model, first, second);
+        if pairs.is_empty() || !covers(model, first, second, pairs.len()) {
+            continue;
+        }
+        let (momentum, rate) = angular_momentum(equations, &pairs, rates);
+        if equations.pool.is_zero(rate) == Zero::Proved {
+            equations.conserved.push(Conserved {
+                name: format!("L_{axis}"),
+                expression: equations.pool.simplify_terms(momentum),
+                reason: Reason::Rotation(axis),
+            });
+        }
+    }
+}
+
+/// Coordinates whose names differ only in a trailing number, two or more of them.
+fn families(model: &Model) -> Vec<(String, Vec<usize>)> {
+    let mut families: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (i, c) in model.coordinates.iter().enumerate() {
+        let stem = c.name.trim_end_matches(|d: char| d.is_ascii_digit());
+        if stem.len() < c.name.len() && !stem.is_empty() {
+            families.entry(stem).or_default().push(i);
+        }
+    }
+    families
+        .into_iter()
+        .filter(|(_, members)| members.len() > 1)
+        .map(|(stem, members)| (stem.to_owned(), members))
+        .collect()
+}
+
+/// Cartesian pairs: `x…` with the `y…` of the same ending.
+fn pairs(model: &Model, first: char, second: char) -> Vec<(usize, usize)> {
+    let partner = |name: &str| {
+        let ending = name.strip_prefix(first)?;
+        model.coordinate(&format!("{second}{ending}"))
+    };
+    model.coordinates.iter().enumerate().filter_map(|(i, c)| Some((i, partner(&c.name)?))).collect()
+}
+
+/// Whether every coordinate that begins with either letter is in a pair.
+fn covers(model: &Model, first: char, second: char, pairs: usize) -> bool {
+    let cartesian = |letter: char| {
+        let one = |name: &str| {
+            name.strip_prefix(letter)
+                .is_some_and(|ending| ending.bytes().all(|b| b.is_ascii_digit()))
+        };
+        model.coordinates.iter().filter(|c| one(&c.name)).count()
+    };
+    cartesian(first) == pairs && cartesian(second) == pairs
+}
+
+/// Σ x p_y − y p_x and its rate Σ ẋ p_y + x ṗ_y − ẏ p_x − y ṗ_x.
+fn angular_momentum(
+    equations: &mut Equations,
+    pairs: &[(usize, usize)],
+    rates: &[Expr],
+) -> (Expr, Expr) {
+    let speeds: Vec<Expr> = match (&equations.velocities, equations.is_lagrangian()) {
+        (Ok(v), false) => v.clone(),
+        _ => {
+            let symbols: Vec<_> = equations.coordinates.iter().map(|c| c.velocity).collect();
+            symbols.into_iter().map(|s| equations.pool.variable(s)).collect()
+        }
+    };
+    let (mut momentum, mut rate) = (Vec::new(), Vec::new());
+    for &(i, j) in pairs {
+        let pool = &mut equations.pool;
+        let x = pool.variable(equations.coordinates[i].position);
+        let y = pool.variable(equations.coordinates[j].position);
+        let (p_x, p_y) = (equations.momenta[i], equations.momenta[j]);
+        momentum.push((Number::ONE, pool.mul(x, p_y)));
+        momentum.push((Number::MINUS_ONE, pool.mul(y, p_x)));
+        rate.push((Number::ONE, pool.mul(speeds[i], p_y)));
+        rate.push((Number::ONE, pool.mul(x, rates[j])));
+        rate.push((Number::MINUS_ONE, pool.mul(speeds[j], p_x)));
+        rate.push((Number::MINUS_ONE, pool.mul(y, rates[i])));
+    }
+    let pool = &mut equations.pool;
+    (pool.linear(Number::ZERO, &momentum), pool.linear(Number::ZERO, &rate))
+}

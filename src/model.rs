@@ -1,0 +1,180 @@
+//! A checked system: every name resolved, nothing left to guess, nothing yet derived.
+//!
+//! In: what `preset` read and checked. Out: one [`Model`], the input of `mechanics`. Its
+//! expressions live in its own [`Pool`]. Never here: files, spans of TOML, equations of motion.
+
+mod claim;
+mod coordinate;
+mod parameter;
+mod picture;
+mod scope;
+
+use crate::expr::{Expr, Pool, Symbol};
+
+pub use claim::{Expect, ExpectedValue, Observable, Place};
+pub use coordinate::Coordinate;
+pub use parameter::{Parameter, Scale};
+pub use picture::{Channel, Point, Shape, View, ViewKind};
+pub use scope::{Allowed, Scope};
+
+/// A mechanical system as a file describes it, checked.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Title, notes and where the system comes from.
+    pub info: Info,
+    /// Where all expressions of the model live.
+    pub pool: Pool,
+    /// Time, `energy` and `action`.
+    pub symbols: CommonSymbols,
+    /// The generalised coordinates, in order.
+    pub coordinates: Vec<Coordinate>,
+    /// The parameters, in order.
+    pub parameters: Vec<Parameter>,
+    /// Definitions, in order, already opened in every expression that uses them: kept to be shown.
+    pub definitions: Vec<(String, Expr)>,
+    /// What makes it move.
+    pub mechanics: Mechanics,
+    /// What the file wants to be watched.
+    pub observables: Vec<Observable>,
+    /// What the file claims of itself.
+    pub expect: Expect,
+    /// What the screen opens with.
+    pub views: Vec<View>,
+    /// The picture of the thing itself.
+    pub space: Vec<Shape>,
+    /// How it is run where nobody says otherwise.
+    pub run: RunSettings,
+}
+
+/// What a file says about itself in words.
+#[derive(Clone, Debug, Default)]
+pub struct Info {
+    /// The title.
+    pub title: String,
+    /// One line on what it is.
+    pub summary: String,
+    /// The book, section or paper it comes from.
+    pub source: String,
+    /// Its place in the notes, `2.3`.
+    pub chapter: String,
+    /// What it is about, the first one its home in the picker.
+    pub topics: Vec<String>,
+    /// What to look for, a few short paragraphs.
+    pub notes: String,
+}
+
+/// The symbols every model has.
+#[derive(Clone, Copy, Debug)]
+pub struct CommonSymbols {
+    /// `t`.
+    pub time: Symbol,
+    /// `energy`: Jacobi's h, or H. Stands in observables only.
+    pub energy: Symbol,
+    /// `action`: ∫ L dt from the start. Stands in observables only.
+    pub action: Symbol,
+}
+
+/// The law of motion as given.
+#[derive(Clone, Debug)]
+pub enum Mechanics {
+    /// d/dt(∂L/∂q̇) − ∂L/∂q + ∂F/∂q̇ = Q.
+    Lagrangian {
+        /// L(q, q̇, t).
+        lagrangian: Expr,
+        /// Rayleigh's function F(q, q̇, t); zero where there is none.
+        dissipation: Expr,
+        /// The generalised force on each coordinate; zero where there is none.
+        forces: Vec<Expr>,
+    },
+    /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
+    Hamiltonian {
+        /// H(q, p, t).
+        hamiltonian: Expr,
+        /// What is added to each ṗ; zero where there is none.
+        forces: Vec<Expr>,
+    },
+}
+
+/// How a system is run where nobody says otherwise.
+#[derive(Clone, Debug)]
+pub struct RunSettings {
+    /// The method's name, or `auto`.
+    pub method: String,
+    /// Where the file names it, for whoever knows the methods.
+    pub method_place: Option<Place>,
+    /// Simulated seconds per second of the wall clock.
+    pub speed: f64,
+    /// The time of the initial values.
+    pub start: f64,
+    /// When a run ends.
+    pub until: Option<f64>,
+    /// The step of a method of fixed step.
+    pub step: Option<f64>,
+    /// The relative tolerance of an adaptive method.
+    pub tolerance: Option<f64>,
+}
+
+impl Default for RunSettings {
+    fn default() -> Self {
+        RunSettings {
+            method: "auto".to_owned(),
+            method_place: None,
+            speed: 1.0,
+            start: 0.0,
+            until: None,
+            step: None,
+            tolerance: None,
+        }
+    }
+}
+
+impl Model {
+    /// An empty model that knows `t`, `energy` and `action`; `preset` fills it.
+    pub fn new(title: &str) -> Model {
+        let mut pool = Pool::new();
+        let symbols = CommonSymbols {
+            time: pool.symbol("t"),
+            energy: pool.symbol("energy"),
+            action: pool.symbol("action"),
+        };
+        pool.describe(symbols.time, "t", "t", crate::expr::Rank::Variable);
+        Model {
+            info: Info { title: title.to_owned(), ..Info::default() },
+            pool,
+            symbols,
+            coordinates: Vec::new(),
+            parameters: Vec::new(),
+            definitions: Vec::new(),
+            mechanics: Mechanics::Lagrangian {
+                lagrangian: Expr::ZERO,
+                dissipation: Expr::ZERO,
+                forces: Vec::new(),
+            },
+            observables: Vec::new(),
+            expect: Expect::default(),
+            views: Vec::new(),
+            space: Vec::new(),
+            run: RunSettings::default(),
+        }
+    }
+
+    /// Whether the file gives a Lagrangian (and so velocities at the start).
+    pub fn is_lagrangian(&self) -> bool {
+        matches!(self.mechanics, Mechanics::Lagrangian { .. })
+    }
+
+    /// The coordinate of a name.
+    pub fn coordinate(&self, name: &str) -> Option<usize> {
+        self.coordinates.iter().position(|c| c.name == name)
+    }
+
+    /// The parameter of a name.
+    pub fn parameter(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|p| p.name == name)
+    }
+
+    /// The parameters' values as the file gives them.
+    pub fn parameter_values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.value).collect()
+    }
+}

@@ -1,0 +1,48 @@
+//! What a file wants watched, and what it claims of itself.
+
+use crate::expr::Expr;
+
+/// A range of bytes in the file, to point at when a claim turns out false.
+pub type Place = std::ops::Range<usize>;
+
+/// A named quantity to be watched.
+#[derive(Clone, Debug)]
+pub struct Observable {
+    /// Its name, also its column.
+    pub name: String,
+    /// In q, q̇, q̈, p, t, parameters, `energy`, `action`; earlier observables are opened.
+    pub expression: Expr,
+    /// Whether the file claims that it is conserved (`true`) or that it is not (`false`).
+    pub conserved: Option<bool>,
+    /// Where the claim stands.
+    pub place: Place,
+}
+
+/// The file's own test.
+#[derive(Clone, Debug, Default)]
+pub struct Expect {
+    /// What is claimed to be conserved: `energy`, a momentum `p_x`, or an observable's name, each
+    /// with its place.
+    pub conserves: Vec<(String, Expr, Place)>,
+    /// Values the motion is to have.
+    pub values: Vec<ExpectedValue>,
+}
+
+/// A number the motion is to give.
+#[derive(Clone, Debug)]
+pub struct ExpectedValue {
+    /// What it is.
+    pub name: String,
+    /// As in an observable.
+    pub expression: Expr,
+    /// At what time.
+    pub at: f64,
+    /// What it is to be.
+    pub is: f64,
+    /// The absolute tolerance; 1e-10 where the file gives none.
+    pub within: f64,
+    /// Where the number comes from.
+    pub source: String,
+    /// Where the claim stands.
+    pub place: Place,
+}

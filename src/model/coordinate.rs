@@ -1,0 +1,109 @@
+//! A generalised coordinate with its four symbols.
+
+use crate::expr::{Expr, Pool, Rank, Symbol, latex_of_unicode, unicode_name};
+
+/// A generalised coordinate.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// As written in expressions: `theta`.
+    pub name: String,
+    /// As shown: `θ`.
+    pub shown: String,
+    /// Its unit, empty where none is given.
+    pub unit: String,
+    /// q.
+    pub position: Symbol,
+    /// q̇, written `theta'`.
+    pub velocity: Symbol,
+    /// q̈, written `theta''`; stands in observables only.
+    pub acceleration: Symbol,
+    /// The momentum conjugate to it, written `p_theta`.
+    pub momentum: Symbol,
+    /// The initial value, in parameters.
+    pub initial: Expr,
+    /// The initial velocity (Lagrangian) or momentum (Hamiltonian), in parameters; zero where the
+    /// file leaves it out.
+    pub initial_rate: Expr,
+    /// After what the coordinate repeats, in parameters; for drawing only.
+    pub period: Option<Expr>,
+}
+
+impl Coordinate {
+    /// A coordinate at rest at zero; introduces its four symbols into the pool. `shown` is the
+    /// symbol the file gives, or empty for the name's own.
+    pub fn new(pool: &mut Pool, name: &str, shown: &str, unit: &str) -> Coordinate {
+        let shown = if shown.is_empty() { unicode_name(name) } else { shown.to_owned() };
+        let latex = latex_of_unicode(&shown);
+        let mut introduce = |written: String, unicode: String, latex: String, rank| {
+            let symbol = pool.symbol(&written);
+            pool.describe(symbol, &unicode, &latex, rank);
+            symbol
+        };
+        let position = introduce(name.to_owned(), shown.clone(), latex.clone(), Rank::Variable);
+        let velocity = introduce(
+            format!("{name}'"),
+            dotted(&shown, '\u{307}'),
+            format!("\\dot{{{latex}}}"),
+            Rank::Rate,
+        );
+        let acceleration = introduce(
+            format!("{name}''"),
+            dotted(&shown, '\u{308}'),
+            format!("\\ddot{{{latex}}}"),
+            Rank::Rate,
+        );
+        let momentum = introduce(
+            format!("p_{name}"),
+            format!("p{}", subscript(&shown)),
+            format!("p_{{{latex}}}"),
+            Rank::Momentum,
+        );
+        Coordinate {
+            name: name.to_owned(),
+            shown,
+            unit: unit.to_owned(),
+            position,
+            velocity,
+            acceleration,
+            momentum,
+            initial: Expr::ZERO,
+            initial_rate: Expr::ZERO,
+            period: None,
+        }
+    }
+}
+
+/// The name with a dot (or two) over its first letter.
+fn dotted(shown: &str, mark: char) -> String {
+    let mut letters = shown.chars();
+    let first = letters.next().unwrap_or(' ');
+    let precomposed = match (first, mark) {
+        ('x', '\u{307}') => Some('ẋ'),
+        ('y', '\u{307}') => Some('ẏ'),
+        ('z', '\u{307}') => Some('ż'),
+        ('r', '\u{307}') => Some('ṙ'),
+        ('s', '\u{307}') => Some('ṡ'),
+        ('a', '\u{307}') => Some('ȧ'),
+        ('x', '\u{308}') => Some('ẍ'),
+        ('y', '\u{308}') => Some('ÿ'),
+        _ => None,
+    };
+    match precomposed {
+        Some(c) => format!("{c}{}", letters.as_str()),
+        None => format!("{first}{mark}{}", letters.as_str()),
+    }
+}
+
+/// The subscript of a momentum: a real subscript where common fonts have the letters.
+fn subscript(shown: &str) -> String {
+    let lowered: Option<String> = shown
+        .chars()
+        .map(|c| match c {
+            'x' => Some('ₓ'),
+            'r' => Some('ᵣ'),
+            '₀'..='₉' => Some(c),
+            _ => None,
+        })
+        .collect();
+    lowered.unwrap_or_else(|| format!("_{shown}"))
+}

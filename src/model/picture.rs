@@ -1,0 +1,102 @@
+//! What a file wants shown: views and the picture in space. Everything in it is an expression of
+//! the state, to be evaluated beside the observables.
+
+use crate::expr::Expr;
+
+/// An expression to be shown, as it was written.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// As written in the file.
+    pub written: String,
+    /// What it is.
+    pub expression: Expr,
+}
+
+/// One pane.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// What kind of pane.
+    pub kind: ViewKind,
+    /// A title, or empty.
+    pub title: String,
+    /// What runs along the axis.
+    pub x: Option<Channel>,
+    /// What runs up the axis; several in one time series.
+    pub y: Vec<Channel>,
+}
+
+/// The kinds of panes this version draws.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ViewKind {
+    /// The motion in space, from the file's shapes.
+    Space,
+    /// Two quantities against each other.
+    Phase,
+    /// Quantities against time.
+    Time,
+}
+
+/// A point in space: three expressions, z up; a plane system leaves the third at zero.
+pub type Point = [Expr; 3];
+
+/// One part of the picture in space.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A straight piece.
+    Line {
+        /// From here.
+        from: Point,
+        /// To here.
+        to: Point,
+    },
+    /// A coiled spring.
+    Spring {
+        /// From here.
+        from: Point,
+        /// To here.
+        to: Point,
+    },
+    /// A circle.
+    Circle {
+        /// Its centre.
+        centre: Point,
+        /// Its radius.
+        radius: Expr,
+        /// Its axis; z where the file gives none.
+        normal: Point,
+    },
+    /// A body.
+    Mass {
+        /// Where it is.
+        at: Point,
+        /// How large it is drawn; a dot where the file gives none.
+        radius: Option<Expr>,
+    },
+    /// The track a point leaves behind.
+    Trace {
+        /// The point.
+        at: Point,
+    },
+    /// An arrow.
+    Vector {
+        /// Its foot.
+        at: Point,
+        /// Its components.
+        components: Point,
+    },
+    /// A curve, sampled: `points` are the values of the file's expressions at evenly spaced
+    /// values of its own parameter `s`.
+    Path {
+        /// The sampled points, in order.
+        points: Vec<Point>,
+    },
+    /// A piece of a plane.
+    Plane {
+        /// Its middle.
+        at: Point,
+        /// Its normal.
+        normal: Point,
+        /// Its edge.
+        size: Expr,
+    },
+}

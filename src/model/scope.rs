@@ -1,0 +1,338 @@
+//! Which names an expression may use, by where it stands; and the clear sentence for each that it
+//! may not.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use super::Model;
+use crate::expr::{
+    Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, nearest, parse,
+};
+
+/// How deep an expression may go once its definitions are opened: the 256 parentheses a text may
+/// nest, with a call, a sum, a product and a power in each.
+const DEPTH_LIMIT: usize = 4 * 256;
+
+/// More mistakes than these in one place are not told.
+const MOST_MISTAKES: usize = 100;
+
+/// What may be used where.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Allowed {
+    /// Parameters only: initial values, periods.
+    Parameters,
+    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, forces beside a Lagrangian.
+    Lagrangian,
+    /// q, p, t, parameters: a Hamiltonian and forces beside it.
+    Hamiltonian,
+    /// All of it and q̈, `energy`, `action`: observables, views, shapes, expectations.
+    Observable,
+}
+
+/// The names of a model as one place of use sees them, and the mistakes met there.
+#[derive(Clone, Debug)]
+pub struct Scope {
+    allowed: Allowed,
+    place: String,
+    names: BTreeMap<String, Meaning>,
+    kinds: HashMap<Symbol, Kind>,
+    offenders: HashMap<Expr, Option<Symbol>>,
+    /// How many mistakes were met, those beyond the first hundred included.
+    complaints: usize,
+    /// The mistakes found so far, to be taken out by whoever tells them.
+    pub mistakes: Vec<SyntaxError>,
+    /// The names used, so that unused ones can be told.
+    pub used: BTreeSet<String>,
+}
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug)]
+enum Meaning {
+    Symbol(Symbol),
+    /// A coordinate: q, q̇ and q̈.
+    Position([Symbol; 3]),
+    Defined(Expr),
+    /// Something that is defined, but not above the place of use.
+    Later,
+}
+
+/// What a symbol is to mechanics. Parameters, and whatever else is constant, are not listed.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Time,
+    Position,
+    Velocity,
+    Acceleration,
+    Momentum,
+    Whole,
+}
+
+impl Scope {
+    /// The names of `model` (with its definitions) where `allowed` holds; `place` is how messages
+    /// call it: "the Lagrangian", "an initial value".
+    pub fn new(model: &Model, allowed: Allowed, place: &str) -> Scope {
+        let mut names = BTreeMap::new();
+        let mut kinds = HashMap::new();
+        let common = model.symbols;
+        let whole = [("t", common.time, Kind::Time), ("energy", common.energy, Kind::Whole)];
+        for (name, symbol, kind) in
+            whole.into_iter().chain([("action", common.action, Kind::Whole)])
+        {
+            names.insert(name.to_owned(), Meaning::Symbol(symbol));
+            kinds.insert(symbol, kind);
+        }
+        for p in &model.parameters {
+            names.insert(p.name.clone(), Meaning::Symbol(p.symbol));
+        }
+        for c in &model.coordinates {
+            let symbols = [c.position, c.velocity, c.acceleration];
+            names.insert(c.name.clone(), Meaning::Position(symbols));
+            names.insert(format!("p_{}", c.name), Meaning::Symbol(c.momentum));
+            kinds.insert(c.momentum, Kind::Momentum);
+            let rates = [Kind::Position, Kind::Velocity, Kind::Acceleration];
+            kinds.extend(symbols.into_iter().zip(rates));
+        }
+        for (name, e) in &model.definitions {
+            names.insert(name.clone(), Meaning::Defined(*e));
+        }
+        for o in &model.observables {
+            names.entry(o.name.clone()).or_insert(Meaning::Defined(o.expression));
+        }
+        Scope {
+            allowed,
+            place: place.to_owned(),
+            names,
+            kinds,
+            offenders: HashMap::new(),
+            complaints: 0,
+            mistakes: Vec::new(),
+            used: BTreeSet::new(),
+        }
+    }
+
+    /// Changes how messages call the place of use.
+    pub fn at(&mut self, place: &str) -> &mut Scope {
+        place.clone_into(&mut self.place);
+        self
+    }
+
+    /// Adds a name that stands for an expression (a definition, an earlier observable, the
+    /// parameter of a path).
+    pub fn define(&mut self, name: &str, e: Expr) {
+        self.names.insert(name.to_owned(), Meaning::Defined(e));
+    }
+
+    /// Adds a name that will be defined further down; until [`Scope::define`] gives it a meaning,
+    /// its use is a mistake of its own kind.
+    pub fn announce(&mut self, name: &str) {
+        self.names.entry(name.to_owned()).or_insert(Meaning::Later);
+    }
+
+    /// Whether a name is known here, whether or not it may be used.
+    pub fn knows(&self, name: &str) -> bool {
+        self.names.contains_key(name)
+    }
+
+    /// Reads an expression under this scope; `None` where there were mistakes, which are then in
+    /// [`Scope::mistakes`].
+    pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
+        let before = self.complaints;
+        match parse(text) {
+            Err(mistake) => self.complain(mistake),
+            Ok(syntax) => {
+                let e = syntax.lower(pool, self);
+                if self.complaints == before {
+                    self.check_result(pool, e, syntax.span);
+                }
+                if self.complaints == before {
+                    return Some(e);
+                }
+            }
+        }
+        None
+    }
+
+    /// No constant may be infinite, and nothing may outgrow the limits.
+    fn check_result(&mut self, pool: &Pool, e: Expr, span: Span) {
+        if pool.is_full() {
+            let message = "with this, the file's expressions grow beyond a million nodes";
+            return self.complain(SyntaxError::new(span, message));
+        }
+        if pool.depth(e) > DEPTH_LIMIT {
+            let message =
+                format!("with its definitions opened, this is nested deeper than {DEPTH_LIMIT}");
+            return self.complain(SyntaxError::new(span, message));
+        }
+        if pool.reachable(&[e]).into_iter().any(|part| holds_infinity(pool.node(part))) {
+            let message = "this divides by zero, or holds a number beyond all range";
+            self.complain(SyntaxError::new(span, message));
+        }
+    }
+
+    /// Why this place may not use a symbol of some kind, if it may not.
+    fn refusal(&self, kind: Kind) -> Option<String> {
+        use Allowed::{Hamiltonian, Lagrangian, Observable, Parameters};
+        let place = &self.place;
+        Some(match (self.allowed, kind) {
+            (Observable, _)
+            | (Lagrangian, Kind::Time | Kind::Position | Kind::Velocity)
+            | (Hamiltonian, Kind::Time | Kind::Position | Kind::Momentum) => return None,
+            (Parameters, _) => format!("{place} is made of parameters only"),
+            (_, Kind::Whole) => {
+                format!("{place} stands before energy and action, which follow from it")
+            }
+            (Hamiltonian, _) => format!("{place} is a function of q, p and t"),
+            (Lagrangian, _) => format!("{place} is a function of q, q' and t"),
+        })
+    }
+
+    /// The first symbol in an expression that may not be used here.
+    fn offender(&mut self, pool: &Pool, e: Expr) -> Option<(Symbol, String)> {
+        if self.allowed == Allowed::Observable {
+            return None;
+        }
+        let kind = |s: &Symbol| self.kinds.get(s).copied();
+        let found = match self.offenders.get(&e) {
+            Some(&known) => known,
+            None => pool
+                .symbols_of(e)
+                .into_iter()
+                .find(|s| kind(s).is_some_and(|k| self.refusal(k).is_some())),
+        };
+        self.offenders.insert(e, found);
+        let symbol = found?;
+        self.kinds.get(&symbol).and_then(|&k| self.refusal(k)).map(|why| (symbol, why))
+    }
+
+    fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
+        let error = SyntaxError::new(span, format!("the name `{name}` is not known here"));
+        if self.mistakes.len() >= MOST_MISTAKES {
+            return error;
+        }
+        let usable = |(known, meaning): (&String, &Meaning)| {
+            let word = known.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+            let moves = primes == 0 || matches!(meaning, Meaning::Position(_));
+            let open = match meaning {
+                Meaning::Symbol(s) => self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none()),
+                Meaning::Position(_) => self.refusal(Kind::Position).is_none(),
+                Meaning::Defined(_) => true,
+                Meaning::Later => false,
+            };
+            word && moves && open
+        };
+        let mut known: Vec<&str> =
+            self.names.iter().filter(|&entry| usable(entry)).map(|(n, _)| n.as_str()).collect();
+        if primes == 0 {
+            known.extend(FUNCTIONS.iter().map(|f| f.name));
+            known.push("pi");
+        }
+        known.sort_unstable();
+        match nearest(name, known) {
+            Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
+            None if primes > 0 => error.with_help("only coordinates have velocities"),
+            None if self.allowed == Allowed::Parameters => {
+                error.with_help("give it a value in [parameters]")
+            }
+            None => {
+                error.with_help("give it a value in [parameters], or define it in [definitions]")
+            }
+        }
+    }
+
+    fn meaning(
+        &mut self,
+        pool: &mut Pool,
+        name: &str,
+        primes: usize,
+        span: Span,
+    ) -> Result<Expr, SyntaxError> {
+        let Some(&meaning) = self.names.get(name) else {
+            return Err(self.unknown(name, primes, span));
+        };
+        let e = match meaning {
+            Meaning::Position(symbols) => match symbols.get(primes) {
+                Some(&symbol) => pool.variable(symbol),
+                None => {
+                    return Err(SyntaxError::new(span, "there is no name for a third derivative"));
+                }
+            },
+            _ if primes > 0 => return Err(self.at_rest(name, span)),
+            Meaning::Symbol(symbol) => pool.variable(symbol),
+            Meaning::Defined(e) => e,
+            Meaning::Later => {
+                let message = format!("`{name}` is not defined yet at this place");
+                return Err(
+                    SyntaxError::new(span, message).with_help("only what stands above may be used")
+                );
+            }
+        };
+        if let Some((symbol, why)) = self.offender(pool, e) {
+            let shown = format!("{name}{}", "'".repeat(primes));
+            let used = &pool.symbol_info(symbol).name;
+            let message = if matches!(meaning, Meaning::Defined(_)) {
+                format!("`{shown}` may not stand here: it uses `{used}`, and {why}")
+            } else {
+                format!("`{shown}` may not stand here: {why}")
+            };
+            let error = SyntaxError::new(span, message);
+            return Err(match (self.allowed, self.kinds.get(&symbol)) {
+                (Allowed::Lagrangian, Some(Kind::Momentum)) => {
+                    error.with_help("write it in velocities, or give the law in [hamiltonian]")
+                }
+                (Allowed::Hamiltonian, Some(Kind::Velocity)) => {
+                    error.with_help("write it in momenta, or give the law in [lagrangian]")
+                }
+                _ => error,
+            });
+        }
+        self.used.insert(name.to_owned());
+        Ok(e)
+    }
+
+    /// A prime after something that is no coordinate.
+    fn at_rest(&self, name: &str, span: Span) -> SyntaxError {
+        let message = format!("`{name}` is not a coordinate and has no velocity");
+        let error = SyntaxError::new(span, message);
+        let moving = self.names.iter().filter(|(_, m)| matches!(m, Meaning::Position(_)));
+        match nearest(name, moving.map(|(n, _)| n.as_str())) {
+            Some(near) => error.with_help(format!("did you mean `{near}'`?")),
+            None => error,
+        }
+    }
+}
+
+/// Whether a constant of a node is beyond all range, or no number.
+fn holds_infinity(node: &Node) -> bool {
+    match node {
+        Node::Number(n) => !n.is_finite(),
+        Node::Sum(constant, terms) => {
+            !constant.is_finite() || terms.iter().any(|(c, _)| !c.is_finite())
+        }
+        Node::Product(coefficient, factors) => {
+            !coefficient.is_finite() || factors.iter().any(|(_, n)| !n.is_finite())
+        }
+        Node::Pi | Node::Symbol(_) | Node::Power(..) | Node::Call(..) => false,
+    }
+}
+
+impl Resolve for Scope {
+    fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr> {
+        match self.meaning(pool, name, primes, span) {
+            Ok(e) => Some(e),
+            Err(mistake) => {
+                self.complain(mistake);
+                None
+            }
+        }
+    }
+
+    fn is_variable(&self, name: &str) -> bool {
+        self.knows(name)
+    }
+
+    fn complain(&mut self, error: SyntaxError) {
+        self.complaints += 1;
+        if self.mistakes.len() < MOST_MISTAKES {
+            self.mistakes.push(error);
+        }
+    }
+}

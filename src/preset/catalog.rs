@@ -1,0 +1,147 @@
+//! The catalog: the presets that are part of the program, and the user's own, which win over
+//! shipped ones of the same name.
+//!
+//! In: the folder `presets/` as it was when the program was built, and the user's folder. Out:
+//! entries to choose from, and the [`Document`] behind a name or path. A user's file that cannot be
+//! used is listed with its mistake. Never here: whether a shipped preset is right (tests hold it).
+
+mod entry;
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use etcetera::BaseStrategy;
+use etcetera::base_strategy::Xdg;
+use include_dir::{Dir, DirEntry, include_dir};
+
+use super::Document;
+use crate::expr::nearest;
+
+pub use entry::{Entry, Origin};
+
+static SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
+
+/// All presets at hand.
+#[derive(Clone, Debug)]
+pub struct Catalog {
+    entries: Vec<Entry>,
+}
+
+/// Why there is no document behind a name.
+#[derive(Debug, thiserror::Error)]
+pub enum NotFound {
+    /// No preset of that name.
+    #[error("there is no preset `{name}`{}", .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?")))]
+    Name {
+        /// What was asked for.
+        name: String,
+        /// The nearest name there is.
+        near: Option<String>,
+    },
+    /// The file cannot be read.
+    #[error("cannot read {}: {reason}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+}
+
+impl Catalog {
+    /// The shipped presets and those in the user's folder.
+    pub fn load() -> Catalog {
+        Catalog::with_folder(Catalog::user_folder().as_deref())
+    }
+
+    /// The user's folder, `phaselab/presets` where XDG keeps configuration; `None` without a home.
+    pub fn user_folder() -> Option<PathBuf> {
+        Xdg::new().ok().map(|xdg| xdg.config_dir().join("phaselab").join("presets"))
+    }
+
+    /// The shipped presets and those in a folder and the folders in it, if it exists.
+    pub fn with_folder(user: Option<&Path>) -> Catalog {
+        let mut entries = Vec::new();
+        if let Some(folder) = user {
+            let mut files = Vec::new();
+            collect(folder, &mut BTreeSet::new(), &mut files);
+            entries.extend(files.iter().map(|path| Entry::of_user(folder, path)));
+        }
+        let own: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
+        let shipped = shipped(&SHIPPED).into_iter().map(|(path, text)| Entry::shipped(path, text));
+        entries.extend(shipped.filter(|entry| !own.contains(&entry.name)));
+        entry::sort(&mut entries);
+        Catalog { entries }
+    }
+
+    /// The presets, by topic in the order of the notes, and by chapter within a topic.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The document behind what a user writes: a path if there is a `/` in it or it ends in
+    /// `.toml`, else the name of a preset.
+    ///
+    /// # Errors
+    /// Where there is none, with the nearest name.
+    pub fn find(&self, wanted: &str) -> Result<Document, NotFound> {
+        if is_path(wanted) {
+            let path = Path::new(wanted);
+            return Document::open(path)
+                .map_err(|reason| NotFound::File { path: path.to_owned(), reason });
+        }
+        match self.entries.iter().find(|entry| entry.name == wanted) {
+            Some(entry) => entry.document(),
+            None => {
+                let names = self.entries.iter().map(|entry| entry.name.as_str());
+                let near = nearest(wanted, names).map(str::to_owned);
+                Err(NotFound::Name { name: wanted.to_owned(), near })
+            }
+        }
+    }
+}
+
+/// Whether what a user writes is a file's path.
+fn is_path(wanted: &str) -> bool {
+    let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    wanted.contains('/') || wanted.contains(std::path::MAIN_SEPARATOR) || ends
+}
+
+/// The files of the embedded folder with their paths below `presets/`.
+fn shipped(folder: &Dir<'static>) -> Vec<(&'static Path, &'static str)> {
+    let mut all = Vec::new();
+    for entry in folder.entries() {
+        match entry {
+            DirEntry::Dir(folder) => all.extend(shipped(folder)),
+            DirEntry::File(file) => {
+                let text = file.contents_utf8().filter(|_| is_preset(file.path()));
+                all.extend(text.map(|text| (file.path(), text)));
+            }
+        }
+    }
+    all
+}
+
+/// The presets in a folder, sorted, so that the same folder gives the same list everywhere. A
+/// folder is entered once, whatever links lead back to it.
+fn collect(folder: &Path, seen: &mut BTreeSet<PathBuf>, files: &mut Vec<PathBuf>) {
+    let Ok(real) = folder.canonicalize() else { return };
+    let Ok(listing) = std::fs::read_dir(folder) else { return };
+    if !seen.insert(real) {
+        return;
+    }
+    let mut paths: Vec<PathBuf> = listing.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            collect(&path, seen, files);
+        } else if is_preset(&path) && path.is_file() {
+            files.push(path);
+        }
+    }
+}
+
+fn is_preset(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml")
+}

@@ -1,0 +1,163 @@
+//! One preset in the catalog: what a list shows of it, and the way to its text.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::NotFound;
+use crate::model::Info;
+use crate::preset::{Document, Mistake, Mistakes, Severity, draft, grammar};
+
+/// Where a preset comes from.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Origin {
+    /// It is part of the program.
+    Shipped,
+    /// It is the user's own.
+    User(PathBuf),
+}
+
+/// A preset to choose.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// What it is called by: the file's name without `.toml`.
+    pub name: String,
+    /// The folder it stands in, below `presets`; empty at the top.
+    pub folder: String,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Title, summary, topics and chapter (no notes).
+    pub info: Info,
+    /// What is wrong with it, as `file:line:column: reason`, where it cannot be used.
+    pub fault: Option<String>,
+    text: &'static str,
+}
+
+impl Entry {
+    pub(super) fn shipped(path: &Path, text: &'static str) -> Entry {
+        Entry {
+            name: stem(path),
+            folder: folder_of(path),
+            origin: Origin::Shipped,
+            info: head(text),
+            fault: None,
+            text,
+        }
+    }
+
+    /// A file in the user's folder; it is read whole, so that what is wrong with it can be told.
+    pub(super) fn of_user(folder: &Path, path: &Path) -> Entry {
+        let mut entry = Entry {
+            name: stem(path),
+            folder: path.strip_prefix(folder).map_or(String::new(), folder_of),
+            origin: Origin::User(path.to_owned()),
+            info: Info::default(),
+            fault: None,
+            text: "",
+        };
+        match entry.document() {
+            Err(unreadable) => entry.fault = Some(unreadable.to_string()),
+            Ok(document) => {
+                entry.info = head(&document.text);
+                if let Err(mistakes) = document.read() {
+                    entry.fault = mistakes
+                        .iter()
+                        .find(|m| m.severity == Severity::Error)
+                        .map(|m| located(&document, m));
+                }
+            }
+        }
+        if entry.info.title.is_empty() {
+            entry.info.title.clone_from(&entry.name);
+        }
+        entry
+    }
+
+    /// What it is about first of all: its place in a list.
+    pub fn topic(&self) -> &str {
+        self.info.topics.first().unwrap_or(&self.folder)
+    }
+
+    /// The preset's text.
+    ///
+    /// # Errors
+    /// If a user's file cannot be read.
+    pub fn document(&self) -> Result<Document, NotFound> {
+        match &self.origin {
+            Origin::Shipped if self.folder.is_empty() => {
+                Ok(Document::new(format!("presets/{}.toml", self.name), self.text))
+            }
+            Origin::Shipped => {
+                let path = format!("presets/{}/{}.toml", self.folder, self.name);
+                Ok(Document::new(path, self.text))
+            }
+            Origin::User(path) => {
+                Document::open(path).map_err(|reason| NotFound::File { path: path.clone(), reason })
+            }
+        }
+    }
+}
+
+/// The words at the head of a file, without the notes.
+fn head(text: &str) -> Info {
+    let table = grammar::parse(text, &mut Mistakes::default());
+    Info { notes: String::new(), ..draft::read_head(&table) }
+}
+
+fn located(document: &Document, mistake: &Mistake) -> String {
+    let (line, column) = document.line_and_column(mistake.place.start);
+    format!("{}:{line}:{column}: {}", document.path, mistake.message)
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn folder_of(path: &Path) -> String {
+    let parts = path.parent().into_iter().flat_map(Path::components);
+    let parts: Vec<String> =
+        parts.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
+    parts.join("/")
+}
+
+/// Topics in the order in which the notes come to them, those of no chapter last; within a topic
+/// by chapter, then by title.
+pub(super) fn sort(entries: &mut [Entry]) {
+    let mut first: BTreeMap<String, Chapter> = BTreeMap::new();
+    for entry in entries.iter() {
+        let chapter = Chapter::of(&entry.info.chapter);
+        let earliest = first.entry(entry.topic().to_owned()).or_insert_with(|| chapter.clone());
+        if chapter < *earliest {
+            *earliest = chapter;
+        }
+    }
+    entries.sort_by(|a, b| {
+        let topic = |entry: &Entry| (first.get(entry.topic()).cloned(), entry.topic().to_owned());
+        let within = |entry: &Entry| {
+            (Chapter::of(&entry.info.chapter), entry.info.title.clone(), entry.name.clone())
+        };
+        topic(a).cmp(&topic(b)).then_with(|| within(a).cmp(&within(b)))
+    });
+}
+
+/// `2.3.1` as its numbers; nothing comes after everything.
+#[derive(Clone, PartialEq, Eq)]
+struct Chapter(Vec<u32>);
+
+impl Chapter {
+    fn of(written: &str) -> Chapter {
+        Chapter(written.split('.').map_while(|part| part.trim().parse().ok()).collect())
+    }
+}
+
+impl Ord for Chapter {
+    fn cmp(&self, other: &Chapter) -> Ordering {
+        self.0.is_empty().cmp(&other.0.is_empty()).then_with(|| self.0.cmp(&other.0))
+    }
+}
+
+impl PartialOrd for Chapter {
+    fn partial_cmp(&self, other: &Chapter) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}

@@ -1,0 +1,154 @@
+//! Draft → Model: names claimed once each, expressions read under the scope of their place, numbers
+//! held to sense.
+//!
+//! In: the file as written. Out: the model, where the mistakes leave one; all mistakes found on
+//! the way, in the file's own bytes. Never here: what follows from the mechanics, and whether what
+//! the file claims of itself is true.
+
+mod claims;
+mod motion;
+mod names;
+mod parameters;
+mod picture;
+mod place;
+mod run;
+
+use std::collections::BTreeSet;
+
+use super::Mistakes;
+use super::draft::{Draft, Formula};
+use super::mistake::Mistake;
+use crate::expr::Expr;
+use crate::model::{Allowed, Coordinate, Model, Scope};
+use names::Names;
+
+/// Checks a draft; `None` where a model cannot even be begun. The model is to be used only if no
+/// mistake was an error.
+pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Option<Model> {
+    let mut model = Model::new(&draft.info.title);
+    model.info = draft.info.clone();
+    let mut check = Check { file, mistakes, model, used: BTreeSet::new() };
+    if check.beyond_limits(draft) {
+        return None;
+    }
+    let mut names = Names::of(draft, check.mistakes);
+    for written in &draft.coordinates {
+        let name = written.name.get_ref();
+        let pool = &mut check.model.pool;
+        check.model.coordinates.push(Coordinate::new(pool, name, &written.symbol, &written.unit));
+    }
+    for written in &draft.parameters {
+        check.parameter(written);
+    }
+    check.definitions(draft);
+    let law = check.law(&draft.mechanics);
+    check.initial_values(draft, law);
+    check.observables(&draft.observables, &mut names);
+    check.run(&draft.run);
+    check.expect(&draft.expect);
+    check.views(&draft.views);
+    check.shapes(&draft.shapes);
+    if !check.mistakes.any_error() {
+        check.unused(draft);
+    }
+    law.map(|_| check.model)
+}
+
+/// A model under construction.
+struct Check<'c> {
+    /// The file's text, to find a place inside an expression.
+    file: &'c str,
+    mistakes: &'c mut Mistakes,
+    model: Model,
+    /// Every name that some expression uses.
+    used: BTreeSet<String>,
+}
+
+impl Check<'_> {
+    /// Reads an expression; mistakes in it get their place in the file.
+    fn formula(&mut self, scope: &mut Scope, called: &str, formula: &Formula) -> Option<Expr> {
+        if self.model.pool.is_full() {
+            // told where it happened
+            return None;
+        }
+        let e = scope.at(called).read(&mut self.model.pool, formula.get_ref());
+        for slip in scope.mistakes.drain(..) {
+            let place = place::within(self.file, formula, slip.span);
+            let mut mistake = Mistake::error(place, slip.message);
+            mistake.help = slip.help;
+            self.mistakes.push(mistake);
+        }
+        self.used.append(&mut scope.used);
+        e
+    }
+
+    fn error(&mut self, at: std::ops::Range<usize>, message: impl Into<String>) {
+        self.mistakes.push(Mistake::error(at, message));
+    }
+
+    /// Definitions in order, each in the names above it.
+    fn definitions(&mut self, draft: &Draft) {
+        let mut scope = Scope::new(&self.model, Allowed::Observable, "a definition");
+        for (name, _) in &draft.definitions {
+            scope.announce(name.get_ref());
+        }
+        for (name, formula) in &draft.definitions {
+            let called = format!("the definition `{}`", name.get_ref());
+            let read = formula.as_ref().and_then(|f| self.formula(&mut scope, &called, f));
+            // one that cannot be read stands for itself, so that its uses are not mistakes as well
+            let e = read.unwrap_or_else(|| self.model.pool.named(name.get_ref()));
+            scope.define(name.get_ref(), e);
+            self.model.definitions.push((name.get_ref().clone(), e));
+        }
+    }
+
+    /// Whether there is more of a kind than a file may have; then nothing more is read of it.
+    fn beyond_limits(&mut self, draft: &Draft) -> bool {
+        let named = |places: Vec<std::ops::Range<usize>>, most: usize, what: &str| {
+            places.get(most).map(|place| {
+                let message = format!("there are {} {what}; {most} are allowed", places.len());
+                Mistake::error(place.clone(), message)
+            })
+        };
+        let coordinates = draft.coordinates.iter().map(|c| c.name.span()).collect();
+        let parameters = draft.parameters.iter().map(|p| p.name.span()).collect();
+        let definitions = draft.definitions.iter().map(|(name, _)| name.span()).collect();
+        let observables = draft
+            .observables
+            .iter()
+            .filter_map(|o| o.name.as_ref().map(toml::Spanned::span))
+            .collect();
+        let values = draft.expect.values.iter().map(|v| v.place.clone()).collect();
+        let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
+        let views = draft.views.iter().map(|v| v.place.clone()).collect();
+        let shapes = draft.shapes.iter().map(|s| s.place.clone()).collect();
+        let refusals = [
+            named(coordinates, 64, "coordinates"),
+            named(parameters, 256, "parameters"),
+            named(definitions, 1024, "definitions"),
+            named(observables, 1024, "observables"),
+            named(values, 1024, "expected values"),
+            named(conserved, 1024, "conserved quantities"),
+            named(views, 64, "views"),
+            named(shapes, 1024, "shapes"),
+        ];
+        let mut beyond = false;
+        for refusal in refusals.into_iter().flatten() {
+            self.mistakes.push(refusal);
+            beyond = true;
+        }
+        beyond
+    }
+
+    /// Warns of parameters and definitions that nothing uses.
+    fn unused(&mut self, draft: &Draft) {
+        let parameters = draft.parameters.iter().map(|p| (&p.name, "parameter"));
+        let definitions = draft.definitions.iter().map(|(name, _)| (name, "definition"));
+        for (name, kind) in parameters.chain(definitions) {
+            if !self.used.contains(name.get_ref()) {
+                let message = format!("the {kind} `{}` is not used", name.get_ref());
+                self.mistakes.push(Mistake::warning(name.span(), message));
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The law of motion and the initial values it needs.
+
+use super::Check;
+use crate::expr::{Expr, nearest};
+use crate::model::{Allowed, Mechanics, Scope};
+use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
+use crate::preset::mistake::Mistake;
+
+impl Check<'_> {
+    /// The law of motion, read into the model; `None` where the file does not give exactly one.
+    pub(super) fn law(&mut self, given: &[DraftMechanics]) -> Option<Law> {
+        let (first, others) = given.split_first()?;
+        for other in others {
+            let message = "the file gives more than one law of motion";
+            let mistake = Mistake::error(other.place.clone(), message)
+                .with_help("keep either [lagrangian] or [hamiltonian]")
+                .with_also(first.place.clone(), "the first one");
+            self.mistakes.push(mistake);
+        }
+        for law in given {
+            let mechanics = self.mechanics(law);
+            if law.law == first.law {
+                self.model.mechanics = mechanics;
+            }
+        }
+        others.is_empty().then_some(first.law)
+    }
+
+    fn mechanics(&mut self, written: &DraftMechanics) -> Mechanics {
+        let (allowed, called) = match written.law {
+            Law::Lagrangian => (Allowed::Lagrangian, "the Lagrangian"),
+            Law::Hamiltonian => (Allowed::Hamiltonian, "the Hamiltonian"),
+        };
+        let mut scope = Scope::new(&self.model, allowed, called);
+        let mut read = |check: &mut Self, called: &str, formula: &Option<Formula>| {
+            let formula = formula.as_ref();
+            formula.and_then(|f| check.formula(&mut scope, called, f)).unwrap_or(Expr::ZERO)
+        };
+        let function = read(self, called, &written.function);
+        let dissipation = read(self, "Rayleigh's function", &written.dissipation);
+        let mut forces = vec![Expr::ZERO; self.model.coordinates.len()];
+        for (name, formula) in &written.forces {
+            let force = read(self, "a force", formula);
+            match self.model.coordinate(name.get_ref()) {
+                Some(index) => forces[index] = force,
+                None => self.mistakes.push(self.no_coordinate(name)),
+            }
+        }
+        match written.law {
+            Law::Lagrangian => Mechanics::Lagrangian { lagrangian: function, dissipation, forces },
+            Law::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: function, forces },
+        }
+    }
+
+    fn no_coordinate(&self, name: &toml::Spanned<String>) -> Mistake {
+        let message = format!("there is no coordinate `{}` for a force to act on", name.get_ref());
+        let mistake = Mistake::error(name.span(), message);
+        let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
+        let bare = name.get_ref().trim_end_matches('\'');
+        match nearest(bare.strip_prefix("p_").unwrap_or(bare), known.iter().copied()) {
+            Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+            None => mistake.with_help(format!("the coordinates are {}", known.join(", "))),
+        }
+    }
+
+    /// Where everything starts, in parameters.
+    pub(super) fn initial_values(&mut self, draft: &Draft, law: Option<Law>) {
+        let mut scope = Scope::new(&self.model, Allowed::Parameters, "an initial value");
+        for (index, written) in draft.coordinates.iter().enumerate() {
+            let name = written.name.get_ref();
+            let mut value = |check: &mut Self, called: &str, what: &str, f: &Option<Formula>| {
+                let formula = f.as_ref()?;
+                let e = check.formula(&mut scope, called, formula)?;
+                check.finite(e, what, formula).then_some(e)
+            };
+            let at = format!("the initial value of `{name}`");
+            let initial = value(self, "an initial value", &at, &written.initial);
+            let [velocity, momentum] = [&written.velocity, &written.momentum]
+                .map(|rate| rate.as_ref().map(|(_, formula)| formula.clone()));
+            let what = format!("the initial velocity of `{name}`");
+            let velocity = value(self, "an initial velocity", &what, &velocity);
+            let what = format!("the initial momentum of `{name}`");
+            let momentum = value(self, "an initial momentum", &what, &momentum);
+            let what = format!("the period of `{name}`");
+            let period = value(self, "a period", &what, &written.period);
+            let period = period.filter(|&e| self.positive_period(e, name, written));
+            if let Some(law) = law {
+                self.right_rate(law, written);
+            }
+            let coordinate = &mut self.model.coordinates[index];
+            coordinate.initial = initial.unwrap_or(Expr::ZERO);
+            coordinate.initial_rate = velocity.or(momentum).unwrap_or(Expr::ZERO);
+            coordinate.period = period;
+        }
+    }
+
+    /// A Lagrangian starts from velocities, a Hamiltonian from momenta.
+    fn right_rate(&mut self, law: Law, written: &DraftCoordinate) {
+        let (wrong, given, wanted, of) = match law {
+            Law::Lagrangian => (&written.momentum, "momentum", "velocity", "a Lagrangian"),
+            Law::Hamiltonian => (&written.velocity, "velocity", "momentum", "a Hamiltonian"),
+        };
+        if let Some((place, _)) = wrong {
+            let message = format!("a `{given}` is given, but {of} starts from a `{wanted}`");
+            let mistake = Mistake::error(place.clone(), message);
+            self.mistakes.push(mistake.with_help(format!("did you mean `{wanted}`?")));
+        }
+    }
+
+    fn positive_period(&mut self, e: Expr, name: &str, written: &DraftCoordinate) -> bool {
+        let positive = self.at_start(e) > 0.0;
+        if let (false, Some(formula)) = (positive, &written.period) {
+            self.error(formula.span(), format!("the period of `{name}` must be positive"));
+        }
+        positive
+    }
+
+    /// The value of an expression in parameters, with the values the file gives them.
+    fn at_start(&self, e: Expr) -> f64 {
+        let value = |symbol| {
+            self.model.parameters.iter().find(|p| p.symbol == symbol).map_or(f64::NAN, |p| p.value)
+        };
+        self.model.pool.evaluate(e, &value)
+    }
+
+    fn finite(&mut self, e: Expr, what: &str, formula: &Formula) -> bool {
+        let symbols = self.model.pool.symbols_of(e);
+        let known = symbols.iter().all(|s| self.model.parameters.iter().any(|p| p.symbol == *s));
+        let value = self.at_start(e);
+        if known && !value.is_finite() {
+            let comes = if value.is_nan() { "is not a real number" } else { "is infinite" };
+            self.error(formula.span(), format!("with the parameters' values {what} {comes}"));
+        }
+        value.is_finite()
+    }
+}

@@ -1,0 +1,113 @@
+//! The names of a file: well formed, not reserved, and each given once.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+
+use crate::expr::{FUNCTIONS, latex_of_unicode};
+use crate::model::Place;
+use crate::preset::Mistakes;
+use crate::preset::draft::Draft;
+use crate::preset::mistake::Mistake;
+
+/// The names given so far, with what they name and where.
+pub(super) struct Names {
+    taken: BTreeMap<String, (&'static str, Place)>,
+    coordinates: Vec<String>,
+}
+
+impl Names {
+    /// The names of coordinates, parameters and definitions, after they have been checked.
+    pub(super) fn of(draft: &Draft, mistakes: &mut Mistakes) -> Names {
+        let coordinates = draft.coordinates.iter().map(|c| c.name.get_ref().clone()).collect();
+        let mut names = Names { taken: BTreeMap::new(), coordinates };
+        for coordinate in &draft.coordinates {
+            names.word(&coordinate.name, "a coordinate", mistakes);
+        }
+        for parameter in &draft.parameters {
+            names.word(&parameter.name, "a parameter", mistakes);
+        }
+        for (name, _) in &draft.definitions {
+            names.word(name, "a definition", mistakes);
+        }
+        names
+    }
+
+    /// A name that stands in expressions.
+    fn word(&mut self, name: &Spanned<String>, kind: &'static str, mistakes: &mut Mistakes) {
+        let written = name.get_ref();
+        if is_word(written) {
+            self.claim(name, kind, mistakes);
+            return;
+        }
+        let message = format!("`{written}` cannot name {kind}");
+        let rule = "a name is made of ASCII letters, digits and `_`, and begins with no digit";
+        let plain: String =
+            latex_of_unicode(written).chars().filter(|c| !"\\{} ".contains(*c)).collect();
+        let help = if is_word(&plain) && !written.is_ascii() {
+            format!("{rule}: write {plain} with symbol = \"{written}\"")
+        } else {
+            rule.to_owned()
+        };
+        mistakes.push(Mistake::error(name.span(), message).with_help(help));
+    }
+
+    /// A name of any letters, that must be neither reserved nor taken.
+    pub(super) fn claim(
+        &mut self,
+        name: &Spanned<String>,
+        kind: &'static str,
+        mistakes: &mut Mistakes,
+    ) {
+        let written = name.get_ref().as_str();
+        if let Some(meaning) = self.reserved(written) {
+            let message = format!("`{written}` cannot name {kind}: it is {meaning}");
+            mistakes.push(Mistake::error(name.span(), message).with_help("choose another name"));
+        } else if let Some((first, place)) = self.taken.get(written) {
+            let message = format!("the name `{written}` is given twice");
+            let mistake = Mistake::error(name.span(), message)
+                .with_help("rename one of them")
+                .with_also(place.clone(), format!("here it names {first}"));
+            mistakes.push(mistake);
+        } else {
+            self.taken.insert(written.to_owned(), (kind, name.span()));
+        }
+    }
+
+    /// What a name is taken for, if it is.
+    pub(super) fn kind(&self, name: &str) -> Option<&'static str> {
+        self.taken.get(name).map(|(kind, _)| *kind)
+    }
+
+    /// What a reserved name means.
+    fn reserved(&self, name: &str) -> Option<String> {
+        let of = |prefix: &str| {
+            let coordinate = name.strip_prefix(prefix)?;
+            self.coordinates.iter().find(|c| *c == coordinate)
+        };
+        let fixed = match name {
+            "t" => "the time",
+            "pi" => "the circle constant",
+            "energy" => "the energy function",
+            "action" => "the action",
+            _ if FUNCTIONS.iter().any(|f| f.name == name) => "a function",
+            _ => {
+                let moving = name.trim_end_matches('\'');
+                return match of("p_") {
+                    Some(coordinate) => Some(format!("the momentum of `{coordinate}`")),
+                    None if moving != name && self.coordinates.iter().any(|c| c == moving) => {
+                        Some(format!("a rate of change of `{moving}`"))
+                    }
+                    None => None,
+                };
+            }
+        };
+        Some(fixed.to_owned())
+    }
+}
+
+/// Whether expressions can name it.
+fn is_word(name: &str) -> bool {
+    name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+        && name.bytes().next().is_some_and(|b| !b.is_ascii_digit())
+}

@@ -1,0 +1,173 @@
+//! Views and shapes: their expressions read, paths sampled.
+
+use std::collections::HashMap;
+
+use toml::Spanned;
+
+use super::Check;
+use crate::expr::Expr;
+use crate::model::{Allowed, Channel, Point, Scope, Shape, View, ViewKind};
+use crate::preset::draft::{
+    DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formula, Formulas,
+};
+
+/// Into how many pieces a path is cut where the file does not say.
+const SAMPLES: usize = 96;
+
+/// How many nodes all paths of a file may have together once they are cut.
+const PATHS_LIMIT: usize = 1_000_000;
+
+impl Check<'_> {
+    /// What the screen opens with.
+    pub(super) fn views(&mut self, written: &[DraftView]) {
+        let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
+        for view in written {
+            let mut channel = |check: &mut Self, formula: &Formula| {
+                let expression = check.formula(&mut scope, "a view", formula)?;
+                Some(Channel { written: formula.get_ref().trim().to_owned(), expression })
+            };
+            let x = view.x.as_ref().and_then(|formula| channel(self, formula));
+            let y = view.y.iter().filter_map(|formula| channel(self, formula)).collect();
+            let kind = match view.kind {
+                DraftViewKind::Space => ViewKind::Space,
+                DraftViewKind::Phase => ViewKind::Phase,
+                DraftViewKind::Time => ViewKind::Time,
+                DraftViewKind::NotYet => continue,
+            };
+            self.model.views.push(View { kind, title: view.title.clone(), x, y });
+        }
+    }
+
+    /// The picture in space.
+    pub(super) fn shapes(&mut self, written: &[DraftShape]) {
+        let mut scope = Scope::new(&self.model, Allowed::Observable, "a shape");
+        let mut nodes = 0;
+        for written in written {
+            let shape = match &written.kind {
+                DraftShapeKind::Path { .. } => self.path(written, &mut nodes, &mut scope),
+                _ => self.shape(&written.kind, &mut scope),
+            };
+            self.model.space.extend(shape);
+        }
+    }
+
+    /// A shape that is no path. All parts are read, also where one of them is missing or wrong.
+    fn shape(&mut self, written: &DraftShapeKind, scope: &mut Scope) -> Option<Shape> {
+        match written {
+            DraftShapeKind::Line { from, to } => {
+                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
+                Some(Shape::Line { from: from?, to: to? })
+            }
+            DraftShapeKind::Spring { from, to } => {
+                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
+                Some(Shape::Spring { from: from?, to: to? })
+            }
+            DraftShapeKind::Trace { at } => {
+                Some(Shape::Trace { at: self.point(at.as_ref(), scope)? })
+            }
+            DraftShapeKind::Circle { centre, radius, normal } => {
+                let (centre, radius) =
+                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
+                let normal = self.normal(normal.as_ref(), scope);
+                Some(Shape::Circle { centre: centre?, radius: radius?, normal: normal? })
+            }
+            DraftShapeKind::Mass { at, radius } => {
+                let (at, read) =
+                    (self.point(at.as_ref(), scope), self.size(radius.as_ref(), scope));
+                Some(Shape::Mass { at: at?, radius: read })
+            }
+            DraftShapeKind::Path { .. } => None,
+            DraftShapeKind::Vector { at, components } => {
+                let (at, components) =
+                    (self.point(at.as_ref(), scope), self.point(components.as_ref(), scope));
+                Some(Shape::Vector { at: at?, components: components? })
+            }
+            DraftShapeKind::Plane { at, normal, size } => {
+                let (at, size) = (self.point(at.as_ref(), scope), self.size(size.as_ref(), scope));
+                let normal = self.normal(normal.as_ref(), scope);
+                Some(Shape::Plane { at: at?, normal: normal?, size: size? })
+            }
+        }
+    }
+
+    fn size(&mut self, written: Option<&Formula>, scope: &mut Scope) -> Option<Expr> {
+        self.formula(scope, "a shape", written?)
+    }
+
+    /// A point; the third entry left out is zero.
+    fn point(&mut self, written: Option<&Formulas>, scope: &mut Scope) -> Option<Point> {
+        let entries = written?.get_ref();
+        let read: Vec<Option<Expr>> =
+            entries.iter().map(|formula| self.formula(scope, "a shape", formula)).collect();
+        let third = read.get(2).copied().unwrap_or(Some(Expr::ZERO));
+        Some([read[0]?, read[1]?, third?])
+    }
+
+    /// A direction; z where the file gives none.
+    fn normal(&mut self, written: Option<&Formulas>, scope: &mut Scope) -> Option<Point> {
+        match written {
+            None => Some([Expr::ZERO, Expr::ZERO, Expr::ONE]),
+            Some(_) => self.point(written, scope),
+        }
+    }
+
+    /// A curve in its own parameter `s`, sampled at evenly spaced values of it. Inside a path, `s`
+    /// is that parameter, whatever else has the name. `nodes` counts those of all paths.
+    fn path(
+        &mut self,
+        written: &DraftShape,
+        nodes: &mut usize,
+        scope: &mut Scope,
+    ) -> Option<Shape> {
+        let DraftShapeKind::Path { curve, from, to, samples } = &written.kind else { return None };
+        let count = self.samples(samples.as_ref());
+        let [from, to] = [from, to].map(|end| self.size(end.as_ref(), scope));
+        let s = self.model.pool.symbol("s of a path");
+        let along = self.model.pool.variable(s);
+        let mut inner = scope.clone();
+        inner.define("s", along);
+        let s_was_used = self.used.contains("s");
+        let curve = self.point(curve.as_ref(), &mut inner);
+        if !s_was_used {
+            self.used.remove("s");
+        }
+        let (curve, from, to, count) = (curve?, from?, to?, count?);
+        let told = *nodes > PATHS_LIMIT;
+        *nodes += self.model.pool.reachable(&curve).len() * (count + 1);
+        if told {
+            return None;
+        }
+        if *nodes > PATHS_LIMIT {
+            let message = "with this, the file's paths have more than a million nodes";
+            self.error(written.place.clone(), message);
+            return None;
+        }
+        let pool = &mut self.model.pool;
+        let span = pool.sub(to, from);
+        let points = (0..=count)
+            .map(|i| {
+                let share = pool.ratio(i as i64, count as i64);
+                let share = pool.mul(share, span);
+                let at = HashMap::from([(s, pool.add(from, share))]);
+                curve.map(|e| pool.substitute(e, &at))
+            })
+            .collect();
+        if pool.is_full() {
+            let message = "with this, the file's expressions grow beyond a million nodes";
+            self.error(written.place.clone(), message);
+            return None;
+        }
+        Some(Shape::Path { points })
+    }
+
+    /// Into how many pieces a path is cut.
+    fn samples(&mut self, written: Option<&Spanned<f64>>) -> Option<usize> {
+        let Some(written) = written else { return Some(SAMPLES) };
+        let count = *written.get_ref();
+        if count.fract() != 0.0 || !(1.0..=1000.0).contains(&count) {
+            self.error(written.span(), "`samples` must be a whole number from 1 to 1000");
+            return None;
+        }
+        Some(count as usize)
+    }
+}

@@ -1,0 +1,92 @@
+//! The text of one preset, from the binary or from disk: read within limits, kept with the name it
+//! is reported under. Not here: what the text means.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use super::{Checked, Mistake, TEXT_LIMIT, read, report};
+
+/// A preset's text with its name.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// What reports call it: the path of a file, `presets/…` for a shipped one.
+    pub path: String,
+    /// The text; what is not UTF-8 in it replaced by `�`.
+    pub text: String,
+    /// What is wrong with it before a word of it is read.
+    unreadable: Option<Mistake>,
+}
+
+impl Document {
+    /// A text already at hand.
+    pub fn new(path: impl Into<String>, text: impl Into<String>) -> Document {
+        Document { path: path.into(), text: text.into(), unreadable: None }
+    }
+
+    /// Bytes already at hand.
+    pub fn from_bytes(path: impl Into<String>, bytes: &[u8]) -> Document {
+        let text = String::from_utf8_lossy(bytes);
+        let mut document = Document::new(path, text);
+        if let Err(error) = std::str::from_utf8(bytes) {
+            let start = error.valid_up_to();
+            let place = start..start + '\u{fffd}'.len_utf8();
+            let message = format!("the byte 0x{:02X} here is not UTF-8", bytes[start]);
+            document.unreadable =
+                Some(Mistake::error(place, message).with_help("save the file as UTF-8 text"));
+        }
+        document
+    }
+
+    /// Reads a file, no more of it than a preset may have.
+    ///
+    /// # Errors
+    /// Those of opening and reading it.
+    pub fn open(path: &Path) -> io::Result<Document> {
+        let shown = path.display().to_string();
+        let file = File::open(path)?;
+        let size = file.metadata()?;
+        if size.is_dir() {
+            return Err(io::Error::from(io::ErrorKind::IsADirectory));
+        }
+        let mut bytes = Vec::new();
+        file.take(TEXT_LIMIT as u64 + 1).read_to_end(&mut bytes)?;
+        if bytes.len() > TEXT_LIMIT {
+            let mut document = Document::new(shown, "");
+            document.unreadable = Some(too_long(size.len().max(bytes.len() as u64)));
+            return Ok(document);
+        }
+        Ok(Document::from_bytes(shown, &bytes))
+    }
+
+    /// Reads the preset in it.
+    ///
+    /// # Errors
+    /// All its mistakes, see [`read`].
+    pub fn read(&self) -> Result<Checked, Vec<Mistake>> {
+        match &self.unreadable {
+            Some(mistake) => Err(vec![mistake.clone()]),
+            None => read(&self.text),
+        }
+    }
+
+    /// The line and the column of a byte of the text, both counted from 1, the column in
+    /// characters.
+    pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
+        let before = self.text.get(..byte.min(self.text.len())).unwrap_or("");
+        let line = 1 + before.matches('\n').count();
+        let column = 1 + before.chars().rev().take_while(|&c| c != '\n').count();
+        (line, column)
+    }
+
+    /// Draws mistakes found in it, see [`report()`].
+    pub fn report(&self, mistakes: &[Mistake], colour: bool) -> String {
+        report(&self.text, &self.path, mistakes, colour)
+    }
+}
+
+/// The refusal of a file beyond the limit.
+pub(super) fn too_long(bytes: u64) -> Mistake {
+    let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
+    Mistake::error(0..0, message)
+}

@@ -1,0 +1,133 @@
+//! The file as written: which tables and keys it has, what kind of value stands at each, and where.
+//!
+//! In: TOML with spans. Out: a [`Draft`], in which every text and number keeps its place and no
+//! name has been looked up; an unknown key, a value of the wrong kind and a missing part of an
+//! entry are mistakes. (serde would stop at the first of them; so the tables are walked here.)
+//! Never here: expressions, what names mean, whether numbers make sense.
+
+mod claims;
+mod picture;
+mod run;
+mod system;
+mod table;
+mod value;
+
+use toml::Spanned;
+use toml::de::DeTable;
+
+use super::Mistakes;
+use super::mistake::Mistake;
+use crate::model::{Info, Place};
+use table::Table;
+
+pub(super) use claims::{DraftExpect, DraftObservable, DraftValue};
+pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formulas};
+pub(super) use run::DraftRun;
+pub(super) use system::{DraftCoordinate, DraftMechanics, DraftParameter, Law, NamedFormula};
+
+/// A text with its place, quotes included: an expression still to be read. A number of TOML is
+/// kept as its digits.
+pub(super) type Formula = Spanned<String>;
+
+/// The file as written.
+pub(super) struct Draft {
+    /// What the file says of itself in words.
+    pub(super) info: Info,
+    /// The coordinates in order, and where the table begins.
+    pub(super) coordinates: Vec<DraftCoordinate>,
+    /// The parameters in order.
+    pub(super) parameters: Vec<DraftParameter>,
+    /// The definitions in order, name and expression.
+    pub(super) definitions: Vec<NamedFormula>,
+    /// Every law of motion given; one is right.
+    pub(super) mechanics: Vec<DraftMechanics>,
+    /// What is to be watched.
+    pub(super) observables: Vec<DraftObservable>,
+    /// What the file claims.
+    pub(super) expect: DraftExpect,
+    /// What the screen opens with.
+    pub(super) views: Vec<DraftView>,
+    /// The picture in space.
+    pub(super) shapes: Vec<DraftShape>,
+    /// How it is run.
+    pub(super) run: DraftRun,
+}
+
+/// What the format has and this version does not.
+const NOT_YET: [&str; 9] = [
+    "poisson",
+    "variables",
+    "constraints",
+    "impulses",
+    "events",
+    "transformations",
+    "generators",
+    "hamilton_jacobi",
+    "body",
+];
+
+/// The keys of the file's first level: where a stray key may have been meant to stand.
+const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
+
+/// Walks the whole file.
+pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draft {
+    let mut top = Table::new("the file", 0..0, file.get_ref());
+    let info = read_info(&mut top, mistakes);
+    for table in NOT_YET {
+        if let Some((key, _)) = top.take(table) {
+            let message = format!("the table `{table}` is not supported yet by this version");
+            mistakes.push(Mistake::error(key, message));
+        }
+    }
+    let draft = Draft {
+        info,
+        coordinates: system::coordinates(&mut top, mistakes),
+        parameters: system::parameters(&mut top, mistakes),
+        definitions: system::definitions(&mut top, mistakes),
+        mechanics: system::mechanics(&mut top, mistakes),
+        observables: claims::observables(&mut top, mistakes),
+        expect: claims::expect(&mut top, mistakes),
+        views: picture::views(&mut top, mistakes),
+        shapes: picture::shapes(&mut top, mistakes),
+        run: run::read(&mut top, mistakes),
+    };
+    top.finish(mistakes);
+    draft
+}
+
+/// The words at the head of the file alone: what a list of presets shows. Mistakes are passed over.
+pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
+    let mut top = Table::new("the file", 0..0, file.get_ref());
+    read_info(&mut top, &mut Mistakes::default())
+}
+
+fn read_info(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Info {
+    let line = |found: Option<Spanned<String>>, mistakes: &mut Mistakes| match found {
+        Some(text) => value::one_line(&text, mistakes).unwrap_or_default(),
+        None => String::new(),
+    };
+    let title = top.text("title", mistakes);
+    if let Some(blank) = title.as_ref().filter(|t| t.get_ref().trim().is_empty()) {
+        mistakes.push(Mistake::error(blank.span(), "the title is empty"));
+    }
+    if title.is_none() && !top.has("title") {
+        let missing = Mistake::error(0..0, "the file has no title");
+        top.lacks("title", missing.with_help("begin it with title = \"...\""));
+    }
+    let notes = top.text("notes", mistakes);
+    Info {
+        title: line(title, mistakes),
+        summary: line(top.text("summary", mistakes), mistakes),
+        source: line(top.text("source", mistakes), mistakes),
+        chapter: line(top.text("chapter", mistakes), mistakes),
+        topics: top
+            .list("topics", mistakes)
+            .iter()
+            .filter_map(|item| {
+                let topic = value::text(item, "a topic", mistakes)?;
+                value::one_line(&topic, mistakes)
+            })
+            .collect(),
+        notes: notes.and_then(|text| value::lines(&text, mistakes)).unwrap_or_default(),
+    }
+}

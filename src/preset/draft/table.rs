@@ -1,0 +1,213 @@
+//! One table of the file while it is read: keys are asked for by name, and what nobody asked for
+//! is a mistake.
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::{Formula, Mistake, Mistakes, Place, TOP_LEVEL, value};
+use crate::expr::nearest;
+
+/// A value of TOML with its span.
+pub(super) type Value<'d> = Spanned<DeValue<'d>>;
+
+/// A table that is being read.
+pub(super) struct Table<'d> {
+    /// What messages call it: `[run]`, `the coordinate x`.
+    pub(super) called: String,
+    /// Where it stands.
+    pub(super) place: Place,
+    entries: &'d DeTable<'d>,
+    asked: Vec<&'static str>,
+    absent: Vec<(&'static str, Mistake)>,
+}
+
+impl<'d> Table<'d> {
+    pub(super) fn new(
+        called: impl Into<String>,
+        place: Place,
+        entries: &'d DeTable<'d>,
+    ) -> Table<'d> {
+        Table { called: called.into(), place, entries, asked: Vec::new(), absent: Vec::new() }
+    }
+
+    /// A value as a table; a complaint where it is none. `shape` shows how it is written.
+    pub(super) fn of(
+        value: &'d Value<'d>,
+        called: impl Into<String>,
+        place: Place,
+        shape: &str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Table<'d>> {
+        let called = called.into();
+        match value.get_ref() {
+            DeValue::Table(entries) => Some(Table::new(called, place, entries)),
+            other => {
+                let message = format!("{called} must be a table, not {}", value::kind(other));
+                let mistake = Mistake::error(value.span(), message);
+                mistakes.push(mistake.with_help(format!("write {shape}")));
+                None
+            }
+        }
+    }
+
+    /// Whether a key stands here, whatever its value.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.entries.get(key).is_some()
+    }
+
+    /// A key's place and value.
+    pub(super) fn take(&mut self, key: &'static str) -> Option<(Place, &'d Value<'d>)> {
+        self.asked.push(key);
+        let (written, value) = self.entries.get_key_value(key)?;
+        Some((written.span(), value))
+    }
+
+    /// A key that has to be there.
+    pub(super) fn require(
+        &mut self,
+        key: &'static str,
+        help: &str,
+    ) -> Option<(Place, &'d Value<'d>)> {
+        let found = self.take(key);
+        if found.is_none() {
+            let message = format!("{} has no `{key}`", self.called);
+            let mistake = Mistake::error(self.place.clone(), message);
+            self.lacks(key, mistake.with_help(help));
+        }
+        found
+    }
+
+    /// Takes note that a key is missing; told at the end, unless it is there misspelt.
+    pub(super) fn lacks(&mut self, key: &'static str, mistake: Mistake) {
+        self.absent.push((key, mistake));
+    }
+
+    /// A text.
+    pub(super) fn text(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Spanned<String>> {
+        let (_, found) = self.take(key)?;
+        value::text(found, &format!("`{key}`"), mistakes)
+    }
+
+    /// A text to be shown on one line, or nothing.
+    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Mistakes) -> String {
+        let text = self.text(key, mistakes);
+        text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
+    }
+
+    /// A finite number.
+    pub(super) fn number(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Spanned<f64>> {
+        let (_, found) = self.take(key)?;
+        value::number(found, &format!("`{key}`"), mistakes)
+    }
+
+    /// A number or an expression in quotes.
+    pub(super) fn formula(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Formula> {
+        let (_, found) = self.take(key)?;
+        value::formula(found, &format!("`{key}`"), mistakes)
+    }
+
+    /// `true` or `false`.
+    pub(super) fn flag(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Spanned<bool>> {
+        let (_, found) = self.take(key)?;
+        value::flag(found, &format!("`{key}`"), mistakes)
+    }
+
+    /// The items of a list, none where the key is left out.
+    pub(super) fn list(&mut self, key: &'static str, mistakes: &mut Mistakes) -> &'d [Value<'d>] {
+        match self.take(key) {
+            None => &[],
+            Some((_, found)) => {
+                let items: Option<&DeArray<'d>> = value::list(found, &format!("`{key}`"), mistakes);
+                items.map_or(&[], |items| items)
+            }
+        }
+    }
+
+    /// A table of its own, `[key]`.
+    pub(super) fn table(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Mistakes,
+    ) -> Option<Table<'d>> {
+        let (place, found) = self.take(key)?;
+        Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)
+    }
+
+    /// Tables of one kind, `[[key]]` each; messages call each one `called`.
+    pub(super) fn tables(
+        &mut self,
+        key: &'static str,
+        called: &str,
+        mistakes: &mut Mistakes,
+    ) -> Vec<Table<'d>> {
+        let Some((place, found)) = self.take(key) else { return Vec::new() };
+        let head = format!("[[{key}]]");
+        match found.get_ref() {
+            DeValue::Array(items) => items
+                .iter()
+                .filter_map(|item| Table::of(item, called, item.span(), &head, mistakes))
+                .collect(),
+            other => {
+                let is = value::kind(other);
+                let message = format!("`{key}` must be a list of tables, not {is}");
+                let help = format!("head each one with {head}, in double brackets");
+                mistakes.push(Mistake::error(place, message).with_help(help));
+                Vec::new()
+            }
+        }
+    }
+
+    /// The entries in order, where the keys are names of the file's own.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (Spanned<String>, &'d Value<'d>)> {
+        self.entries
+            .iter()
+            .map(|(key, value)| (Spanned::new(key.span(), key.get_ref().to_string()), value))
+    }
+
+    /// Complains of every key that nobody asked for, and of those that are missing.
+    pub(super) fn finish(mut self, mistakes: &mut Mistakes) {
+        for (key, value) in self.entries {
+            let name: &str = key.get_ref();
+            if self.asked.contains(&name) {
+                continue;
+            }
+            let tables = match value.get_ref() {
+                DeValue::Table(_) => true,
+                DeValue::Array(items) => items.iter().any(|item| item.get_ref().is_table()),
+                _ => false,
+            };
+            let what = if tables { "table" } else { "key" };
+            let message = format!("unknown {what} `{name}` in {}", self.called);
+            let help = if let Some(near) = nearest(name, self.asked.iter().copied()) {
+                self.absent.retain(|(key, _)| *key != near);
+                format!("did you mean `{near}`?")
+            } else if TOP_LEVEL.contains(&name) {
+                format!("`{name}` belongs at the top of the file, before the first [table]")
+            } else {
+                let mut known: Vec<&str> = self.asked.clone();
+                known.dedup();
+                format!("the keys here are {}", known.join(", "))
+            };
+            mistakes.push(Mistake::error(key.span(), message).with_help(help));
+        }
+        for (key, mistake) in self.absent {
+            mistakes.missing(key, mistake);
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! One value of TOML as the kind that is wanted, or a complaint that says what it is instead.
+
+use toml::Spanned;
+use toml::de::{DeArray, DeValue};
+
+use super::table::Value;
+use super::{Formula, Mistake, Mistakes};
+
+/// What a value is, with its article.
+pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text in quotes",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+fn wrong(value: &Value<'_>, called: &str, wanted: &str, mistakes: &mut Mistakes) {
+    let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
+    mistakes.push(Mistake::error(value.span(), message));
+}
+
+/// A text.
+pub(super) fn text(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Option<Spanned<String>> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(Spanned::new(value.span(), text.to_string())),
+        _ => {
+            wrong(value, called, "a text in quotes", mistakes);
+            None
+        }
+    }
+}
+
+/// `true` or `false`.
+pub(super) fn flag(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Option<Spanned<bool>> {
+    match value.get_ref() {
+        DeValue::Boolean(flag) => Some(Spanned::new(value.span(), *flag)),
+        _ => {
+            wrong(value, called, "true or false", mistakes);
+            None
+        }
+    }
+}
+
+/// A list.
+pub(super) fn list<'d>(
+    value: &'d Value<'d>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Option<&'d DeArray<'d>> {
+    match value.get_ref() {
+        DeValue::Array(items) => Some(items),
+        _ => {
+            wrong(value, called, "a list in [ ]", mistakes);
+            None
+        }
+    }
+}
+
+/// A finite number.
+pub(super) fn number(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Option<Spanned<f64>> {
+    let digits = match value.get_ref() {
+        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
+        DeValue::String(_) => {
+            let message = format!("{called} must be a number, not a text in quotes");
+            mistakes.push(Mistake::error(value.span(), message).with_help("leave the quotes away"));
+            return None;
+        }
+        _ => {
+            wrong(value, called, "a number", mistakes);
+            return None;
+        }
+    };
+    digits.parse().ok().map(|number| Spanned::new(value.span(), number))
+}
+
+/// A number or an expression in quotes.
+pub(super) fn formula(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) -> Option<Formula> {
+    let written = match value.get_ref() {
+        DeValue::String(text) => text.to_string(),
+        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
+        _ => {
+            wrong(value, called, "a number or an expression in quotes", mistakes);
+            return None;
+        }
+    };
+    Some(Formula::new(value.span(), written))
+}
+
+/// The decimal digits of a number of TOML, as expressions write them.
+fn digits(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) -> Option<String> {
+    let written = match value.get_ref() {
+        DeValue::Integer(integer) if integer.radix() == 10 => Some(integer.as_str().to_owned()),
+        DeValue::Integer(integer) => {
+            i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|n| n.to_string())
+        }
+        DeValue::Float(float) => Some(float.as_str().to_owned()),
+        _ => None,
+    };
+    let written = written.map(|digits| digits.trim_start_matches('+').to_owned());
+    match written.filter(|digits| digits.parse::<f64>().is_ok_and(f64::is_finite)) {
+        Some(digits) => Some(digits),
+        None => {
+            let message = format!("{called} must be a finite number");
+            mistakes.push(Mistake::error(value.span(), message));
+            None
+        }
+    }
+}
+
+/// A text to be shown on one line: without the characters that steer a terminal.
+pub(super) fn one_line(text: &Spanned<String>, mistakes: &mut Mistakes) -> Option<String> {
+    shown(text, |_| false, mistakes).map(|text| text.trim().to_owned())
+}
+
+/// A text to be shown on several lines.
+pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Mistakes) -> Option<String> {
+    shown(text, |c| matches!(c, '\n' | '\r' | '\t'), mistakes)
+        .map(|text| text.trim().replace("\r\n", "\n").replace('\t', "    "))
+}
+
+fn shown<'t>(
+    text: &'t Spanned<String>,
+    allowed: impl Fn(char) -> bool,
+    mistakes: &mut Mistakes,
+) -> Option<&'t str> {
+    let steering =
+        |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    match text.get_ref().chars().find(|&c| steering(c) && !allowed(c)) {
+        None => Some(text.get_ref()),
+        Some(c) => {
+            let message = format!("the character U+{:04X} may not stand in a text", c as u32);
+            let help = match c {
+                '\n' | '\r' => Some("this text stands on one line; \"notes\" may be longer"),
+                '\t' => Some("use spaces"),
+                _ => None,
+            };
+            let mut mistake = Mistake::error(text.span(), message);
+            mistake.help = help.map(str::to_owned);
+            mistakes.push(mistake);
+            None
+        }
+    }
+}

@@ -1,0 +1,407 @@
+//! Input: the bytes a terminal sends, as keys and pasted text.
+//!
+//! In: bytes, in pieces of any size, and the news that no more came for a while. Out: [`Input`]s.
+//! Never here: reading them, or what a key does. No byte string makes it panic or get stuck.
+//!
+//! The sequences are taken apart by `vte`, which alacritty's terminal lives on; what a lone Esc is, time tells.
+
+use std::collections::VecDeque;
+use std::mem;
+use std::time::{Duration, Instant};
+
+use vte::{Params, Parser, Perform};
+
+use crate::app::{Code, Key};
+
+/// What a person did at the terminal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// A key was pressed.
+    Key(Key),
+    /// Text was pasted, and the terminal said so; longer text is cut after [`PASTE_LIMIT`] bytes.
+    Paste(String),
+    /// The window has another size: columns, rows.
+    Resize(u16, u16),
+}
+
+/// The most that one paste brings, in bytes.
+pub const PASTE_LIMIT: usize = 4096;
+
+const ESC: u8 = 0x1b;
+
+/// How long the rest of a sequence may take: longer than a line's jitter, shorter than a person notices.
+const SEQUENCE: Duration = Duration::from_millis(50);
+
+/// The same for the rest of a paste, which may be long.
+const PASTE: Duration = Duration::from_secs(1);
+
+/// How many times as long it may take in all, where more keeps coming and nothing is finished.
+const IN_ALL: u32 = 10;
+
+/// The longest sequence that is waited for, in bytes; what is longer is noise.
+const SEQUENCE_LIMIT: usize = 16 * 1024;
+
+/// Turns bytes into inputs.
+#[derive(Default)]
+pub(super) struct Decoder {
+    parser: Parser,
+    sink: Sink,
+    /// The last byte was Esc: a key of its own, or the beginning of a sequence.
+    escaped: bool,
+    /// Bytes of the sequence begun, 0 where none is.
+    begun: usize,
+    /// When what is unfinished began, and when the last of it came.
+    times: Option<(Instant, Instant)>,
+}
+
+impl Decoder {
+    /// Takes bytes in that came at that time.
+    pub(super) fn feed(&mut self, bytes: &[u8], now: Instant) {
+        self.parse(bytes);
+        let first = self.times.map_or(now, |(first, _)| first);
+        self.times = self.patience().map(|_| (first, now));
+    }
+
+    fn parse(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            if self.escaped && byte == ESC {
+                self.sink.press(Code::Esc);
+                continue;
+            }
+            if self.escaped && !(0x20..=0x7e).contains(&byte) {
+                // Alt with a control or non-ASCII character, which the parser would lose.
+                self.parser = Parser::new();
+                self.sink.alt = true;
+            }
+            self.escaped = byte == ESC;
+            self.sink.settled = false;
+            self.parser.advance(&mut self.sink, &[byte]);
+            if self.sink.settled {
+                self.begun = 0;
+            } else if self.begun > 0 || byte == ESC || byte >= 0x80 {
+                self.begun += 1;
+            }
+            if self.begun > SEQUENCE_LIMIT {
+                self.reset();
+            }
+        }
+    }
+
+    /// Whether the terminal was told to put pastes in brackets; if not, a bracket is noise.
+    pub(super) fn expect_pastes(&mut self, expected: bool) {
+        self.sink.brackets = expected;
+    }
+
+    /// When [`Self::expire`] is due; `None` where nothing is unfinished.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        let ((first, last), patience) = (self.times?, self.patience()?);
+        Some((last + patience).min(first + IN_ALL * patience))
+    }
+
+    /// How long to wait for more of what is unfinished.
+    fn patience(&self) -> Option<Duration> {
+        if self.sink.paste.is_some() {
+            Some(PASTE)
+        } else {
+            (self.begun > 0 || self.sink.prefix != Prefix::None).then_some(SEQUENCE)
+        }
+    }
+
+    /// Nothing more came: what is unfinished is a key of its own, or noise.
+    pub(super) fn expire(&mut self) {
+        if let Some(text) = self.sink.paste.take() {
+            self.sink.inputs.push_back(Input::Paste(text));
+        } else if self.escaped {
+            self.sink.press(Code::Esc);
+        } else if self.sink.prefix == Prefix::Keypad {
+            self.sink.alt = true;
+            self.sink.press(Code::Char('O'));
+        }
+        self.reset();
+    }
+
+    /// The next input, in the order of the bytes.
+    pub(super) fn next(&mut self) -> Option<Input> {
+        self.sink.inputs.pop_front()
+    }
+
+    fn reset(&mut self) {
+        let (inputs, brackets) = (mem::take(&mut self.sink.inputs), self.sink.brackets);
+        *self = Self { sink: Sink { inputs, brackets, ..Sink::default() }, ..Self::default() };
+    }
+}
+
+/// A sequence that the parser takes for finished, while one character is still to come.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+enum Prefix {
+    #[default]
+    None,
+    /// `ESC O`: keypad and function keys of the VT100.
+    Keypad,
+    /// `ESC [ [`: function keys of the Linux console.
+    Console,
+}
+
+/// What the parser has found.
+#[derive(Default)]
+struct Sink {
+    inputs: VecDeque<Input>,
+    prefix: Prefix,
+    /// Alt goes with the next key.
+    alt: bool,
+    paste: Option<String>,
+    /// Pastes come in brackets.
+    brackets: bool,
+    /// The parser has finished something since it was last asked.
+    settled: bool,
+}
+
+impl Sink {
+    fn press(&mut self, code: Code) {
+        self.press_with(code, 1);
+    }
+
+    /// A key with modifiers as xterm counts them: one more than shift 1, alt 2, ctrl 4.
+    fn press_with(&mut self, code: Code, modifiers: u16) {
+        let bits = modifiers.saturating_sub(1);
+        let (shift, alt, ctrl) = (bits & 1 != 0, bits & 2 != 0, bits & 4 != 0);
+        let alt = mem::take(&mut self.alt) || alt;
+        if self.paste.is_none() {
+            self.inputs.push_back(Input::Key(Key { code, ctrl, alt, shift }));
+        }
+    }
+
+    fn write(&mut self, character: char) {
+        let Some(paste) = &mut self.paste else {
+            self.press(Code::Char(character));
+            return;
+        };
+        if paste.len() + character.len_utf8() <= PASTE_LIMIT {
+            paste.push(character);
+        }
+    }
+
+    /// Keys that end in `~`, by their number.
+    fn numbered(&mut self, number: u16, modifiers: u16) {
+        let code = match number {
+            1 | 7 => Code::Home,
+            3 => Code::Delete,
+            4 | 8 => Code::End,
+            5 => Code::PageUp,
+            6 => Code::PageDown,
+            11..=15 => Code::F((number - 10) as u8),
+            17..=21 => Code::F((number - 11) as u8),
+            23 | 24 => Code::F((number - 12) as u8),
+            200 if self.brackets => {
+                self.paste = Some(String::new());
+                return;
+            }
+            201 => {
+                self.inputs.extend(self.paste.take().map(Input::Paste));
+                return;
+            }
+            _ => return,
+        };
+        self.press_with(code, modifiers);
+    }
+
+    /// Keys that end in a letter of their own.
+    fn lettered(&mut self, letter: char, modifiers: u16) {
+        let code = match letter {
+            'A' => Code::Up,
+            'B' => Code::Down,
+            'C' => Code::Right,
+            'D' => Code::Left,
+            'F' => Code::End,
+            'H' => Code::Home,
+            'P' => Code::F(1),
+            'Q' => Code::F(2),
+            'R' => Code::F(3),
+            'S' => Code::F(4),
+            'Z' => {
+                self.press_with(Code::Tab, 2);
+                return;
+            }
+            _ => return,
+        };
+        self.press_with(code, modifiers);
+    }
+}
+
+impl Perform for Sink {
+    fn print(&mut self, character: char) {
+        self.settled = true;
+        match mem::take(&mut self.prefix) {
+            Prefix::None if character == '\x7f' => self.press(Code::Backspace),
+            Prefix::None => self.write(character),
+            Prefix::Keypad => match character {
+                'M' => self.press(Code::Enter),
+                'j'..='y' => self.write(char::from(character as u8 - 0x40)),
+                letter => self.lettered(letter, 1),
+            },
+            Prefix::Console => {
+                if let 'A'..='E' = character {
+                    self.press(Code::F(character as u8 - b'A' + 1));
+                }
+            }
+        }
+    }
+
+    fn execute(&mut self, byte: u8) {
+        self.settled = true;
+        self.prefix = Prefix::None;
+        match byte {
+            b'\t' | b'\n' | b'\r' if self.paste.is_some() => self.write(byte.into()),
+            0 => self.press_with(Code::Char(' '), 5),
+            8 | 0x7f => self.press(Code::Backspace),
+            b'\t' => self.press(Code::Tab),
+            b'\n' | b'\r' => self.press(Code::Enter),
+            1..=26 => self.press_with(Code::Char((byte + 0x60).into()), 5),
+            _ => self.press_with(Code::Char((byte + 0x40).into()), 5),
+        }
+    }
+
+    fn csi_dispatch(&mut self, params: &Params, intermediates: &[u8], _: bool, action: char) {
+        self.settled = true;
+        let mut params = params.iter().map(|p| p.first().copied().unwrap_or(0));
+        let (first, modifiers) = (params.next().unwrap_or(0), params.next().unwrap_or(1));
+        match action {
+            // Mouse reports and answers to questions nobody here asks.
+            _ if !intermediates.is_empty() => {}
+            '[' => self.prefix = Prefix::Console,
+            '~' => self.numbered(first, modifiers),
+            // With another number it is an answer, such as the cursor's place.
+            letter if first <= 1 => self.lettered(letter, modifiers),
+            _ => {}
+        }
+    }
+
+    fn esc_dispatch(&mut self, intermediates: &[u8], _: bool, byte: u8) {
+        self.settled = true;
+        match byte {
+            // The end of a string that the parser has swallowed.
+            b'\\' => {}
+            _ if !intermediates.is_empty() => {}
+            b'O' => self.prefix = Prefix::Keypad,
+            _ => {
+                self.alt = true;
+                self.press(Code::Char(byte.into()));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// What whole bytes, and then silence, mean.
+    fn decode(bytes: &[u8]) -> Vec<Input> {
+        let mut decoder = Decoder::default();
+        decoder.expect_pastes(true);
+        decoder.feed(bytes, Instant::now());
+        if decoder.deadline().is_some() {
+            decoder.expire();
+        }
+        std::iter::from_fn(|| decoder.next()).collect()
+    }
+
+    fn check(bytes: &str, keys: &[Key]) {
+        let expected: Vec<_> = keys.iter().copied().map(Input::Key).collect();
+        assert_eq!(decode(bytes.as_bytes()), expected, "{bytes:?} at once");
+        let mut decoder = Decoder::default();
+        bytes.bytes().for_each(|byte| decoder.feed(&[byte], Instant::now()));
+        decoder.expire();
+        let pieces: Vec<_> = std::iter::from_fn(|| decoder.next()).collect();
+        assert_eq!(pieces, expected, "{bytes:?} in pieces");
+    }
+
+    const fn alt(code: Code) -> Key {
+        Key { alt: true, ..Key::plain(code) }
+    }
+
+    #[test]
+    fn keys_of_every_kind() {
+        check("aZ θ", &[Key::char('a'), Key::char('Z'), Key::char(' '), Key::char('θ')]);
+        check("\r\n\t", &[Code::Enter, Code::Enter, Code::Tab].map(Key::plain));
+        check("\x7f\x08", &[Code::Backspace, Code::Backspace].map(Key::plain));
+        check("\x03\x1a\0", &[Key::ctrl('c'), Key::ctrl('z'), Key::ctrl(' ')]);
+        check("\x1c\x1f", &[Key::ctrl('\\'), Key::ctrl('_')]);
+        check("\x1b[A\x1bOA\x1b[D", &[Code::Up, Code::Up, Code::Left].map(Key::plain));
+        check("\x1b[H\x1b[4~\x1bOF", &[Code::Home, Code::End, Code::End].map(Key::plain));
+        check(
+            "\x1b[5~\x1b[6~\x1b[3~",
+            &[Code::PageUp, Code::PageDown, Code::Delete].map(Key::plain),
+        );
+        check("\x1bOP\x1b[15~\x1b[24~\x1b[[B", &[1, 5, 12, 2].map(|n| Key::plain(Code::F(n))));
+        check("\x1b[Z\x1b[1;2C", &[Key::shift(Code::Tab), Key::shift(Code::Right)]);
+        check("\x1b[1;5A", &[Key { ctrl: true, ..Key::plain(Code::Up) }]);
+        check("\x1bx\x1b\r", &[alt(Code::Char('x')), alt(Code::Enter)]);
+        check("\x1bé\x1b\x7f", &[alt(Code::Char('é')), alt(Code::Backspace)]);
+        check("\x1bOp\x1bOM", &[Key::char('0'), Key::plain(Code::Enter)]);
+    }
+
+    #[test]
+    fn esc_is_a_key_when_nothing_follows() {
+        check("\x1b", &[Key::plain(Code::Esc)]);
+        check("\x1b\x1b", &[Code::Esc, Code::Esc].map(Key::plain));
+        check("\x1b\x1b[A", &[Code::Esc, Code::Up].map(Key::plain));
+        check("\x1bO", &[alt(Code::Char('O'))]);
+    }
+
+    #[test]
+    fn what_nobody_asked_for_is_no_key() {
+        for noise in [
+            "\x1b[<0;0;0M",
+            "\x1b[<0;10;3m",
+            "\x1b]11;rgb:1010/1010/1414\x1b\\",
+            "\x1b]0;q\x07",
+            "\x1bP1$r0m\x1b\\",
+            "\x1b[?62;22c",
+            "\x1b[12;40R",
+            "\x1b[I\x1b[O",
+        ] {
+            check(&format!("{noise}q"), &[Key::char('q')]);
+        }
+    }
+
+    #[test]
+    fn pastes_are_one_input_and_bounded() {
+        let paste = |text: &str| vec![Input::Paste(text.to_owned())];
+        assert_eq!(decode(b"\x1b[200~q\r2*x\x1b[A\x1b[201~"), paste("q\r2*x"));
+        assert_eq!(decode(b"\x1b[200~never ended"), paste("never ended"));
+        let long = format!("\x1b[200~{}\x1b[201~", "θ".repeat(500_000));
+        assert_eq!(decode(long.as_bytes()), paste(&"θ".repeat(PASTE_LIMIT / 2)));
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_swallows_q_for_ever(
+            brackets: bool,
+            bytes: Vec<u8>,
+            tail in "\x1b[\\[\\]PO_X]?(200~)?.{0,8}",
+        ) {
+            let mut decoder = Decoder::default();
+            decoder.expect_pastes(brackets);
+            let mut now = Instant::now();
+            decoder.feed(&bytes, now);
+            decoder.feed(tail.as_bytes(), now);
+            // A key that repeats must not keep it waiting either.
+            for _ in 0..1000 {
+                if decoder.deadline().is_none_or(|deadline| deadline <= now) {
+                    break;
+                }
+                decoder.feed(b"q", now);
+                now += Duration::from_millis(30);
+            }
+            prop_assert!(decoder.deadline().is_none_or(|deadline| deadline <= now));
+            decoder.expire();
+            while decoder.next().is_some() {}
+            decoder.feed(b"q", now);
+            prop_assert_eq!(decoder.next(), Some(Input::Key(Key::char('q'))));
+            prop_assert_eq!(decoder.deadline(), None);
+        }
+    }
+}

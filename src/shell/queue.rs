@@ -1,0 +1,96 @@
+//! The queue: bytes on their way to a terminal that may be slow, stuck or gone.
+//!
+//! In: frames. Out: as much as the terminal takes at the moment. Never here: waiting.
+
+use std::io::{Error, ErrorKind, Result};
+
+/// Bytes not yet sent.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    bytes: Vec<u8>,
+    sent: usize,
+}
+
+impl Queue {
+    /// Whether something is still to be sent; then no frame should be drawn.
+    pub(super) fn is_busy(&self) -> bool {
+        self.sent < self.bytes.len()
+    }
+
+    /// Puts bytes at the end.
+    pub(super) fn push(&mut self, bytes: &[u8]) {
+        self.bytes.extend(bytes);
+    }
+
+    /// Drops all that is not sent.
+    pub(super) fn clear(&mut self) {
+        (self.bytes, self.sent) = (Vec::new(), 0);
+    }
+
+    /// Sends what can be sent without waiting. After an error the queue is empty, and what the terminal shows is
+    /// unknown.
+    pub(super) fn send(&mut self, mut write: impl FnMut(&[u8]) -> Result<usize>) -> Result<()> {
+        while self.is_busy() {
+            match write(&self.bytes[self.sent..]) {
+                Ok(0) => {
+                    self.clear();
+                    return Err(Error::from(ErrorKind::WriteZero));
+                }
+                Ok(count) => self.sent += count,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
+                Err(error) => {
+                    self.clear();
+                    return Err(error);
+                }
+            }
+        }
+        self.clear();
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A terminal that takes at most so many bytes at a time, and between them answers as told.
+    fn sent(
+        queue: &mut Queue,
+        answers: &[std::result::Result<usize, ErrorKind>],
+    ) -> (Vec<u8>, bool) {
+        let mut shown = Vec::new();
+        let mut answers = answers.iter();
+        let result = queue.send(|bytes| match answers.next().expect("no more writes are needed") {
+            Ok(room) => {
+                let count = bytes.len().min(*room);
+                shown.extend(&bytes[..count]);
+                Ok(count)
+            }
+            Err(kind) => Err(Error::from(*kind)),
+        });
+        (shown, result.is_ok())
+    }
+
+    #[test]
+    fn what_is_not_taken_waits_in_order() {
+        let mut queue = Queue::default();
+        queue.push(b"frame one");
+        let busy = [Ok(3), Err(ErrorKind::Interrupted), Ok(2), Err(ErrorKind::WouldBlock)];
+        assert_eq!(sent(&mut queue, &busy), (b"frame".to_vec(), true));
+        assert!(queue.is_busy());
+        queue.push(b", frame two");
+        assert_eq!(sent(&mut queue, &[Ok(99)]), (b" one, frame two".to_vec(), true));
+        assert!(!queue.is_busy());
+    }
+
+    #[test]
+    fn an_error_empties_it() {
+        for answer in [Err(ErrorKind::Other), Ok(0)] {
+            let mut queue = Queue::default();
+            queue.push(b"frame");
+            assert_eq!(sent(&mut queue, &[Ok(2), answer]), (b"fr".to_vec(), false));
+            assert!(!queue.is_busy());
+        }
+    }
+}

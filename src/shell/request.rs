@@ -1,0 +1,101 @@
+//! The request: what to open and how to show it, and what the environment says where nothing is asked for.
+//!
+//! In: options of the command line. Out: the look and the pace. Never here: the options' spelling; a question put to
+//! the terminal.
+
+use crate::preset::NotFound;
+use crate::view::Look;
+use crate::view::colour::ColourDepth;
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::Theme;
+
+use super::stage::Pace;
+use super::terminal::NoTerminal;
+
+/// Frames in a second where the terminal is near.
+const NEAR: u16 = 30;
+
+/// The same at the other end of a line.
+const FAR: u16 = 15;
+
+/// What the laboratory is to be opened with.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// A preset's name or a file's path; without one the picker opens.
+    pub open: Option<String>,
+    /// How many colours to use; the environment says it otherwise.
+    pub colour: Option<ColourDepth>,
+    /// What to draw with; the environment says it otherwise.
+    pub glyphs: Option<Glyphs>,
+    /// The most frames in a second; otherwise 30, and 15 where `SSH_CONNECTION` or `SSH_TTY` is set.
+    pub frames: Option<u16>,
+    /// Leaves out the marks round each frame, for terminals that show them.
+    pub unsynchronized: bool,
+}
+
+/// Why the laboratory does not open.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// There is no terminal.
+    #[error(transparent)]
+    NoTerminal(#[from] NoTerminal),
+    /// What was asked for is not there.
+    #[error(transparent)]
+    NotFound(#[from] NotFound),
+    /// The system refuses something that the laboratory needs.
+    #[error("the laboratory cannot go on: {0}")]
+    System(#[from] std::io::Error),
+}
+
+impl Request {
+    /// How the screen looks, `variable` being the environment.
+    pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> Look {
+        let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
+        let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
+        Look { theme: Theme::dark(depth), glyphs }
+    }
+
+    /// How fast frames come.
+    pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> Pace {
+        let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
+        let frames = self.frames.unwrap_or(if far { FAR } else { NEAR });
+        Pace { frames, synchronized: !self.unsynchronized }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_fewer_at_the_end_of_a_line() {
+        let frames = |request: &Request, set: &str| {
+            request.pace(&|name| (name == set).then(|| "value".to_owned())).frames
+        };
+        let plain = Request::default();
+        assert_eq!(frames(&plain, "HOME"), 30);
+        assert_eq!(frames(&plain, "SSH_TTY"), 15);
+        assert_eq!(frames(&plain, "SSH_CONNECTION"), 15);
+        let asked = Request { frames: Some(60), ..Request::default() };
+        assert_eq!(frames(&asked, "SSH_TTY"), 60);
+    }
+
+    #[test]
+    fn what_is_asked_for_wins_over_the_environment() {
+        let variable = |name: &str| match name {
+            "TERM" => Some("xterm-256color".to_owned()),
+            "LANG" => Some("C".to_owned()),
+            "NO_COLOR" => Some("1".to_owned()),
+            _ => None,
+        };
+        let look = Request::default().look(&variable);
+        assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::None, Glyphs::Ascii));
+        let asked = Request {
+            colour: Some(ColourDepth::True),
+            glyphs: Some(Glyphs::HalfBlock),
+            ..Request::default()
+        };
+        let look = asked.look(&variable);
+        assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::True, Glyphs::HalfBlock));
+    }
+}

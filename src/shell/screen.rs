@@ -1,0 +1,201 @@
+//! The screen: what the terminal shows, and the bytes from there to the next picture.
+//!
+//! In: a function that draws. Out: a frame of bytes, between the marks of synchronized output, or nothing if no cell
+//! has changed. Never here: sending them, or when to draw.
+
+use std::mem;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
+
+use super::pen::Pen;
+
+/// The marks round a frame, between which a terminal holds back what it shows.
+const SYNCHRONIZED: [&[u8]; 2] = [b"\x1b[?2026h", b"\x1b[?2026l"];
+
+/// The picture on the terminal.
+#[derive(Debug)]
+pub(super) struct Screen {
+    shown: Option<Buffer>,
+    next: Buffer,
+    pen: Pen,
+    synchronized: bool,
+}
+
+impl Screen {
+    /// A screen that shows nobody knows what; `synchronized` puts the marks round each frame.
+    pub(super) fn new(synchronized: bool) -> Self {
+        Self { shown: None, next: Buffer::default(), pen: Pen::default(), synchronized }
+    }
+
+    /// What the terminal shows is no longer known: the next frame paints every cell.
+    pub(super) fn forget(&mut self) {
+        self.shown = None;
+    }
+
+    /// Whether what the terminal shows is known.
+    pub(super) fn is_known(&self) -> bool {
+        self.shown.is_some()
+    }
+
+    /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
+    pub(super) fn frame(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
+        let area = Rect::new(0, 0, size.width, size.height);
+        self.next.resize(area);
+        self.next.reset();
+        draw(area, &mut self.next);
+        // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
+        for cell in &mut self.next.content {
+            if cell.symbol().contains(char::is_control) {
+                cell.set_symbol(" ");
+            }
+        }
+
+        let mut out = Vec::new();
+        if self.synchronized {
+            out.extend(SYNCHRONIZED[0]);
+        }
+        let empty = out.len();
+        let shown = self.shown.take().filter(|shown| shown.area == area).unwrap_or_else(|| {
+            self.pen.clear(&mut out);
+            Buffer::empty(area)
+        });
+        for (x, y, cell) in shown.diff_iter(&self.next) {
+            self.pen.put(&mut out, (x, y), cell, area.width);
+        }
+        self.shown = Some(mem::replace(&mut self.next, shown));
+        if out.len() == empty {
+            return Vec::new();
+        }
+        if self.synchronized {
+            out.extend(SYNCHRONIZED[1]);
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use ratatui::style::{Color, Modifier, Style};
+
+    use super::*;
+
+    const SIZE: Size = Size { width: 12, height: 5 };
+
+    /// What a cell may look like: a symbol, colours, modifiers.
+    fn cells() -> impl Strategy<Value = Vec<(usize, &'static str, Style)>> {
+        let symbol = prop::sample::select(vec![" ", "a", "θ", "⣿", "░", "\u{1b}", "x\u{307}"]);
+        let colour = prop::sample::select(vec![
+            Color::Reset,
+            Color::Red,
+            Color::DarkGray,
+            Color::Indexed(214),
+            Color::Rgb(1, 2, 3),
+        ]);
+        // The terminal of the tests knows these.
+        let modifier = prop::sample::select(vec![
+            Modifier::empty(),
+            Modifier::BOLD,
+            Modifier::DIM,
+            Modifier::ITALIC,
+            Modifier::UNDERLINED | Modifier::BOLD,
+            Modifier::REVERSED,
+        ]);
+        let cell = (0..60_usize, symbol, colour.clone(), colour, modifier);
+        prop::collection::vec(
+            cell.prop_map(|(at, symbol, fg, bg, modifier)| {
+                (at, symbol, Style::new().fg(fg).bg(bg).add_modifier(modifier))
+            }),
+            0..80,
+        )
+    }
+
+    fn paint(cells: &[(usize, &'static str, Style)], area: Rect, buffer: &mut Buffer) {
+        for &(at, symbol, style) in cells {
+            let (x, y) = buffer.pos_of(at % usize::from(area.width * area.height));
+            buffer[(x, y)].reset();
+            buffer[(x, y)].set_symbol(symbol).set_style(style);
+        }
+    }
+
+    fn colour(colour: Color) -> vt100::Color {
+        match colour {
+            Color::Red => vt100::Color::Idx(1),
+            Color::DarkGray => vt100::Color::Idx(8),
+            Color::Indexed(index) => vt100::Color::Idx(index),
+            Color::Rgb(r, g, b) => vt100::Color::Rgb(r, g, b),
+            _ => vt100::Color::Default,
+        }
+    }
+
+    /// Whether a terminal shows what was drawn.
+    fn check(terminal: &vt100::Screen, drawn: &Buffer) {
+        for y in 0..SIZE.height {
+            for x in 0..SIZE.width {
+                let (cell, shown) = (&drawn[(x, y)], terminal.cell(y, x).expect("inside"));
+                let symbol = if cell.symbol() == "\u{1b}" { " " } else { cell.symbol() };
+                let contents = if shown.has_contents() { shown.contents() } else { " " };
+                assert_eq!(contents, symbol, "at {x}, {y}");
+                assert_eq!(shown.bgcolor(), colour(cell.bg), "background at {x}, {y}");
+                assert_eq!(shown.inverse(), cell.modifier.contains(Modifier::REVERSED));
+                assert_eq!(shown.underline(), cell.modifier.contains(Modifier::UNDERLINED));
+                if symbol != " " {
+                    assert_eq!(shown.fgcolor(), colour(cell.fg), "foreground at {x}, {y}");
+                    assert_eq!(shown.bold(), cell.modifier.contains(Modifier::BOLD));
+                    assert_eq!(shown.dim(), cell.modifier.contains(Modifier::DIM));
+                    assert_eq!(shown.italic(), cell.modifier.contains(Modifier::ITALIC));
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn frames_bring_the_terminal_to_what_was_drawn(
+            pictures in prop::collection::vec((cells(), any::<bool>()), 1..6),
+        ) {
+            let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
+            terminal.process("left by somebody else\r\n\x1b[7mso".as_bytes());
+            let mut screen = Screen::new(true);
+            for (cells, forget) in pictures {
+                if forget {
+                    terminal.process(b"\x1b[41mthe terminal was resized");
+                    screen.forget();
+                }
+                let mut drawn = Buffer::empty(Rect::from(SIZE));
+                paint(&cells, drawn.area, &mut drawn);
+                let bytes = screen.frame(SIZE, |area, buffer| paint(&cells, area, buffer));
+                terminal.process(&bytes);
+                check(terminal.screen(), &drawn);
+                let again = screen.frame(SIZE, |area, buffer| paint(&cells, area, buffer));
+                prop_assert_eq!(again, Vec::<u8>::new());
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_is_marked_and_small() {
+        let mut screen = Screen::new(true);
+        let mut frame = |text: &str, style: Style| {
+            let bytes = screen.frame(SIZE, |area, buffer| {
+                buffer.set_string(area.x, 1, text, style);
+            });
+            String::from_utf8(bytes).expect("text")
+        };
+        let plain = Style::new();
+        assert_eq!(frame("12:30", plain), "\x1b[?2026h\x1b[0m\x1b[2J\x1b[2H12:30\x1b[?2026l");
+        assert_eq!(frame("12:31", plain), "\x1b[?2026h\x081\x1b[?2026l");
+        assert_eq!(frame("12:31", plain), "");
+    }
+
+    #[test]
+    fn no_size_is_too_strange() {
+        let mut screen = Screen::new(false);
+        for (width, height) in [(0, 0), (1, 1), (500, 500), (0, 9), (9, 0), (80, 24)] {
+            screen.frame(Size { width, height }, |area, buffer| {
+                assert_eq!(buffer.area, area);
+            });
+        }
+    }
+}

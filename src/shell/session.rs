@@ -1,0 +1,145 @@
+//! The session: the application with everything that does what it asks for.
+//!
+//! In: inputs and frames from the stage. Out: a drawn screen; commands to the worker, loads to the loader, wishes to
+//! the stage. Never here: what a key does, or how anything looks.
+
+use std::io;
+use std::sync::Arc;
+use std::time::Duration;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::input::Input;
+use super::loader::{Loader, Ready};
+use super::stage::{Page, Wish};
+use crate::app::{App, Effect, Event, Loaded};
+use crate::preset::Catalog;
+use crate::view::{self, Look};
+use crate::worker::Worker;
+
+/// The laboratory as it runs.
+pub(super) struct Session {
+    app: App,
+    look: Look,
+    worker: Worker,
+    loader: Loader,
+}
+
+impl Session {
+    /// The laboratory, opened at a preset or file, or at the picker.
+    pub(super) fn new(catalog: Catalog, open: Option<&str>, look: Look) -> io::Result<Self> {
+        let (app, effects) = App::new(&catalog, open);
+        let loader = Loader::new(Arc::new(catalog));
+        let mut session = Self { app, look, worker: Worker::idle()?, loader };
+        session.perform(effects);
+        Ok(session)
+    }
+
+    fn update(&mut self, event: Event) -> Wish {
+        let effects = self.app.update(event);
+        self.perform(effects)
+    }
+
+    /// Does what the application asks for; what concerns the terminal is the stage's to do.
+    fn perform(&mut self, effects: Vec<Effect>) -> Wish {
+        let mut wish = Wish::Nothing;
+        for effect in effects {
+            match effect {
+                Effect::Tell(command) => self.worker.tell(command),
+                Effect::Load(name) => self.loader.load(name),
+                Effect::Repaint => wish = Wish::Repaint,
+                Effect::Suspend => wish = Wish::Suspend,
+                Effect::Quit => return Wish::Quit,
+            }
+        }
+        wish
+    }
+
+    /// Sets a loaded system in motion.
+    fn begin(&mut self, ready: Ready) -> Loaded {
+        let Ready { name, model, equations, system, experiment } = ready;
+        let epoch = self.worker.load(experiment);
+        Loaded { name, epoch, model, equations, system }
+    }
+}
+
+impl Page for Session {
+    fn input(&mut self, input: Input) -> Wish {
+        self.update(match input {
+            Input::Key(key) => Event::Key(key),
+            Input::Paste(text) => Event::Paste(text),
+            Input::Resize(columns, rows) => Event::Resize(columns, rows),
+        })
+    }
+
+    /// Time by itself changes nothing that is worth a frame, except that a notice goes.
+    fn advance(&mut self, elapsed: Duration) -> bool {
+        let noticed = self.app.notice.is_some();
+        self.update(Event::Tick(elapsed));
+        let mut changed = self.app.notice.is_some() != noticed;
+        if let Some(outcome) = self.loader.take() {
+            let loaded = outcome.map(|ready| self.begin(*ready));
+            self.update(Event::Loaded(loaded));
+            changed = true;
+        }
+        if let Some(snapshot) = self.worker.newest() {
+            self.update(Event::Snapshot(snapshot));
+            changed = true;
+        }
+        changed
+    }
+
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) {
+        let drawn = view::draw(&self.app, &self.look, area, buffer);
+        self.update(Event::Drawn(drawn));
+    }
+
+    fn is_typing(&self) -> bool {
+        self.app.is_typing()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::layout::Size;
+
+    use super::*;
+    use crate::shell::loader::prepare;
+    use crate::shell::screen::Screen;
+    use crate::view::colour::ColourDepth;
+    use crate::view::glyphs::Glyphs;
+    use crate::view::theme::Theme;
+
+    /// The bytes of so many frames of a system in motion, 30 in a second, after its first two seconds.
+    fn frames(name: &str, depth: ColourDepth, count: u32) -> Vec<usize> {
+        let catalog = Catalog::with_folder(None);
+        let ready = prepare(&catalog, name).expect("a shipped preset");
+        let Ready { name, model, equations, system, mut experiment } = ready;
+        experiment.set_epoch(1);
+        let (mut app, _) = App::new(&catalog, Some(&name));
+        app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, model, equations, system })));
+        let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let mut screen = Screen::new(true);
+        let mut bytes = Vec::new();
+        for frame in 0..count + 60 {
+            let time = f64::from(frame) / 30.0 * experiment.speed();
+            experiment.advance(time, u64::MAX);
+            app.update(Event::Tick(Duration::from_secs(1) / 30));
+            app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+            let draw = |area, buffer: &mut Buffer| {
+                view::draw(&app, &look, area, buffer);
+            };
+            bytes.push(screen.frame(Size::new(80, 24), draw).len());
+        }
+        bytes.split_off(60)
+    }
+
+    #[test]
+    fn frames_fit_a_slow_line() {
+        let frames = frames("pendulum", ColourDepth::Ansi256, 200);
+        let mean = frames.iter().sum::<usize>() / frames.len();
+        let greatest = frames.iter().max().copied().unwrap_or(0);
+        assert!(mean <= 350 && greatest <= 600, "mean {mean}, greatest {greatest}");
+    }
+}

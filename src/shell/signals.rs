@@ -1,0 +1,92 @@
+//! Signals: a thread that ends the program as it should end, and passes on what the frame loop has to do.
+//!
+//! In: signals. Out: a restored terminal and the exit status 128 + n, or a note. Never here: work inside a signal
+//! handler; the thread is an ordinary one, woken through a pipe.
+
+use std::io::{self, Read, Write};
+use std::mem;
+use std::os::unix::net::UnixStream;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::process::{Signal, kill_current_process_group};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+use signal_hook::iterator::Signals as Caught;
+
+use super::terminal::Terminal;
+
+/// The way from the signal thread to the frame loop.
+#[derive(Debug)]
+pub(super) struct Signals {
+    posted: Arc<Mutex<Notes>>,
+    wake: UnixStream,
+}
+
+/// What has happened since the last look.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Notes {
+    /// The program was asked to stop (SIGTSTP).
+    pub(super) stop: bool,
+    /// It was stopped and goes on (SIGCONT).
+    pub(super) resumed: bool,
+    /// The window has changed its size (SIGWINCH).
+    pub(super) resized: bool,
+}
+
+impl Signals {
+    /// Starts to watch; the thread ends with the program.
+    pub(super) fn watch(terminal: Arc<Terminal>) -> io::Result<Self> {
+        let (wake, mut bell) = UnixStream::pair()?;
+        wake.set_nonblocking(true)?;
+        bell.set_nonblocking(true)?;
+        let posted = Arc::new(Mutex::new(Notes::default()));
+        let board = Arc::clone(&posted);
+        let signals = [SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH];
+        let mut signals = Caught::new(signals)?;
+        thread::Builder::new().name("signals".to_owned()).spawn(move || {
+            for signal in signals.forever() {
+                let mut notes = board.lock().unwrap_or_else(PoisonError::into_inner);
+                match signal {
+                    SIGTSTP => notes.stop = true,
+                    SIGCONT => notes.resumed = true,
+                    SIGWINCH => notes.resized = true,
+                    fatal => {
+                        terminal.leave();
+                        signal_hook::low_level::exit(128 + fatal);
+                    }
+                }
+                drop(notes);
+                // A full pipe wakes as well as one more byte.
+                let _ = bell.write(&[0]);
+            }
+        })?;
+        Ok(Self { posted, wake })
+    }
+
+    /// Can be read when there is a note.
+    pub(super) fn wake(&self) -> &UnixStream {
+        &self.wake
+    }
+
+    /// Takes the notes.
+    pub(super) fn take(&self) -> Notes {
+        while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
+        mem::take(&mut *self.posted.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Stops the program and all that was started with it in one pipeline, as the terminal's own Ctrl-Z does, and
+    /// returns when it goes on.
+    pub(super) fn stop(&self) -> io::Result<()> {
+        // Not SIGTSTP: that is caught here, and by default it does nothing in a group that has no shell.
+        kill_current_process_group(Signal::STOP)?;
+        while !self.take().resumed {
+            let mut fds = [PollFd::new(&self.wake, PollFlags::IN)];
+            match poll(&mut fds, None) {
+                Ok(_) | Err(rustix::io::Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,236 @@
+//! The stage: the frame loop, which holds a page up on the terminal until it is done.
+//!
+//! In: a [`Page`], what is typed, signals. Out: frames, and how it ended. It waits in one place, for all there is to
+//! wait for. Never here: what the page is about.
+//!
+//! There is no writing thread: the terminal is written to without blocking, and while it has not taken the last frame
+//! none is drawn. So a stalled terminal costs pictures, never a key.
+
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
+
+use super::input::{Decoder, Input};
+use super::panic;
+use super::queue::Queue;
+use super::request::Refusal;
+use super::screen::Screen;
+use super::signals::Signals;
+use super::terminal::{Mode, NoTerminal, Ready, Terminal};
+
+/// What can be held up on a terminal.
+pub trait Page {
+    /// Something was done at the terminal.
+    fn input(&mut self, input: Input) -> Wish;
+
+    /// A frame is due and this much time has passed since the last; whether anything to be seen has changed.
+    fn advance(&mut self, elapsed: Duration) -> bool;
+
+    /// Draws on a blank area.
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer);
+
+    /// Whether text is being typed, so that a paste should come as one.
+    fn is_typing(&self) -> bool;
+}
+
+/// What a page wants of the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// Nothing but to be drawn anew.
+    Nothing,
+    /// Every cell painted, whatever the terminal shows.
+    Repaint,
+    /// To be stopped as by Ctrl-Z.
+    Suspend,
+    /// To end.
+    Quit,
+}
+
+/// How frames are sent.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// The most frames in a second, at least one.
+    pub frames: u16,
+    /// Whether they come between the marks of synchronized output.
+    pub synchronized: bool,
+}
+
+/// How a page came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// It wanted to.
+    Quit,
+    /// The terminal has hung up.
+    Gone,
+}
+
+/// Reads in a row before a frame is drawn, each of [`READ`] bytes; a flood must not keep the screen still.
+const READS: usize = 64;
+const READ: usize = 4096;
+
+/// Frames that may fail one after the other before the terminal is given up.
+const FAILURES: u32 = 20;
+
+/// Holds a page up on the terminal until it ends. The terminal is then as it was, whatever the way out.
+///
+/// # Errors
+/// Where there is no terminal, or it can no longer be used.
+pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
+    NoTerminal::check()?;
+    let terminal = Arc::new(Terminal::open()?);
+    panic::guard(&terminal);
+    let signals = Signals::watch(Arc::clone(&terminal))?;
+    let guard = Guard(terminal);
+    let mut stage = Stage {
+        terminal: &guard.0,
+        signals,
+        decoder: Decoder::default(),
+        screen: Screen::new(pace.synchronized),
+        queue: Queue::default(),
+        size: None,
+        failures: 0,
+    };
+    stage.enter()?;
+    Ok(stage.run(page, Duration::from_secs(1) / u32::from(pace.frames.max(1)))?)
+}
+
+/// Restores the terminal when it goes.
+struct Guard(Arc<Terminal>);
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        self.0.leave();
+    }
+}
+
+struct Stage<'a> {
+    terminal: &'a Terminal,
+    signals: Signals,
+    decoder: Decoder,
+    screen: Screen,
+    queue: Queue,
+    size: Option<Size>,
+    failures: u32,
+}
+
+impl Stage<'_> {
+    fn run(&mut self, page: &mut impl Page, interval: Duration) -> io::Result<Ending> {
+        let mut last = Instant::now();
+        let mut due = last;
+        let mut changed = true;
+        loop {
+            let notes = self.signals.take();
+            if notes.stop {
+                self.suspend()?;
+            } else if notes.resumed {
+                self.enter()?;
+            } else if notes.resized {
+                // Even where the size is the same again, the terminal may have lost what it showed.
+                self.screen.forget();
+            }
+            if self.decoder.deadline().is_some_and(|deadline| deadline <= Instant::now()) {
+                self.decoder.expire();
+            }
+            while let Some(input) = self.decoder.next() {
+                changed = true;
+                match page.input(input) {
+                    Wish::Nothing => {}
+                    Wish::Repaint => self.screen.forget(),
+                    Wish::Suspend => self.suspend()?,
+                    Wish::Quit => return Ok(Ending::Quit),
+                }
+            }
+            if due <= Instant::now() && !self.queue.is_busy() {
+                let now = Instant::now();
+                changed |= self.resize(page) | page.advance(now - last) | !self.screen.is_known();
+                if changed {
+                    self.frame(page);
+                }
+                (last, due, changed) = (now, now + interval, false);
+            }
+            self.send()?;
+
+            let ready = self.wait(due)?;
+            if ready.gone || ready.input && !self.read()? {
+                return Ok(Ending::Gone);
+            }
+        }
+    }
+
+    /// Sets the terminal up, and knows nothing of what it shows.
+    fn enter(&mut self) -> io::Result<()> {
+        self.queue.clear();
+        self.queue.push(&self.terminal.enter()?);
+        self.screen.forget();
+        Ok(())
+    }
+
+    /// Gives the terminal back until the program goes on.
+    fn suspend(&mut self) -> io::Result<()> {
+        self.terminal.leave();
+        self.signals.stop()?;
+        self.enter()
+    }
+
+    /// Tells the page of a new size. It is asked for every time, which many resizes at once cannot outrun.
+    fn resize(&mut self, page: &mut impl Page) -> bool {
+        let size = self.terminal.size();
+        let changed = self.size.replace(size) != Some(size);
+        if changed {
+            page.input(Input::Resize(size.width, size.height));
+        }
+        changed
+    }
+
+    fn frame(&mut self, page: &mut impl Page) {
+        let size = self.size.unwrap_or_default();
+        self.decoder.expect_pastes(page.is_typing());
+        self.queue.push(self.terminal.switch(Mode::Paste, page.is_typing()));
+        self.queue.push(&self.screen.frame(size, |area, buffer| page.draw(area, buffer)));
+    }
+
+    /// Sends what the terminal takes. One failed write costs a frame; then all is set up and painted anew.
+    fn send(&mut self) -> io::Result<()> {
+        match self.queue.send(|bytes| self.terminal.write(bytes)) {
+            Ok(()) => self.failures = 0,
+            Err(error) if self.failures == FAILURES => return Err(error),
+            Err(_) => {
+                self.failures += 1;
+                self.enter()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Waits for input, a signal, room for output or the next frame.
+    fn wait(&self, due: Instant) -> io::Result<Ready> {
+        let busy = self.queue.is_busy();
+        let now = Instant::now();
+        let frame = Some(due).filter(|_| !busy);
+        let times = [frame, self.decoder.deadline(), Some(now + Duration::from_secs(1))];
+        let next = times.into_iter().flatten().min().unwrap_or(now);
+        let time = next.saturating_duration_since(now);
+        self.terminal.wait(self.signals.wake(), busy, time)
+    }
+
+    /// Reads what was typed; `false` if the terminal is gone.
+    fn read(&mut self) -> io::Result<bool> {
+        let mut buffer = [0; READ];
+        for _ in 0..READS {
+            match self.terminal.read(&mut buffer) {
+                Ok(0) => return Ok(false),
+                Ok(count) => self.decoder.feed(&buffer[..count], Instant::now()),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
+                Err(_) => return Ok(false),
+            }
+            if !self.terminal.wait(self.signals.wake(), false, Duration::ZERO)?.input {
+                break;
+            }
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,35 @@
+//! A compiled system: from here on there are only numbers.
+//!
+//! In: a [`Model`](crate::model::Model), the [`Equations`](crate::mechanics::Equations) that
+//! follow from it, and expressions to be watched. Out: a [`System`], which makes initial states
+//! ([`System::initial`]), carries them through a change of parameters
+//! ([`System::change_parameters`]), tells what can be seen of them ([`System::observer`]) and
+//! gives the steppers of `integrate` their equations of motion. Never here: steps in time, files,
+//! symbols after compiling.
+
+mod channel;
+mod compiled;
+mod fault;
+mod jet;
+mod legendre;
+mod lower;
+mod motion;
+mod observe;
+mod program;
+mod rates;
+mod series;
+mod solve;
+mod state;
+mod value;
+mod watch;
+
+pub use channel::{Channel, ChannelKind};
+pub use compiled::{CompileError, System};
+pub use fault::{Fault, FaultKind};
+pub use jet::{Jet, Side};
+pub use observe::Observer;
+pub use program::{Program, Singular};
+pub use rates::Rates;
+pub use series::Series;
+pub use state::{Form, Given, State};
+pub use value::Values;

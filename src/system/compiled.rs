@@ -1,0 +1,361 @@
+//! The compiled system.
+
+use std::sync::Arc;
+
+use super::fault::{Fault, FaultKind};
+use super::legendre::{self, Legendre, Unsolved};
+use super::motion::{Quadratures, Split, Writer};
+use super::program::{Program, Singular};
+use super::value::Values;
+use super::watch::{List, Watch};
+use super::{Channel, Form, Given, Observer, State};
+use crate::expr::{Double, Expr, Symbol};
+use crate::mechanics::Equations;
+use crate::model::{self, Model};
+
+/// A model lowered to numbers. Immutable and cheap to clone: steppers and observers share it and
+/// hold their own registers.
+#[derive(Clone, Debug)]
+pub struct System {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    native: Form,
+    quadratures: Quadratures,
+    motion: Motion,
+    watch: Watch,
+    legendre: Arc<Program>,
+    /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
+    initial: Arc<Program>,
+    /// Of one degree of freedom: the energy of (q, native rate).
+    energy: Arc<Program>,
+}
+
+/// The equations of motion, in every form a method may ask for.
+#[derive(Debug)]
+pub(super) struct Motion {
+    /// Of a state in the native form.
+    pub(super) native: Arc<Program>,
+    /// Of a state (q, p); where the flag is false, of (q, q̇).
+    pub(super) canonical: (Arc<Program>, bool),
+    /// The two halves of a separable system, or why it is none.
+    pub(super) split: Result<Split, String>,
+}
+
+/// Why a model cannot be compiled.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum CompileError {
+    /// The equations have outgrown the pool.
+    #[error("the equations of this system grow beyond a million nodes")]
+    TooLarge,
+    /// A symbol stands for nothing where it is used.
+    #[error("`{0}` has no value where it is used")]
+    Unknown(String),
+}
+
+impl System {
+    /// Compiles `equations`, which were derived from `model`. All expressions, those of the
+    /// `extra` channels included, are of `equations.pool`.
+    pub fn compile(
+        model: &Model,
+        equations: &Equations,
+        extra: &[model::Channel],
+    ) -> Result<System, CompileError> {
+        let mut equations = equations.clone();
+        let list = List::of(model, &mut equations, extra);
+        let quadratures = Quadratures {
+            action: list.depends(&equations, equations.symbols.action),
+            work: equations.energy_rate != Expr::ZERO,
+        };
+        let mut writer = Writer {
+            pool: equations.pool.clone(),
+            parameters: model.parameters.iter().map(|p| p.symbol).collect(),
+            equations: &equations,
+            quadratures,
+        };
+        let shared = Self::write(model, &mut writer, list).map_err(|symbol| {
+            CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone())
+        })?;
+        if writer.pool.is_full() {
+            return Err(CompileError::TooLarge);
+        }
+        Ok(System { shared: Arc::new(shared) })
+    }
+
+    fn write(model: &Model, writer: &mut Writer<'_>, list: List) -> Result<Shared, Symbol> {
+        let split = match writer.split() {
+            Some(split) => Ok(split?),
+            None => Err(match (&writer.equations.hamiltonian, &writer.equations.separable) {
+                (_, Err(why)) | (Err(why), _) => why.to_string(),
+                _ => String::new(),
+            }),
+        };
+        let motion =
+            Motion { native: writer.native_rates()?, canonical: writer.canonical_rates()?, split };
+        let mut lowering = writer.lowering();
+        let coordinates = &model.coordinates;
+        let mut outputs: Vec<_> = coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
+        outputs.extend(coordinates.iter().map(|c| lowering.lower(c.initial_rate)));
+        let periods = coordinates.iter().map(|c| c.period.unwrap_or(Expr::ZERO));
+        outputs.extend(periods.map(|e| lowering.lower(e)));
+        let initial = lowering.finish(outputs)?;
+        let energy = writer.equations.energy;
+        let mut lowering = writer.on_native_state();
+        let outputs = vec![lowering.lower(energy)];
+        let energy = lowering.finish(outputs)?;
+        Ok(Shared {
+            native: writer.native(),
+            quadratures: writer.quadratures,
+            motion,
+            legendre: legendre::program(writer)?,
+            initial,
+            energy,
+            watch: list.compile(writer)?,
+        })
+    }
+
+    /// The number of degrees of freedom.
+    pub fn degrees(&self) -> usize {
+        self.shared.legendre.inputs() / 2
+    }
+
+    /// How many numbers a state has: coordinates, rates, and the integrals carried along.
+    pub fn state_len(&self) -> usize {
+        2 * self.degrees() + self.shared.quadratures.count()
+    }
+
+    /// The form its states have where no method asks for another: velocities for a Lagrangian,
+    /// momenta for a Hamiltonian.
+    pub fn form(&self) -> Form {
+        self.shared.native
+    }
+
+    /// What can be seen of a state, in the order of [`Observer::observe`].
+    pub fn channels(&self) -> &[Channel] {
+        &self.shared.watch.channels
+    }
+
+    /// The first so many channels are the columns of a run: coordinates, velocities, momenta,
+    /// energy, declared observables, extra channels.
+    pub fn columns(&self) -> usize {
+        self.shared.watch.columns
+    }
+
+    /// The channel of an expression of the model (a view's, a shape's, an observable's) or of the
+    /// equations (a conserved quantity's), if it is watched.
+    pub fn channel_of(&self, expression: Expr) -> Option<usize> {
+        self.shared.watch.index.get(&expression).copied()
+    }
+
+    /// After what a channel repeats at these parameters, if it does.
+    pub fn period(&self, channel: usize, parameters: &[f64]) -> Option<f64> {
+        if !self.channels().get(channel)?.periodic {
+            return None;
+        }
+        let period =
+            self.initial_program(&written(parameters)).output(2 * self.degrees() + channel);
+        (period.high > 0.0 && period.is_finite()).then_some(period.high)
+    }
+
+    /// The initial coordinates, then velocities or momenta, as the file gives them at these
+    /// parameters.
+    pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {
+        let values = self.initial_program(&written(parameters));
+        (0..2 * self.degrees()).map(|i| values.output(i).high).collect()
+    }
+
+    fn initial_program(&self, parameters: &[Double]) -> Values<Double> {
+        let mut values = Values::new(Arc::clone(&self.shared.initial));
+        values.set_parameters(parameters);
+        values
+    }
+
+    /// The initial state at these parameters; `given` values take the place of the file's.
+    pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+        let n = self.degrees();
+        let parameters = written(parameters);
+        let values = self.initial_program(&parameters);
+        let mut state: Vec<Double> = (0..2 * n).map(|i| values.output(i)).collect();
+        let mut targets = vec![None; n];
+        for &given in given {
+            match (given, self.form()) {
+                (Given::Position(i, x), _) => state[i] = Double::written(x),
+                (Given::Velocity(i, x), Form::Velocity)
+                | (Given::Momentum(i, x), Form::Momentum) => {
+                    (state[n + i], targets[i]) = (Double::written(x), None);
+                }
+                (Given::Velocity(i, x) | Given::Momentum(i, x), _) => {
+                    targets[i] = Some(Double::written(x));
+                }
+            }
+        }
+        let time = Double::written(start);
+        if targets.iter().any(Option::is_some) {
+            let mut legendre = self.legendre(&parameters);
+            legendre
+                .solve(time, &mut state, &targets)
+                .map_err(|why| self.unsolved(why, time.high, &state))?;
+        }
+        let state = self.state_of(time, self.form(), &state);
+        self.check_finite(&state)?;
+        Ok(state)
+    }
+
+    /// The same state in another form.
+    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
+        let mut legendre = self.legendre(&written(parameters));
+        self.convert_by(&mut legendre, state, form, None)
+    }
+
+    /// Carries a state through a jump of the parameters: q and p are kept, and so q̇ may change.
+    pub fn change_parameters(
+        &self,
+        state: &State,
+        old: &[f64],
+        new: &[f64],
+    ) -> Result<State, Fault> {
+        if state.form == Form::Momentum {
+            return Ok(state.clone());
+        }
+        let mut legendre = self.legendre(&written(old));
+        let canonical = self.convert_by(&mut legendre, state, Form::Momentum, None)?;
+        legendre.set_parameters(&written(new));
+        self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
+    }
+
+    /// Converts with a relation at hand; `guess` is a state near the result.
+    pub(super) fn convert_by(
+        &self,
+        legendre: &mut Legendre,
+        state: &State,
+        form: Form,
+        guess: Option<&State>,
+    ) -> Result<State, Fault> {
+        if state.form == form {
+            return Ok(state.clone());
+        }
+        let n = self.degrees();
+        let time = state.exact_time();
+        let mut result = state.clone();
+        result.form = form;
+        let mut numbers: Vec<Double> = (0..2 * n).map(|i| state.exact(i)).collect();
+        let outcome = if form == legendre.native() {
+            let targets: Vec<_> = numbers[n..].iter().copied().map(Some).collect();
+            for i in n..2 * n {
+                numbers[i] = guess.map_or(Double::ZERO, |guess| guess.exact(i));
+            }
+            legendre.solve(time, &mut numbers, &targets)
+        } else {
+            let mut other = vec![Double::ZERO; n];
+            let outcome = legendre.other_rates(time, &numbers, &mut other);
+            numbers[n..].copy_from_slice(&other);
+            outcome
+        };
+        outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
+        for (i, &x) in numbers.iter().enumerate() {
+            result.set(i, x);
+        }
+        self.check_finite(&result)?;
+        Ok(result)
+    }
+
+    /// What looks at states of this system.
+    pub fn observer(&self, parameters: &[f64]) -> Observer {
+        Observer::new(self.clone(), parameters)
+    }
+
+    pub(super) fn watch(&self) -> &Watch {
+        &self.shared.watch
+    }
+
+    pub(super) fn motion(&self) -> &Motion {
+        &self.shared.motion
+    }
+
+    pub(super) fn quadratures(&self) -> Quadratures {
+        self.shared.quadratures
+    }
+
+    pub(super) fn energy_program(&self) -> Arc<Program> {
+        Arc::clone(&self.shared.energy)
+    }
+
+    /// The relation between velocities and momenta at these parameters.
+    pub(super) fn legendre(&self, parameters: &[Double]) -> Legendre {
+        let mut legendre = self.blank_legendre();
+        legendre.set_parameters(parameters);
+        legendre
+    }
+
+    /// The same before parameters are set.
+    pub(super) fn blank_legendre(&self) -> Legendre {
+        Legendre::new(Arc::clone(&self.shared.legendre), self.form())
+    }
+
+    fn state_of(&self, time: Double, form: Form, numbers: &[Double]) -> State {
+        let mut state = State::new(time.high, form, vec![0.0; self.state_len()]);
+        state.time_carry = time.low;
+        for (i, &x) in numbers.iter().enumerate() {
+            state.set(i, x);
+        }
+        state
+    }
+
+    /// A fault where a number of a state is not finite.
+    pub fn check_finite(&self, state: &State) -> Result<(), Fault> {
+        match state.values.iter().position(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(i) => {
+                let name = FaultKind::NotFinite(self.name_of(i, state.form));
+                Err(self.fault(name, state.time, &state.values))
+            }
+        }
+    }
+
+    /// How a number of a state is shown.
+    fn name_of(&self, i: usize, form: Form) -> String {
+        let n = self.degrees();
+        let channel = match form {
+            Form::Momentum if i >= n => i + n,
+            _ => i,
+        };
+        if i < 2 * n { self.channels()[channel].shown.clone() } else { "an integral".to_owned() }
+    }
+
+    /// A fault at a state, told with its coordinates.
+    pub fn fault(&self, kind: FaultKind, time: f64, values: &[f64]) -> Fault {
+        let named = self.channels().iter().zip(values).take(self.degrees().min(4));
+        let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
+        Fault { time, kind, place: place.collect() }
+    }
+
+    /// The fault of a singular matrix, told with the coordinates the matrix depends on.
+    pub(super) fn singular(
+        &self,
+        program: &Program,
+        singular: Singular,
+        time: f64,
+        values: &[f64],
+    ) -> Fault {
+        let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
+        let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
+        Fault { time, kind: FaultKind::SingularMass, place: place.take(4).collect() }
+    }
+
+    /// The fault of a relation between velocities and momenta that was not solved.
+    pub(super) fn unsolved(&self, why: Unsolved, time: f64, numbers: &[Double]) -> Fault {
+        let kind = match why {
+            Unsolved::Singular => FaultKind::SingularMass,
+            Unsolved::NotConverging => FaultKind::NoVelocities,
+        };
+        let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
+        self.fault(kind, time, &values)
+    }
+}
+
+/// Parameters as the decimals they are written as.
+pub(super) fn written(parameters: &[f64]) -> Vec<Double> {
+    parameters.iter().map(|&x| Double::written(x)).collect()
+}

@@ -1,0 +1,62 @@
+//! Why a motion cannot go on, or not begin: what happened, when and where.
+
+use std::fmt;
+
+/// Something on the way that no number can stand for.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub struct Fault {
+    /// When.
+    pub time: f64,
+    /// What happened.
+    pub kind: FaultKind,
+    /// Where: coordinates as shown, with their values.
+    pub place: Vec<(String, f64)>,
+}
+
+/// What happened.
+#[derive(Clone, PartialEq, Debug)]
+pub enum FaultKind {
+    /// A pivot of the mass matrix vanishes.
+    SingularMass,
+    /// A number of the state or of its rate of change is not finite; the name says which.
+    NotFinite(String),
+    /// The velocities that belong to given momenta (or the reverse) were not found.
+    NoVelocities,
+    /// The equations of an implicit step were not solved; the step's size.
+    NoConvergence(f64),
+    /// The step became too small for the clock to move; the size it would have.
+    StepUnderflow(f64),
+    /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
+    Sticks,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let time = self.time;
+        match &self.kind {
+            FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
+            FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
+            FaultKind::NoVelocities => {
+                write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
+            }
+            FaultKind::NoConvergence(step) => {
+                write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
+            }
+            FaultKind::StepUnderflow(_) => {
+                write!(f, "the step became too small to move the clock at t = {time}")?;
+            }
+            FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
+        }
+        for (name, value) in &self.place {
+            write!(f, ", {name} = {value}")?;
+        }
+        f.write_str(match self.kind {
+            FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
+            FaultKind::NoVelocities => ": the momenta may lie outside their range",
+            FaultKind::NoConvergence(_) => ": try a smaller step",
+            FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            FaultKind::Sticks => ": both sides of a kink push towards it",
+        })
+    }
+}

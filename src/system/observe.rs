@@ -1,0 +1,155 @@
+//! Looking at a state: every channel's value.
+
+use super::compiled::written;
+use super::legendre::Legendre;
+use super::value::Values;
+use super::{Fault, Form, State, System};
+use crate::expr::{Double, Real};
+use std::sync::Arc;
+
+/// Looks at the states of one system at one set of parameters; holds its own registers.
+#[derive(Clone, Debug)]
+pub struct Observer {
+    system: System,
+    precise: Values<Double>,
+    drawn: Values<f64>,
+    energy: Values<f64>,
+    legendre: Legendre,
+    parameters: Vec<f64>,
+    inputs: Vec<Double>,
+    rounded: Vec<f64>,
+}
+
+impl Observer {
+    pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
+        let watch = system.watch();
+        let inputs = 2 * system.degrees() + 2;
+        let mut observer = Observer {
+            precise: Values::new(Arc::clone(&watch.precise)),
+            drawn: Values::new(Arc::clone(&watch.drawn)),
+            energy: Values::new(system.energy_program()),
+            legendre: system.legendre(&written(parameters)),
+            parameters: Vec::new(),
+            inputs: vec![Double::ZERO; inputs],
+            rounded: vec![0.0; inputs],
+            system,
+        };
+        observer.set_parameters(parameters);
+        observer
+    }
+
+    /// Looks at these parameters from now on.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        let parameters = written(parameters);
+        self.precise.set_parameters(&parameters);
+        self.drawn.set_parameters(&parameters);
+        self.energy.set_parameters(&parameters);
+        self.legendre.set_parameters(&parameters);
+    }
+
+    /// The parameters it looks at.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// The value of every channel, in order, into `out`, which is as long as the channels. The
+    /// state may have either form. Values that do not exist there are not a number; only a state
+    /// that has no velocities (or momenta), or no accelerations that are watched, is a fault.
+    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+        let precise = self.system.watch().precise.outputs();
+        let (first, others) = out.split_at_mut(precise);
+        self.look(state, first)?;
+        for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
+            *rounded = x.high;
+        }
+        let outcome = self.drawn.evaluate(state.time, &self.rounded);
+        outcome.map_err(|singular| {
+            let program = &self.system.watch().drawn;
+            self.system.singular(program, singular, state.time, &state.values)
+        })?;
+        for (i, x) in others.iter_mut().enumerate() {
+            *x = self.drawn.output(i);
+        }
+        Ok(())
+    }
+
+    /// The same for the columns only: `out` is as long as they are.
+    pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+        self.look(state, out)
+    }
+
+    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+        let n = self.system.degrees();
+        self.take_in(state)?;
+        let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);
+        outcome.map_err(|singular| {
+            let program = &self.system.watch().precise;
+            self.system.singular(program, singular, state.time, &state.values)
+        })?;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = self.precise.output(i).value();
+        }
+        if state.form == Form::Momentum && out.len() >= 3 * n {
+            // the momenta are known as they are
+            out[2 * n..3 * n].copy_from_slice(&state.values[n..2 * n]);
+        }
+        Ok(())
+    }
+
+    /// The inputs of the programs: the state in the native form, then action and work.
+    fn take_in(&mut self, state: &State) -> Result<(), Fault> {
+        let n = self.system.degrees();
+        if state.form == self.system.form() {
+            for i in 0..2 * n {
+                self.inputs[i] = state.exact(i);
+            }
+        } else {
+            let native =
+                self.system.convert_by(&mut self.legendre, state, self.system.form(), None)?;
+            for i in 0..2 * n {
+                self.inputs[i] = native.exact(i);
+            }
+        }
+        let quadratures = self.system.quadratures();
+        let mut next = 2 * n;
+        for (carried, place) in [(quadratures.action, 2 * n), (quadratures.work, 2 * n + 1)] {
+            self.inputs[place] = Double::ZERO;
+            if carried {
+                self.inputs[place] = state.exact(next);
+                next += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// For one degree of freedom: the energy on a grid over (q, q̇) or (q, p) at one time, for
+    /// level curves. Row by row: `out[j * positions.len() + i]` belongs to `positions[i]` and
+    /// `rates[j]`; not a number where there is no energy.
+    pub fn energy_on_grid(
+        &mut self,
+        time: f64,
+        form: Form,
+        positions: &[f64],
+        rates: &[f64],
+        out: &mut [f64],
+    ) {
+        for (row, &rate) in out.chunks_exact_mut(positions.len().max(1)).zip(rates) {
+            for (x, &position) in row.iter_mut().zip(positions) {
+                *x = self.energy_at(time, form, position, rate).unwrap_or(f64::NAN);
+            }
+        }
+    }
+
+    fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {
+        let mut state = [Double::from(position), Double::from(rate)];
+        if form != self.system.form() {
+            let target = [Some(state[1])];
+            state[1] = Double::ZERO;
+            self.legendre.solve(Double::from(time), &mut state, &target).ok()?;
+        }
+        self.energy.evaluate(time, &[position, state[1].high]).ok()?;
+        Some(self.energy.output(0))
+    }
+}

@@ -1,0 +1,146 @@
+//! Rates of change of states as plain numbers: what every method but the Taylor series asks for.
+
+use std::sync::Arc;
+
+use super::compiled::written;
+use super::legendre::{Legendre, Unsolved};
+use super::program::Program;
+use super::value::Values;
+use super::{Fault, Form, System};
+use crate::expr::Double;
+
+/// The rate of change of every number of a state, as a function of time and these numbers. Holds
+/// its own registers.
+#[derive(Clone, Debug)]
+pub struct Rates {
+    system: System,
+    form: Form,
+    /// The place in a state of each output.
+    places: Vec<usize>,
+    program: Arc<Program>,
+    values: Values<f64>,
+    /// Where the program wants velocities for momenta.
+    solver: Option<Solver>,
+}
+
+/// Finds the velocities of a state (q, p), from those of the state before.
+#[derive(Clone, Debug)]
+struct Solver {
+    legendre: Legendre,
+    /// (q, q̇), as solved last.
+    native: Vec<Double>,
+    targets: Vec<Option<Double>>,
+    rounded: Vec<f64>,
+}
+
+impl System {
+    /// Rates of change of states in [`System::form`].
+    pub fn native_rates(&self) -> Rates {
+        Rates::new(self, self.form(), 0, &self.motion().native)
+    }
+
+    /// Rates of change of states (q, p): q̇ = ∂H/∂p, ṗ = −∂H/∂q + forces, where need be through
+    /// p = ∂L/∂q̇.
+    pub fn canonical_rates(&self) -> Rates {
+        let (program, direct) = &self.motion().canonical;
+        let mut rates = Rates::new(self, Form::Momentum, 0, program);
+        if !direct {
+            let n = self.degrees();
+            rates.solver = Some(Solver {
+                legendre: self.blank_legendre(),
+                native: vec![Double::ZERO; 2 * n],
+                targets: vec![None; n],
+                rounded: vec![0.0; 2 * n],
+            });
+        }
+        rates
+    }
+
+    /// Whether H = T(p) + V(q, t) and nothing else acts, and why not.
+    pub fn separable(&self) -> Result<(), &str> {
+        self.motion().split.as_ref().map(|_| ()).map_err(String::as_str)
+    }
+
+    /// Rates of change of states (q, p) under T(p) alone and under V(q, t) alone, where
+    /// H = T + V.
+    pub fn split_rates(&self) -> Option<(Rates, Rates)> {
+        let split = self.motion().split.as_ref().ok()?;
+        let drift = Rates::new(self, Form::Momentum, 0, &split.drift);
+        let kick = Rates::new(self, Form::Momentum, self.degrees(), &split.kick);
+        Some((drift, kick))
+    }
+}
+
+impl Rates {
+    /// The outputs of `program` are the rates of as many numbers of a state, from `first` on, and
+    /// of the integrals it carries.
+    fn new(system: &System, form: Form, first: usize, program: &Arc<Program>) -> Rates {
+        let (all, integrals) = (system.state_len(), system.quadratures().count());
+        let moved = program.outputs() - integrals;
+        Rates {
+            system: system.clone(),
+            form,
+            places: (first..first + moved).chain(all - integrals..all).collect(),
+            values: Values::new(Arc::clone(program)),
+            program: Arc::clone(program),
+            solver: None,
+        }
+    }
+
+    /// Sets the parameters; to be called once at least.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        let parameters = written(parameters);
+        self.values.set_parameters(&parameters);
+        if let Some(solver) = &mut self.solver {
+            solver.legendre.set_parameters(&parameters);
+            solver.native.fill(Double::ZERO);
+        }
+    }
+
+    /// The form of the states.
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
+    /// numbers that do not move are left alone.
+    pub fn evaluate(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+        let n = self.system.degrees();
+        let numbers = &numbers[..2 * n];
+        let inputs = match &mut self.solver {
+            None => numbers,
+            Some(solver) => {
+                let outcome = solver.solve(time, numbers);
+                outcome.map_err(|why| self.system.unsolved(why, time, &solver.native))?;
+                &solver.rounded
+            }
+        };
+        self.values
+            .evaluate(time, inputs)
+            .map_err(|singular| self.system.singular(&self.program, singular, time, numbers))?;
+        for (i, &place) in self.places.iter().enumerate() {
+            out[place] = self.values.output(i);
+        }
+        Ok(())
+    }
+}
+
+impl Solver {
+    fn solve(&mut self, time: f64, numbers: &[f64]) -> Result<(), Unsolved> {
+        let n = self.targets.len();
+        for i in 0..n {
+            self.native[i] = Double::from(numbers[i]);
+            self.targets[i] = Some(Double::from(numbers[n + i]));
+        }
+        self.legendre.solve(Double::from(time), &mut self.native, &self.targets)?;
+        for (rounded, x) in self.rounded.iter_mut().zip(&self.native) {
+            *rounded = x.high;
+        }
+        Ok(())
+    }
+}

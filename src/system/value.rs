@@ -1,0 +1,114 @@
+//! The first evaluator of a program: numbers.
+
+use std::sync::Arc;
+
+use super::program::{Op, Program, Register, Singular};
+use super::solve::Factored;
+use crate::expr::{Double, Real, Rule};
+
+/// The registers of one program as numbers, in one precision.
+#[derive(Clone, Debug)]
+pub struct Values<R> {
+    program: Arc<Program>,
+    registers: Vec<R>,
+    blocks: Vec<Factored<R>>,
+    right: Vec<R>,
+}
+
+impl<R: Real> Values<R> {
+    /// Registers for a program; parameters are to be set before it is evaluated.
+    pub fn new(program: Arc<Program>) -> Values<R> {
+        let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
+        let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
+        let registers = vec![R::ZERO; program.ops.len()];
+        Values { program, registers, blocks, right: vec![R::ZERO; widest] }
+    }
+
+    /// Sets the parameters and evaluates everything that depends on them alone.
+    pub fn set_parameters(&mut self, parameters: &[Double]) {
+        let program = Arc::clone(&self.program);
+        for &r in &program.prologue {
+            match program.ops[r as usize] {
+                Op::Parameter(i) => self.registers[r as usize] = R::of(parameters[i as usize]),
+                _ => self.run(&program, r),
+            }
+        }
+    }
+
+    /// Evaluates at a time and inputs.
+    pub fn evaluate(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
+        let program = Arc::clone(&self.program);
+        for (&r, &x) in program.inputs.iter().zip(inputs) {
+            self.registers[r as usize] = x;
+        }
+        for &r in &program.body {
+            match program.ops[r as usize] {
+                Op::Time => self.registers[r as usize] = time,
+                Op::Solve(block) => self.solve(&program, r, block)?,
+                _ => self.run(&program, r),
+            }
+        }
+        Ok(())
+    }
+
+    /// The value of an output.
+    pub fn output(&self, i: usize) -> R {
+        self.registers[self.program.outputs[i] as usize]
+    }
+
+    fn run(&mut self, program: &Program, register: Register) {
+        let at = register as usize;
+        let get = |r: Register| self.registers[r as usize];
+        self.registers[at] = match program.ops[at] {
+            Op::Constant(c) => R::of(program.constants[c as usize]),
+            Op::Linear { constant, first, count } => {
+                let terms = &program.terms[first as usize..(first + count) as usize];
+                let mut sum = R::of(program.constants[constant as usize]);
+                for term in terms {
+                    sum = sum + get(term.register) * R::of(term.coefficient);
+                }
+                sum
+            }
+            Op::Scale(a, b) | Op::Multiply(a, b) => get(a) * get(b),
+            Op::Square(a) => get(a) * get(a),
+            Op::Divide(a, b) => get(a) / get(b),
+            Op::Root(a) => get(a).sqrt(),
+            Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
+            Op::LivePower(a, exponent) => get(a).power(get(exponent).double()),
+            Op::Call(function, [a, b]) => {
+                let Rule::Series(rule) = &function.row().rule else { return };
+                let (mut y, mut w) = ([R::ZERO], [R::ZERO]);
+                R::step_of(rule)(0, &[&[get(a)], &[get(b)]], &mut y, &mut w);
+                self.registers[at + 1] = w[0];
+                y[0]
+            }
+            Op::Select { switch, positive, negative, .. } => {
+                let side = get(switch).value();
+                if side > 0.0 {
+                    get(positive)
+                } else if side < 0.0 {
+                    get(negative)
+                } else {
+                    // on the surface; not a number where the switch is not
+                    (get(positive) + get(negative)) * (0.5 + side)
+                }
+            }
+            Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return,
+        };
+    }
+
+    fn solve(&mut self, program: &Program, register: Register, at: u32) -> Result<(), Singular> {
+        let (block, factored) = (&program.blocks[at as usize], &mut self.blocks[at as usize]);
+        let n = block.size();
+        let registers = &mut self.registers;
+        if !factored.factor(|i, j| registers[block.matrix[i * n + j] as usize]) {
+            return Err(Singular { block: at });
+        }
+        for (x, &r) in self.right.iter_mut().zip(&block.right) {
+            *x = registers[r as usize];
+        }
+        factored.solve(&mut self.right[..n]);
+        registers[register as usize..][..n].copy_from_slice(&self.right[..n]);
+        Ok(())
+    }
+}

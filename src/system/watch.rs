@@ -1,0 +1,236 @@
+//! The list of channels, and the programs that compute them: one in double-double for what is
+//! tabulated and gauged, one in `f64` for what is only drawn.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::channel::{Channel, ChannelKind};
+use super::lower::Lowering;
+use super::motion::Writer;
+use super::program::{Program, Register};
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Equations, Flow};
+use crate::model::{self, Model, Shape};
+
+/// Everything watched of one system.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    pub(super) channels: Vec<Channel>,
+    /// The first so many are the columns of a run.
+    pub(super) columns: usize,
+    /// The channel of each expression.
+    pub(super) index: HashMap<Expr, usize>,
+    /// Of (q, native rates, action, work): the first channels.
+    pub(super) precise: Arc<Program>,
+    /// Of the same: the others.
+    pub(super) drawn: Arc<Program>,
+}
+
+/// The channels being listed, with their expressions; the ledger has none.
+#[derive(Default)]
+pub(super) struct List {
+    channels: Vec<Channel>,
+    expressions: Vec<Option<Expr>>,
+    index: HashMap<Expr, usize>,
+    columns: usize,
+    precise: usize,
+}
+
+impl List {
+    /// Lists the channels of a model.
+    pub(super) fn of(model: &Model, equations: &mut Equations, extra: &[model::Channel]) -> List {
+        let mut list = List::default();
+        list.add_state(model, equations);
+        for (i, o) in model.observables.iter().enumerate() {
+            list.add(ChannelKind::Observable(i), &o.name, &o.name, o.expression);
+        }
+        for (i, c) in extra.iter().enumerate() {
+            list.add(ChannelKind::Extra(i), &c.written, &c.written, c.expression);
+        }
+        list.columns = list.channels.len();
+        if equations.energy_rate != Expr::ZERO {
+            list.push(ChannelKind::Ledger, "energy ledger", "energy ledger", None);
+        }
+        for (i, c) in equations.conserved.iter().enumerate() {
+            let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));
+            let known = momenta.find(|info| info.name == c.name);
+            let shown = known.map_or(c.name.as_str(), |info| &info.unicode);
+            list.add(ChannelKind::Conserved(i), &c.name, shown, c.expression);
+        }
+        for (name, e, _) in &model.expect.conserves {
+            list.add_hidden(name, *e);
+        }
+        for value in &model.expect.values {
+            list.add_hidden(&value.name, value.expression);
+        }
+        list.precise = list.channels.len();
+        for view in &model.views {
+            for c in view.x.iter().chain(&view.y) {
+                list.add_hidden(&c.written, c.expression);
+            }
+        }
+        for e in model.space.iter().flat_map(numbers_of) {
+            list.add_hidden("", e);
+        }
+        list
+    }
+
+    fn add_state(&mut self, model: &Model, equations: &mut Equations) {
+        for (i, c) in model.coordinates.iter().enumerate() {
+            let e = equations.pool.variable(c.position);
+            self.add(ChannelKind::Position(i), &c.name, &c.shown, e);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&c.unit);
+                channel.periodic = c.period.is_some();
+            }
+        }
+        let symbols: Vec<_> = model.coordinates.iter().map(|c| (c.velocity, c.momentum)).collect();
+        for (i, &(velocity, _)) in symbols.iter().enumerate() {
+            self.add_symbol(ChannelKind::Velocity(i), equations, velocity);
+        }
+        for (i, &(_, momentum)) in symbols.iter().enumerate() {
+            self.add_symbol(ChannelKind::Momentum(i), equations, momentum);
+            self.index.entry(equations.momenta[i]).or_insert(self.channels.len() - 1);
+        }
+        let energy = equations.pool.variable(equations.symbols.energy);
+        self.add(ChannelKind::Energy, "energy", "E", energy);
+        self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
+    }
+
+    fn add_symbol(&mut self, kind: ChannelKind, equations: &mut Equations, symbol: Symbol) {
+        let e = equations.pool.variable(symbol);
+        let info = equations.pool.symbol_info(symbol).clone();
+        self.add(kind, &info.name, &info.unicode, e);
+    }
+
+    fn add(&mut self, kind: ChannelKind, name: &str, shown: &str, e: Expr) {
+        self.index.entry(e).or_insert(self.channels.len());
+        self.push(kind, name, shown, Some(e));
+    }
+
+    fn add_hidden(&mut self, name: &str, e: Expr) {
+        if !self.index.contains_key(&e) {
+            self.add(ChannelKind::Expression, name, name, e);
+        }
+    }
+
+    fn push(&mut self, kind: ChannelKind, name: &str, shown: &str, e: Option<Expr>) {
+        let (name, shown) = (name.to_owned(), shown.to_owned());
+        let channel = Channel { kind, name, shown, unit: String::new(), periodic: false };
+        self.channels.push(channel);
+        self.expressions.push(e);
+    }
+
+    /// Whether any channel depends on a symbol.
+    pub(super) fn depends(&self, equations: &Equations, symbol: Symbol) -> bool {
+        let all: Vec<Expr> = self.expressions.iter().flatten().copied().collect();
+        let reached = equations.pool.reachable(&all);
+        reached.into_iter().any(|e| equations.pool.as_symbol(e) == Some(symbol))
+    }
+
+    /// Compiles the list.
+    pub(super) fn compile(self, writer: &mut Writer<'_>) -> Result<Watch, Symbol> {
+        let (precise, drawn) = self.expressions.split_at(self.precise);
+        let accelerated: Vec<Expr> = self.expressions.iter().flatten().copied().collect();
+        let accelerated = {
+            let symbols: Vec<Symbol> =
+                writer.equations.coordinates.iter().map(|c| c.acceleration).collect();
+            let reached = writer.pool.reachable(&accelerated);
+            reached
+                .into_iter()
+                .any(|e| writer.pool.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
+        };
+        let precise = program(writer, precise, accelerated)?;
+        let drawn = program(writer, drawn, accelerated)?;
+        Ok(Watch {
+            channels: self.channels,
+            columns: self.columns,
+            index: self.index,
+            precise,
+            drawn,
+        })
+    }
+}
+
+/// A program of (q, native rates, action, work) for channels' expressions: p, q̈ and the energy
+/// are computed first and stand for their symbols.
+fn program(
+    writer: &mut Writer<'_>,
+    channels: &[Option<Expr>],
+    accelerated: bool,
+) -> Result<Arc<Program>, Symbol> {
+    let equations = writer.equations;
+    let accelerations = match &equations.flow {
+        Flow::Hamilton { velocities, momentum_rates } if accelerated => {
+            // q̈ = d/dt ∂H/∂p along the motion
+            let mut seeds = vec![(equations.symbols.time, Expr::ONE)];
+            for (i, c) in equations.coordinates.iter().enumerate() {
+                seeds.push((c.position, velocities[i]));
+                seeds.push((c.momentum, momentum_rates[i]));
+            }
+            velocities.iter().map(|&v| writer.pool.derivation(v, &seeds)).collect()
+        }
+        _ => Vec::new(),
+    };
+    let mut lowering = writer.on_native_state();
+    let (action, work) = (lowering.input(), lowering.input());
+    lowering.bind(equations.symbols.action, action);
+    bind_derived(&mut lowering, equations, accelerated, &accelerations);
+    let energy = lowering.variable(equations.symbols.energy);
+    let outputs: Vec<Register> = channels
+        .iter()
+        .map(|channel| match channel {
+            Some(e) => lowering.lower(*e),
+            None => lowering.difference(energy, work),
+        })
+        .collect();
+    lowering.finish(outputs)
+}
+
+fn bind_derived(
+    lowering: &mut Lowering<'_>,
+    equations: &Equations,
+    accelerated: bool,
+    accelerations: &[Expr],
+) {
+    match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => {
+            let momenta = lowering.lower_all(&equations.momenta);
+            for (c, p) in equations.coordinates.iter().zip(momenta) {
+                lowering.bind(c.momentum, p);
+            }
+            if accelerated {
+                let right = lowering.lower_all(force);
+                let solution = lowering.solve(mass, &right);
+                for (c, a) in equations.coordinates.iter().zip(solution) {
+                    lowering.bind(c.acceleration, a);
+                }
+            }
+        }
+        Flow::Hamilton { velocities, .. } => {
+            let velocities = lowering.lower_all(velocities);
+            for (c, v) in equations.coordinates.iter().zip(velocities) {
+                lowering.bind(c.velocity, v);
+            }
+            let accelerations = lowering.lower_all(accelerations);
+            for (c, a) in equations.coordinates.iter().zip(accelerations) {
+                lowering.bind(c.acceleration, a);
+            }
+        }
+    }
+    let energy = lowering.lower(equations.energy);
+    lowering.bind(equations.symbols.energy, energy);
+}
+
+/// The numbers a shape is drawn from.
+fn numbers_of(shape: &Shape) -> Vec<Expr> {
+    match shape {
+        Shape::Line { from, to } | Shape::Spring { from, to } => [*from, *to].concat(),
+        Shape::Circle { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
+        Shape::Mass { at, radius } => at.iter().copied().chain(*radius).collect(),
+        Shape::Trace { at } => at.to_vec(),
+        Shape::Vector { at, components } => [*at, *components].concat(),
+        Shape::Path { points } => points.concat(),
+        Shape::Plane { at, normal, size } => [&at[..], &normal[..], &[*size]].concat(),
+    }
+}

@@ -1,0 +1,132 @@
+//! The screen: what the laboratory looks like, as cells of a ratatui buffer.
+//!
+//! In: the application's state and the newest snapshot. Out: cells. Never here: a clock, a terminal, the worker,
+//! or a change of anything that is drawn.
+//!
+//! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
+//! in a terminal: [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`] and [`plot`].
+
+pub mod colour;
+pub mod glyphs;
+pub mod number;
+pub mod plot;
+pub mod strip;
+pub mod theme;
+
+mod bars;
+mod canvas;
+mod cursor;
+mod desk;
+mod document;
+mod equations;
+mod gauges;
+mod help;
+mod layout;
+mod menu;
+mod notes;
+mod numbers;
+mod phase;
+mod picker;
+mod quantity;
+mod series;
+mod space;
+mod values;
+mod wrap;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::app::{App, Drawn, Lab, Over, Page};
+use canvas::{Canvas, row};
+use document::Document;
+use glyphs::Glyphs;
+use layout::{LEAST, Screen};
+use quantity::Quantities;
+use theme::{Role, Theme};
+
+/// How the screen looks: what the terminal can show, and in which colours.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// The colours.
+    pub theme: Theme,
+    /// The characters.
+    pub glyphs: Glyphs,
+}
+
+/// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
+pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
+    let area = area.intersection(buffer.area);
+    let mut canvas = Canvas { buffer, look };
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        too_small(&mut canvas, area);
+        return Drawn::default();
+    }
+    let screen = Screen::of(area, app.page != Page::Picker && app.lab.is_some());
+    bars::header(&mut canvas, screen.header, app);
+    let drawn = body(&mut canvas, screen.body, app);
+    bars::status(&mut canvas, screen.status, app);
+    bars::footer(&mut canvas, screen.footer, app);
+    drawn
+}
+
+fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
+    let look = canvas.look;
+    let over = app.over.as_ref();
+    if let Some(Over::Help(_)) = over {
+        let page = help::document(look, app.places_below());
+        return text(canvas, area, "Keys", page, app.scroll);
+    }
+    if let Some(Over::Message(failure)) = over {
+        let mut page = Document::default();
+        for line in failure.message.lines() {
+            page.row(vec![(Role::Text, line.to_owned())]);
+        }
+        let title = format!("{} has mistakes", failure.name);
+        return text(canvas, area, &title, page, app.scroll);
+    }
+    let drawn = match (app.page, &app.lab) {
+        (Page::Picker, _) | (_, None) => {
+            picker::draw(canvas, area, app);
+            Drawn::default()
+        }
+        (Page::Lab, Some(lab)) => {
+            desk::draw(canvas, area, app, lab);
+            Drawn::default()
+        }
+        (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
+    };
+    if let Some(Over::Menu(menu)) = over {
+        menu::draw(canvas, area, menu);
+    }
+    drawn
+}
+
+fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
+    let look = canvas.look;
+    let (title, document) = match page {
+        Page::Equations => ("Equations", equations::document(lab, look)),
+        Page::Notes => ("Notes", notes::document(lab, look)),
+        _ => {
+            let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q));
+            ("Numbers", numbers.unwrap_or_default())
+        }
+    };
+    text(canvas, area, title, document, app.scroll)
+}
+
+fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: Document, scroll: u16) -> Drawn {
+    let title = [canvas.span(Role::Title, title)];
+    let inner = canvas.pane(area, &title, true);
+    page.draw(canvas, inner, scroll)
+}
+
+/// What stands on a screen on which nothing else has room.
+fn too_small(canvas: &mut Canvas<'_>, area: Rect) {
+    let needed = format!(
+        "phaselab needs {}x{} characters, here are {}x{}; q leaves it",
+        LEAST.0, LEAST.1, area.width, area.height
+    );
+    for (index, line) in wrap::words(&needed, area.width.into()).iter().enumerate() {
+        canvas.left(row(area, index), Role::Text, line);
+    }
+}

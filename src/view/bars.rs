@@ -1,0 +1,223 @@
+//! The lines above and below every page: headings, status, and what the focused thing means or what keys do.
+//!
+//! In: the application. Out: three rows of cells. Never here: the body between them.
+
+use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span, columns};
+use super::gauges::sentence;
+use super::help::keys;
+use super::number::{brief, fitted};
+use super::theme::Role;
+use super::values::typing;
+use crate::app::keymap::KEYS;
+use crate::app::{App, Field, Lab, Over, Page, Pane, Purpose};
+use crate::experiment::{Snapshot, Status};
+
+/// The pages of a loaded system, with the key of each.
+const PAGES: [(&str, &str, Page); 4] = [
+    ("1", "Lab", Page::Lab),
+    ("2", "Equations", Page::Equations),
+    ("3", "Notes", Page::Notes),
+    ("4", "Numbers", Page::Numbers),
+];
+
+/// The program's name, the system's, and the pages.
+pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    let mut used = canvas.left(area, Role::Accent, "phaselab");
+    let title = match (&app.lab, app.page) {
+        (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
+        (Some(lab), _) => &lab.loaded.model.info.title,
+    };
+    let tabs =
+        if app.page == Page::Picker || app.lab.is_none() { Vec::new() } else { tabs(canvas, app) };
+    let wide: usize = tabs.iter().map(|(text, _)| text.width()).sum();
+    let room = area.width.saturating_sub(wide as u16 + 2);
+    if room > used + 3 {
+        used += canvas.left(columns(area, used, 2), Role::Dim, "  ");
+        canvas.left(columns(area, used, room - used), Role::Title, title);
+    }
+    if usize::from(area.width) > wide {
+        canvas.spans(columns(area, area.width - wide as u16, area.width), &tabs);
+    }
+}
+
+fn tabs(canvas: &Canvas<'_>, app: &App) -> Vec<Span> {
+    let mut spans = Vec::new();
+    for (index, (key, name, page)) in PAGES.iter().enumerate() {
+        let here = *page == app.page;
+        let gap = if index == 0 { "" } else { "   " };
+        spans.push(canvas.span(Role::Accent, format!("{gap}{key} ")));
+        spans.push(canvas.span(if here { Role::Title } else { Role::Dim }, *name));
+    }
+    spans
+}
+
+/// Time, speed, method and how fast it all goes.
+pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
+    let glyphs = canvas.look.glyphs;
+    let (sign, word, role) = match &snapshot.status {
+        Status::Running => (glyphs.pick("▶", ">"), "running", Role::Good),
+        Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
+        Status::Faulted(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
+    };
+    let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
+    // The more important, the earlier: what does not fit is left out from the end.
+    let mut pieces: Vec<Vec<Span>> =
+        vec![
+            vec![canvas.span(
+                role,
+                if area.width < 100 { sign.to_owned() } else { format!("{sign} {word}") },
+            )],
+            vec![
+                canvas.span(Role::Dim, "t "),
+                canvas.span(Role::Accent, format!("{:<8}", fitted(snapshot.time, 6, 8, glyphs))),
+            ],
+            vec![
+                canvas.span(Role::Dim, "speed "),
+                canvas.span(Role::Text, format!("{:<5}", speed(snapshot, canvas))),
+            ],
+            vec![canvas.span(Role::Text, method(snapshot, canvas))],
+        ];
+    pieces.push(vec![
+        canvas.span(Role::Text, format!("{:>5}", rate(app.meter.steps))),
+        canvas.span(Role::Dim, " steps/s"),
+    ]);
+    pieces.push(vec![
+        canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
+        canvas.span(Role::Dim, " fps"),
+    ]);
+    let mut used = 0;
+    for piece in pieces {
+        let wide: usize = piece.iter().map(|(text, _)| text.width()).sum();
+        if used + wide as u16 > area.width {
+            break;
+        }
+        used += canvas.spans(columns(area, used, area.width), &piece) + 2;
+    }
+}
+
+fn speed(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
+    if snapshot.speed.is_infinite() {
+        "flat out".to_owned()
+    } else {
+        format!("×{}", brief(snapshot.speed, 3, canvas.look.glyphs))
+    }
+}
+
+/// A count in five columns: `940`, `12k`, `3.4M`.
+fn short(value: f64) -> String {
+    match value {
+        v if v < 9_950.0 => format!("{v:.0}"),
+        v if v < 999_500.0 => format!("{:.0}k", v / 1e3),
+        v => format!("{:.1}M", v / 1e6),
+    }
+}
+
+/// The method with its step and tolerance, in a steady width.
+fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
+    let glyphs = canvas.look.glyphs;
+    let step = fitted(snapshot.method.step, 2, 7, glyphs);
+    let tolerance = snapshot.method.tolerance.map_or_else(String::new, |tolerance| {
+        format!(" {} {tolerance:.0e}", glyphs.pick("ε", "tol"))
+    });
+    format!("{}{tolerance} h {step:<7}", snapshot.method.name)
+}
+
+/// What is being typed, told or focused, and at the right the most useful keys.
+pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    if let Some(Over::Field(field)) = &app.over {
+        return open_field(canvas, area, app, field);
+    }
+    if let Some(notice) = &app.notice {
+        let role = if notice.error { Role::Bad } else { Role::Good };
+        canvas.left(area, role, &notice.text);
+        return;
+    }
+    let meaning = match (&app.over, &app.lab, app.page) {
+        (None, Some(lab), Page::Lab) => meaning(canvas, lab),
+        _ => String::new(),
+    };
+    let mut hints = hints(canvas, app);
+    let wide = |hints: &[Vec<Span>]| -> usize {
+        hints.iter().flatten().map(|(text, _)| text.width()).sum::<usize>() + 3 * hints.len()
+    };
+    // The last two, help and quit, are always there; the others give way to the meaning.
+    let room = usize::from(area.width);
+    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(room * 2 / 3) + 2 };
+    while hints.len() > 2 && meant + wide(&hints) > room + 3 {
+        hints.remove(hints.len() - 3);
+    }
+    let long = (wide(&hints) as u16).saturating_sub(3).min(area.width);
+    canvas.left(columns(area, 0, area.width.saturating_sub(long + 2)), Role::Text, &meaning);
+    let gap = ("   ".to_owned(), ratatui::style::Style::new());
+    let row: Vec<Span> =
+        hints.into_iter().flat_map(|hint| hint.into_iter().chain([gap.clone()])).collect();
+    let start = if meaning.is_empty() { 0 } else { area.width - long };
+    canvas.spans(columns(area, start, area.width), &row);
+}
+
+/// Meaning, unit and range of what is selected.
+fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
+    let glyphs = canvas.look.glyphs;
+    if lab.focus == Pane::Gauges {
+        let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
+        return gauge.map_or_else(String::new, |gauge| {
+            let name = glyphs.pick(&gauge.shown, &gauge.name);
+            format!("{name} ({}): {}", gauge.reason, sentence(&gauge.verdict))
+        });
+    }
+    let Some(facts) = lab.selected().and_then(|target| lab.facts(target)) else {
+        return String::new();
+    };
+    let name = glyphs.pick(&facts.shown, &facts.name);
+    let about = if facts.about.is_empty() { String::new() } else { format!(": {}", facts.about) };
+    let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
+    let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+        format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))
+    });
+    canvas.text(&format!("{name}{unit}{about}{range}"))
+}
+
+/// The keys worth a hint here, the innermost place first; the ones for help and quitting come last.
+fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Vec<Span>> {
+    let rows = app.places().iter().flat_map(|place| {
+        KEYS.iter().filter(move |row| row.place == *place && !row.hint.is_empty())
+    });
+    let hint = |row: &crate::app::keymap::Binding| {
+        let keys = keys(row, canvas.look);
+        let first = keys.split(' ').next().unwrap_or_default().to_owned();
+        vec![canvas.span(Role::Accent, first), canvas.span(Role::Dim, format!(" {}", row.hint))]
+    };
+    rows.map(hint).collect()
+}
+
+/// What is typed, and what is wrong with it.
+fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
+    let facts = match (&app.lab, field.purpose) {
+        (Some(lab), Purpose::Value(target)) => lab.facts(target),
+        _ => None,
+    };
+    let glyphs = canvas.look.glyphs;
+    let name = match (field.purpose, &facts) {
+        (Purpose::Step, _) => "step".to_owned(),
+        (Purpose::Tolerance, _) => "tolerance".to_owned(),
+        (_, Some(facts)) => glyphs.pick(&facts.shown, &facts.name).clone(),
+        _ => "value".to_owned(),
+    };
+    let used = canvas.left(area, Role::Title, &format!("{name} = "));
+    let room = 20.min(area.width / 3);
+    typing(canvas, columns(area, used, room), field);
+    let rest = columns(area, used + room + 2, area.width);
+    let (role, text) = match (&field.mistake, facts) {
+        (Some(mistake), _) => (Role::Bad, mistake.clone()),
+        (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
+        (None, None) => (Role::Dim, "Enter accepts, Esc leaves it as it was".to_owned()),
+    };
+    canvas.left(rest, role, &text);
+}

@@ -1,0 +1,40 @@
+//! The cursor on a plot, and the coordinates of the cell it stands on.
+//!
+//! In: a frame and a lens. Out: cells. Never here: what is plotted.
+
+use ratatui::layout::{Position, Rect};
+
+use super::canvas::Canvas;
+use super::number::readable;
+use super::plot::Frame;
+use super::theme::Role;
+use crate::app::Lens;
+
+/// Draws the cursor, if there is one, and reads its coordinates in the upper right corner of the area.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, frame: &Frame, lens: Lens) {
+    let Some([across, upwards]) = lens.cursor else { return };
+    if frame.area.is_empty() {
+        return;
+    }
+    let place = |fraction: f64, count: u16| ((fraction * f64::from(count)) as u16).min(count - 1);
+    let at = Position::new(
+        frame.area.x + place(across, frame.area.width),
+        frame.area.y + place(1.0 - upwards, frame.area.height),
+    );
+    let glyphs = canvas.look.glyphs;
+    let style = canvas.style(Role::Focus);
+    for x in frame.area.x..frame.area.right() {
+        if canvas.buffer[(x, at.y)].symbol().trim().is_empty() {
+            canvas.write(Position::new(x, at.y), 1, glyphs.pick("┈", "-"), style);
+        }
+    }
+    for y in frame.area.y..frame.area.bottom() {
+        if canvas.buffer[(at.x, y)].symbol().trim().is_empty() {
+            canvas.write(Position::new(at.x, y), 1, glyphs.pick("┊", ":"), style);
+        }
+    }
+    canvas.write(at, 1, glyphs.pick("┼", "+"), style);
+    let [x, y] = frame.at(at);
+    let reading = format!(" {}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
+    canvas.right(Rect { height: 1, ..area }, Role::Focus, &reading);
+}

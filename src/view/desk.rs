@@ -1,0 +1,137 @@
+//! The lab's page: every pane in its frame, and over them what stopped the motion.
+//!
+//! In: the lab and the layout. Out: cells. Never here: what a single pane shows.
+
+use ratatui::layout::Rect;
+
+use super::canvas::{Canvas, Span, columns, row};
+use super::layout::{Slot, panes};
+use super::quantity::Quantities;
+use super::theme::Role;
+use super::values::Values;
+use super::wrap::{capitalised, words};
+use super::{equations, gauges, phase, series, space};
+use crate::app::{App, Field, Lab, Over, Pane, Plot, Target};
+use crate::experiment::{Fault, Status};
+
+/// Draws all panes that have a place.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
+    let field = match &app.over {
+        Some(Over::Field(field)) => Some(field),
+        _ => None,
+    };
+    for (slot, place) in panes(area, lab) {
+        match slot {
+            Slot::Pane(Pane::Plot(index)) => plot(canvas, place, lab, index),
+            Slot::Pane(pane) => {
+                let title = [canvas.span(Role::Title, name(pane))];
+                list(canvas, place, (lab, pane), &title, field);
+            }
+            Slot::Values(pane) => {
+                let title = tabs(canvas, &[Pane::Parameters, Pane::Initial], pane);
+                list(canvas, place, (lab, pane), &title, field);
+            }
+            Slot::Lists(pane) => {
+                let all = [Pane::Parameters, Pane::Initial, Pane::Gauges];
+                let title = tabs(canvas, &all, pane);
+                list(canvas, place, (lab, pane), &title, field);
+            }
+            Slot::Law => {
+                let title = [canvas.span(Role::Title, "Law of motion")];
+                let inner = canvas.pane(place, &title, false);
+                equations::law(lab, canvas.look).draw(canvas, inner, 0);
+            }
+        }
+    }
+    if let Some(Status::Faulted(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
+        stopped(canvas, area, fault);
+    }
+}
+
+/// The names of lists that share a frame, the one that is shown in full.
+fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
+    let mut spans = Vec::new();
+    for pane in panes {
+        if !spans.is_empty() {
+            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
+        }
+        let role = if *pane == shown { Role::Title } else { Role::Dim };
+        spans.push(canvas.span(role, name(*pane)));
+    }
+    spans
+}
+
+fn name(pane: Pane) -> &'static str {
+    match pane {
+        Pane::Plot(_) => "Plot",
+        Pane::Parameters => "Parameters",
+        Pane::Initial => "Initial values",
+        Pane::Gauges => "Gauges",
+    }
+}
+
+fn list(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (lab, pane): (&Lab, Pane),
+    title: &[Span],
+    field: Option<&Field>,
+) {
+    let focused = lab.focus == pane;
+    let inner = canvas.pane(area, title, focused);
+    let values = |kind, selected| Values { lab, kind, selected, focused, field };
+    match pane {
+        Pane::Parameters => {
+            values(Target::Parameter, lab.selection.parameter).draw(canvas, inner);
+        }
+        Pane::Initial => values(Target::Initial, lab.selection.initial).draw(canvas, inner),
+        Pane::Gauges => {
+            let selected = focused.then_some(lab.selection.gauge);
+            let all = lab.snapshot.as_ref().map_or(&[][..], |s| &s.gauges);
+            gauges::draw(canvas, inner, all, selected);
+        }
+        Pane::Plot(_) => {}
+    }
+}
+
+fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
+    let focused = lab.focus == Pane::Plot(index);
+    let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.look)) else {
+        canvas.pane(area, &[], focused);
+        return;
+    };
+    let title = match plot {
+        Plot::Space(eye) => space::title(canvas, eye),
+        Plot::Phase { x, y, .. } => phase::title(canvas, &q, [*x, *y]),
+        Plot::Time { y, .. } => series::title(canvas, &q, y),
+    };
+    let inner = canvas.pane(area, &title, focused);
+    match plot {
+        Plot::Space(eye) => space::draw(canvas, inner, &q, eye),
+        Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
+        Plot::Time { y, lens } => series::draw(canvas, inner, &q, (y, *lens)),
+    }
+}
+
+/// A box over the panes that says why the motion cannot go on.
+fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Fault) {
+    let width = area.width.saturating_sub(4).min(70);
+    let text = canvas.text(&capitalised(&fault.message));
+    let lines = words(&text, usize::from(width.saturating_sub(4)));
+    let height = (lines.len() as u16 + 4).min(area.height);
+    let place = Rect {
+        x: area.x + (area.width - width) / 2,
+        y: area.y + (area.height - height) / 2,
+        width,
+        height,
+    };
+    canvas.clear(place);
+    let title = [canvas.span(Role::Bad, "The motion cannot go on")];
+    let inner = canvas.pane(place, &title, true);
+    let inner = columns(inner, 1, inner.width.saturating_sub(2));
+    for (index, line) in lines.iter().enumerate() {
+        canvas.left(row(inner, index), Role::Text, line);
+    }
+    let keys = "r back to the start   u take the last change back";
+    canvas.left(row(inner, lines.len() + 1), Role::Dim, keys);
+}

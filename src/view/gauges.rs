@@ -1,0 +1,136 @@
+//! The gauges: what should not change, how much it has, and what to think of it.
+//!
+//! In: the snapshot's gauges. Out: cells. Never here: how a verdict is found.
+
+use ratatui::layout::Rect;
+use ratatui::widgets::Widget;
+
+use super::canvas::{Canvas, columns, row};
+use super::number::{self, fitted};
+use super::plot::Scale;
+use super::strip::History;
+use super::theme::Role;
+use super::values::window;
+use crate::analysis::{Growth, Verdict};
+use crate::experiment::Gauge;
+
+/// Columns of a verdict, a drift and a value.
+const VERDICT: u16 = 7;
+const DRIFT: u16 = 8;
+const VALUE: u16 = 9;
+
+/// The most columns of a history.
+const STRIP: u16 = 24;
+
+/// The drifts that the strip's height spans.
+const FLOOR: f64 = 1e-17;
+const CEILING: f64 = 1.0;
+
+/// Draws the gauges around the selected one: two rows each where there is room, else one.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
+    if gauges.is_empty() {
+        canvas.left(row(area, 0), Role::Dim, "  nothing here is conserved");
+        return;
+    }
+    let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
+    let shown = usize::from(area.height) / height;
+    let first = window(selected.unwrap_or(0), gauges.len(), shown);
+    for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
+        let here = selected == Some(first + place);
+        let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
+        let at = row(area, place * height);
+        canvas.left(columns(at, 0, 1), Role::Focus, mark);
+        let at = columns(at, 2, area.width.saturating_sub(3));
+        if height == 2 {
+            name_and_reason(canvas, at, gauge, here);
+            numbers_and_history(canvas, row(columns(area, 2, at.width), place * 2 + 1), gauge);
+        } else {
+            in_one_row(canvas, at, gauge, here);
+        }
+    }
+}
+
+/// The word for a verdict, short enough for a column, and its role.
+pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
+    match verdict {
+        Verdict::Open => ("…", Role::Dim),
+        Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
+        Verdict::Exact(Growth::Faster) => ("exact", Role::Warn),
+        Verdict::Bounded => ("bounded", Role::Good),
+        Verdict::Secular(_) => ("secular", Role::Bad),
+        Verdict::Broken(_) => ("broken", Role::Warn),
+    }
+}
+
+/// A sentence on a verdict.
+pub(super) fn sentence(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Open => "too short a motion to tell".to_owned(),
+        Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
+        Verdict::Exact(Growth::Root) => {
+            "at the rounding floor, growing like √t: as good as rounding allows".to_owned()
+        }
+        Verdict::Exact(Growth::Faster) => {
+            "at the rounding floor, but growing faster than √t".to_owned()
+        }
+        Verdict::Bounded => "swings without trend, as under a symplectic method".to_owned(),
+        Verdict::Secular(slope) => {
+            format!("grows by {} per unit of time: the method eats it", number::drift(*slope))
+        }
+        Verdict::Broken(law) => format!("not conserved, by the physics: {law}"),
+    }
+}
+
+/// The name, why it is conserved, and at the right the verdict.
+fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
+    let (text, role) = word(&gauge.verdict);
+    canvas.left(columns(area, area.width.saturating_sub(VERDICT), VERDICT), role, text);
+    let area = columns(area, 0, area.width.saturating_sub(VERDICT + 1));
+    let used = name(canvas, area, gauge, here);
+    canvas.left(columns(area, used + 2, area.width), Role::Dim, &gauge.reason);
+}
+
+/// Value and drift, and the history of the drift on a logarithmic scale.
+fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
+    value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
+    drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
+    let room = area.width.saturating_sub(VALUE + DRIFT + 5);
+    let strip = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
+    let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
+    let history = History {
+        values: &values,
+        scale: Scale::log(FLOOR, CEILING),
+        style: canvas.style(word(&gauge.verdict).1),
+        glyphs: canvas.look.glyphs,
+    };
+    history.render(strip, canvas.buffer);
+}
+
+/// Name, value, drift and verdict where there is one row for them all.
+fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
+    let (text, role) = word(&gauge.verdict);
+    let at = area.width.saturating_sub(VERDICT);
+    canvas.left(columns(area, at, VERDICT), role, text);
+    let at = at.saturating_sub(DRIFT + 1);
+    drift(canvas, columns(area, at, DRIFT), gauge);
+    let at = at.saturating_sub(VALUE + 1);
+    value(canvas, columns(area, at, VALUE), gauge, 4);
+    name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
+}
+
+fn name(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) -> u16 {
+    let name = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).clone();
+    canvas.left(area, if here { Role::Title } else { Role::Text }, &name)
+}
+
+fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
+    let text = fitted(gauge.value, digits, area.width.into(), canvas.look.glyphs);
+    canvas.right(area, Role::Accent, &text);
+}
+
+fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
+    // What the physics changes is no fault of the method.
+    let physical = matches!(gauge.verdict, Verdict::Broken(_));
+    let role = if physical { Role::Dim } else { word(&gauge.verdict).1 };
+    canvas.right(area, role, &number::drift(gauge.drift));
+}

@@ -1,0 +1,257 @@
+//! Glyphs: which characters the terminal can be trusted with, and plain ASCII in place of all others.
+//!
+//! In: the locale, text that may hold Greek letters and exponents. Out: a [`Glyphs`], border characters, ASCII text.
+//! Never here: colours, or where anything stands on the screen.
+
+use std::borrow::Cow;
+
+use ratatui::symbols::border;
+
+/// What dots, lines and letters are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Glyphs {
+    /// Braille patterns, 2×4 dots in a cell; the finest grid that most fonts have.
+    Braille,
+    /// Half blocks, 1×2 dots in a cell.
+    HalfBlock,
+    /// Characters below 0x80 only, one dot in a cell.
+    Ascii,
+}
+
+const ASCII_BORDER: border::Set<'static> = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+impl Glyphs {
+    /// Reads the choice from the locale (`LC_ALL`, else `LC_CTYPE`, else `LANG`) and `TERM`.
+    ///
+    /// A locale that is not UTF-8 gets ASCII; the Linux console, whose fonts lack braille, gets half blocks.
+    pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Self {
+        let get = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let term = get("TERM").unwrap_or_default();
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(get).unwrap_or_default();
+        let locale = locale.to_ascii_lowercase();
+        if term.starts_with("vt") || term == "dumb" {
+            Self::Ascii
+        } else if locale.contains("utf-8") || locale.contains("utf8") {
+            if term.starts_with("linux") { Self::HalfBlock } else { Self::Braille }
+        } else if locale.is_empty() && get("WT_SESSION").is_some() {
+            Self::Braille
+        } else {
+            Self::Ascii
+        }
+    }
+
+    /// The choice a person names: `braille`, `half` or `ascii`.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "braille" => Self::Braille,
+            "half" => Self::HalfBlock,
+            "ascii" => Self::Ascii,
+            _ => return None,
+        })
+    }
+
+    /// Whether only characters below 0x80 may be used.
+    pub fn is_ascii(self) -> bool {
+        self == Self::Ascii
+    }
+
+    /// Dots in one cell: columns, rows.
+    pub fn dots(self) -> (u16, u16) {
+        match self {
+            Self::Braille => (2, 4),
+            Self::HalfBlock => (1, 2),
+            Self::Ascii => (1, 1),
+        }
+    }
+
+    /// `unicode`, or `ascii` where nothing else may be shown.
+    pub fn pick<T>(self, unicode: T, ascii: T) -> T {
+        if self.is_ascii() { ascii } else { unicode }
+    }
+
+    /// The characters of a box.
+    pub fn border(self) -> border::Set<'static> {
+        self.pick(border::ROUNDED, ASCII_BORDER)
+    }
+
+    /// The text as this terminal may show it: unchanged, or spelt in ASCII (`θ₁²` → `theta1^2`).
+    pub fn text(self, text: &str) -> Cow<'_, str> {
+        if !self.is_ascii() || text.is_ascii() {
+            Cow::Borrowed(text)
+        } else {
+            Cow::Owned(spell(text))
+        }
+    }
+}
+
+/// Spells a text in ASCII. What has no spelling becomes `?`; combining dots become primes, as in `x'`.
+fn spell(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut raised = false;
+    for character in text.chars() {
+        let exponent = superscript(character);
+        if exponent.is_some() && !raised {
+            out.push('^');
+        }
+        raised = exponent.is_some();
+        match exponent.or_else(|| subscript(character)) {
+            Some(plain) => out.push(plain),
+            None if character.is_ascii() => out.push(character),
+            None => out.push_str(spelling(character)),
+        }
+    }
+    out
+}
+
+fn superscript(character: char) -> Option<char> {
+    Some(match character {
+        '⁰' => '0',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁴'..='⁹' => char::from(b'4' + (character as u32 - '⁴' as u32) as u8),
+        '⁺' => '+',
+        '⁻' => '-',
+        _ => return None,
+    })
+}
+
+fn subscript(character: char) -> Option<char> {
+    match character {
+        '₀'..='₉' => Some(char::from(b'0' + (character as u32 - '₀' as u32) as u8)),
+        _ => None,
+    }
+}
+
+fn spelling(character: char) -> &'static str {
+    match character {
+        'α' => "alpha",
+        'β' => "beta",
+        'γ' => "gamma",
+        'δ' => "delta",
+        'ε' | 'ϵ' => "epsilon",
+        'ζ' => "zeta",
+        'η' => "eta",
+        'θ' | 'ϑ' => "theta",
+        'ι' => "iota",
+        'κ' => "kappa",
+        'λ' => "lambda",
+        'μ' | 'µ' => "mu",
+        'ν' => "nu",
+        'ξ' => "xi",
+        'π' => "pi",
+        'ρ' => "rho",
+        'σ' | 'ς' => "sigma",
+        'τ' => "tau",
+        'υ' => "upsilon",
+        'φ' | 'ϕ' => "phi",
+        'χ' => "chi",
+        'ψ' => "psi",
+        'ω' => "omega",
+        'Γ' => "Gamma",
+        'Δ' => "Delta",
+        'Θ' => "Theta",
+        'Λ' => "Lambda",
+        'Ξ' => "Xi",
+        'Π' => "Pi",
+        'Σ' => "Sigma",
+        'Φ' => "Phi",
+        'Ψ' => "Psi",
+        'Ω' => "Omega",
+        'Υ' => "Upsilon",
+        '∂' | 'ẟ' => "d",
+        '√' => "sqrt",
+        '∞' => "inf",
+        '∫' | '∮' => "int",
+        '½' => "1/2",
+        '⅓' => "1/3",
+        '⅔' => "2/3",
+        '⅕' => "1/5",
+        '⅖' => "2/5",
+        '⅗' => "3/5",
+        '⅘' => "4/5",
+        '⅙' => "1/6",
+        '⅚' => "5/6",
+        '⅛' => "1/8",
+        '⅜' => "3/8",
+        '⅝' => "5/8",
+        '⅞' => "7/8",
+        '¼' => "1/4",
+        '¾' => "3/4",
+        '°' => "deg",
+        '⊕' => "_Earth",
+        '☉' | '⊙' => "_Sun",
+        '§' => "sec. ",
+        'ₓ' => "_x",
+        'ᵣ' => "_r",
+        'ᵢ' => "_i",
+        'ⱼ' => "_j",
+        '·' | '⋅' | '∗' => "*",
+        '×' | '✗' => "x",
+        '−' | '–' | '‐' | '─' | '━' => "-",
+        '—' => "--",
+        '±' => "+-",
+        '≈' => "~",
+        '≤' => "<=",
+        '≥' => ">=",
+        '≠' => "!=",
+        '→' => "->",
+        '←' => "<-",
+        '↑' | '∧' => "^",
+        '↓' => "v",
+        '⇒' => "=>",
+        '⇔' => "<=>",
+        '…' => "...",
+        '‘' | '’' | '′' | '\u{307}' => "'",
+        '″' | '\u{308}' => "''",
+        '“' | '”' => "\"",
+        'á' | 'à' | 'â' | 'å' | 'ã' => "a",
+        'ç' | 'ć' | 'č' => "c",
+        'é' | 'è' | 'ê' | 'ë' => "e",
+        'í' | 'ì' | 'î' | 'ï' => "i",
+        'ñ' | 'ń' => "n",
+        'ú' | 'ù' | 'û' => "u",
+        'ś' | 'š' => "s",
+        'ž' => "z",
+        'Å' => "A",
+        'Ç' | 'Č' => "C",
+        'É' => "E",
+        'Š' => "S",
+        'Ž' => "Z",
+        'Ä' => "Ae",
+        'Ö' => "Oe",
+        'Ü' => "Ue",
+        'ß' => "ss",
+        'ä' => "ae",
+        'ö' => "oe",
+        'ü' => "ue",
+        '│' | '┃' => "|",
+        'ȧ' => "a'",
+        'ṡ' => "s'",
+        'ẋ' => "x'",
+        'ẍ' => "x''",
+        'ẏ' => "y'",
+        'ÿ' => "y''",
+        'ż' => "z'",
+        'ṙ' => "r'",
+        'ṗ' => "p'",
+        'ℓ' => "l",
+        '∇' => "grad",
+        '∈' => " in ",
+        '⊥' | '⟂' => "perp",
+        '‖' => "||",
+        '●' | '•' | 'ó' | 'ò' | 'ô' | 'ø' => "o",
+        '✓' => "ok",
+        '\u{a0}' | '\u{2009}' | '\u{202f}' => " ",
+        _ => "?",
+    }
+}

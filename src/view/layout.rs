@@ -1,0 +1,186 @@
+//! The layout: where the parts of the screen stand. A pure function of the area and of what is focused.
+//!
+//! In: an area. Out: rectangles. Never here: drawing.
+
+use ratatui::layout::Rect;
+
+use crate::app::{Lab, Pane, Target};
+
+/// The least screen on which anything can be done.
+pub(super) const LEAST: (u16, u16) = (40, 10);
+
+/// The least size of a plot beside others, and of a column of lists.
+const PLOT: (u16, u16) = (50, 13);
+const LISTS: (u16, u16) = (40, 52);
+
+/// A screen's parts: a line of headings, the body, a line of status where there is one, a line of hints.
+pub(super) struct Screen {
+    pub(super) header: Rect,
+    pub(super) body: Rect,
+    pub(super) status: Rect,
+    pub(super) footer: Rect,
+}
+
+impl Screen {
+    pub(super) fn of(area: Rect, status: bool) -> Self {
+        let line = |y: u16| Rect { y, height: 1, ..area };
+        let below = 1 + u16::from(status);
+        Self {
+            header: line(area.y),
+            body: Rect { y: area.y + 1, height: area.height - 1 - below, ..area },
+            status: Rect { height: below - 1, ..line(area.bottom() - below) },
+            footer: line(area.bottom() - 1),
+        }
+    }
+}
+
+/// Something that has a place among the panes of the lab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Slot {
+    /// A pane that can be focused.
+    Pane(Pane),
+    /// The parameters or, while they are focused, the initial values; both names are in the frame.
+    Values(Pane),
+    /// One of all three lists, whose names are in the frame.
+    Lists(Pane),
+    /// The law of motion, where there is room to spare.
+    Law,
+}
+
+/// Where the panes of the lab stand.
+pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+    let Rect { width, height, .. } = area;
+    if lab.zoomed {
+        vec![(Slot::Pane(lab.focus), area)]
+    } else if width >= 110 && height >= 26 {
+        wide(area, lab)
+    } else if width >= 64 && height >= 16 {
+        square(area, lab)
+    } else if width >= 64 {
+        let (left, right) = split_columns(area, width / 2);
+        vec![(plot_slot(lab), left), (Slot::Lists(list(lab)), right)]
+    } else if height >= 16 {
+        let (above, below) = split_rows(area, height / 2);
+        vec![(plot_slot(lab), above), (Slot::Lists(list(lab)), below)]
+    } else {
+        vec![(Slot::Pane(lab.focus), area)]
+    }
+}
+
+/// Plots at the left, lists in a column at the right.
+fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+    let lists = (area.width * 3 / 10).clamp(LISTS.0, LISTS.1);
+    let (left, right) = split_columns(area, area.width - lists);
+    let mut slots = plots(left, lab);
+    slots.extend(column(right, lab));
+    slots
+}
+
+/// Two plots above, values and gauges below.
+fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+    let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
+    let wanted = (lab.count(Target::Parameter) as u16).max(gauges) + 2;
+    let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
+    let (above, below) = split_rows(area, area.height - below);
+    let (left, right) = split_columns(below, below.width / 2);
+    let mut slots = across(above, &chosen(lab, 2));
+    slots.push((Slot::Values(values(lab)), left));
+    slots.push((Slot::Pane(Pane::Gauges), right));
+    slots
+}
+
+/// Plots in two rows: two large ones, and below as many as there is room for.
+fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+    let below = usize::from((area.width / PLOT.0).max(1));
+    let count = lab.plots.len();
+    if count <= 2 || area.height < 2 * PLOT.1 {
+        return across(area, &chosen(lab, 2));
+    }
+    let shown = chosen(lab, 2 + below);
+    let (upper, lower) = split_rows(area, area.height * 3 / 5);
+    let (first, rest) = shown.split_at(2);
+    let mut slots = across(upper, first);
+    slots.extend(across(lower, rest));
+    slots
+}
+
+/// The lists one below the other, and the law of motion if rows are left.
+fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+    let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
+    let parameters = lab.count(Target::Parameter) as u16;
+    // A frame takes two rows; a gauge two; the meaning of the selected parameter two.
+    let wants = [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 2];
+    let mut heights = wants.map(|want| want.max(4));
+    let mut total: u16 = heights.iter().sum();
+    while total > area.height {
+        // The tallest gives way first.
+        let tallest = (0..3).max_by_key(|&i| heights[i]).unwrap_or(0);
+        heights[tallest] -= 1;
+        total -= 1;
+    }
+    let spare = area.height - total;
+    let law = spare >= 6;
+    if !law {
+        heights[2] += spare;
+    }
+    let panes = [Pane::Parameters, Pane::Initial, Pane::Gauges].map(Slot::Pane);
+    let mut y = area.y;
+    let mut slots = Vec::new();
+    for (slot, height) in panes.into_iter().zip(heights) {
+        slots.push((slot, Rect { y, height, ..area }));
+        y += height;
+    }
+    if law {
+        slots.push((Slot::Law, Rect { y, height: spare, ..area }));
+    }
+    slots
+}
+
+/// The first `room` plots; a focused one beyond them takes the last place.
+fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
+    let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
+    if let (Pane::Plot(focused), Some(last)) = (lab.focus, shown.last_mut()) {
+        *last = (*last).max(focused);
+    }
+    shown.into_iter().map(Pane::Plot).collect()
+}
+
+fn plot_slot(lab: &Lab) -> Slot {
+    let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
+    Slot::Pane(focused.unwrap_or(Pane::Plot(0)))
+}
+
+/// The list shown where there is room for one.
+fn list(lab: &Lab) -> Pane {
+    if matches!(lab.focus, Pane::Plot(_)) { Pane::Parameters } else { lab.focus }
+}
+
+/// The list of values shown where there is room for one.
+fn values(lab: &Lab) -> Pane {
+    if lab.focus == Pane::Initial { Pane::Initial } else { Pane::Parameters }
+}
+
+/// Panes side by side in equal widths.
+fn across(area: Rect, panes: &[Pane]) -> Vec<(Slot, Rect)> {
+    let count = panes.len().max(1) as u16;
+    let edge = |i: u16| area.x + (u32::from(area.width) * u32::from(i) / u32::from(count)) as u16;
+    let place = |(i, pane): (usize, &Pane)| {
+        let i = i as u16;
+        (Slot::Pane(*pane), Rect { x: edge(i), width: edge(i + 1) - edge(i), ..area })
+    };
+    panes.iter().enumerate().map(place).collect()
+}
+
+/// The first `width` columns, and the others.
+pub(super) fn split_columns(area: Rect, width: u16) -> (Rect, Rect) {
+    let width = width.min(area.width);
+    let left = Rect { width, ..area };
+    (left, Rect { x: left.right(), width: area.width - width, ..area })
+}
+
+/// The first `height` rows, and the others.
+pub(super) fn split_rows(area: Rect, height: u16) -> (Rect, Rect) {
+    let height = height.min(area.height);
+    let above = Rect { height, ..area };
+    (above, Rect { y: above.bottom(), height: area.height - height, ..area })
+}

@@ -1,0 +1,56 @@
+//! The page of notes: what the file says about itself, and what it expects.
+//!
+//! In: the model. Out: a page of text. Never here: whether the expectations hold; `phaselab check` tests that.
+
+use super::Look;
+use super::document::Document;
+use super::number::brief;
+use super::theme::Role;
+use crate::app::Lab;
+
+/// The page.
+pub(super) fn document(lab: &Lab, look: &Look) -> Document {
+    let model = &lab.loaded.model;
+    let mut page = Document::default();
+    page.heading(&model.info.title);
+    if !model.info.summary.is_empty() {
+        page.words(Role::Text, model.info.summary.as_str());
+    }
+    for paragraph in model.info.notes.split("\n\n").map(str::trim).filter(|p| !p.is_empty()) {
+        page.gap();
+        page.words(Role::Text, paragraph);
+    }
+    page.heading("Source");
+    let source = if model.info.source.is_empty() { "not named" } else { &model.info.source };
+    page.words(Role::Text, source);
+    if !model.info.topics.is_empty() {
+        page.words(Role::Dim, model.info.topics.join(" · "));
+    }
+    if !model.parameters.is_empty() {
+        page.heading("Parameters");
+        for p in &model.parameters {
+            let name = look.glyphs.pick(&p.shown, &p.name);
+            let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+            let value = brief(p.value, 6, look.glyphs);
+            page.formula(name, format!("{value}{unit}"), &p.about);
+        }
+    }
+    let values = &model.expect.values;
+    if !values.is_empty() || !model.expect.conserves.is_empty() {
+        page.heading("What is expected");
+    }
+    if !model.expect.conserves.is_empty() {
+        let names: Vec<_> = model.expect.conserves.iter().map(|(name, ..)| name.as_str()).collect();
+        page.words(Role::Text, format!("Conserved: {}.", names.join(", ")));
+    }
+    for value in values {
+        page.gap();
+        page.words(Role::Text, format!("{}:", value.name));
+        let is = brief(value.is, 12, look.glyphs);
+        let when = brief(value.at, 6, look.glyphs);
+        let source =
+            if value.source.is_empty() { String::new() } else { format!(" — {}", value.source) };
+        page.words(Role::Dim, format!("{is} at t = {when}{source}"));
+    }
+    page
+}

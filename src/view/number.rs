@@ -1,0 +1,88 @@
+//! Numbers as people read them: few digits, a steady width, a true minus sign and raised exponents.
+//!
+//! In: any `f64`. Out: short text, in ASCII where [`Glyphs`] ask for it. Never here: machine formats, which are
+//! shortest round-trip decimals and belong to the command line.
+
+use unicode_width::UnicodeWidthStr;
+
+use super::glyphs::Glyphs;
+
+/// A moving value: always `significant` digits (1 to 17), so that its width changes only with its size.
+///
+/// `0.1235`, `12.35`, `12346`, `1.235×10⁻¹²`; zero, the infinities and NaN are words of their own.
+pub fn readable(value: f64, significant: usize, glyphs: Glyphs) -> String {
+    format(value, significant, glyphs, false)
+}
+
+/// A moving value in a column: as [`readable`], with as many of the digits as fit.
+pub fn fitted(value: f64, significant: usize, width: usize, glyphs: Glyphs) -> String {
+    let texts = (1..=significant.max(1)).rev().map(|digits| readable(value, digits, glyphs));
+    // Digits beside a power of ten are dear; `2e-15` is shorter than `2×10⁻¹⁵`.
+    let short = signed(format!("{value:.0e}"), glyphs);
+    texts.chain([short]).find(|text| text.width() <= width).unwrap_or_else(|| "#".repeat(width))
+}
+
+/// A value that stands still: as [`readable`], without zeros at the end (`1`, not `1.000`).
+pub fn brief(value: f64, significant: usize, glyphs: Glyphs) -> String {
+    format(value, significant, glyphs, true)
+}
+
+/// The size of an error: two digits and an exponent (`3.1e-16`); exactly nothing is `0`.
+pub fn drift(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if value.is_finite() {
+        format!("{value:.1e}")
+    } else {
+        format(value, 2, Glyphs::Ascii, false)
+    }
+}
+
+/// A power of ten as a factor: `×10⁻³`, or `x1e-3`.
+pub fn power(exponent: i32, glyphs: Glyphs) -> String {
+    if glyphs.is_ascii() { format!("x1e{exponent}") } else { format!("×10{}", raised(exponent)) }
+}
+
+/// An integer in superscripts.
+pub fn raised(number: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let plain = number.to_string();
+    plain.chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect()
+}
+
+/// The minus sign of these glyphs in place of the hyphen.
+pub fn signed(text: String, glyphs: Glyphs) -> String {
+    if glyphs.is_ascii() { text } else { text.replace('-', "−") }
+}
+
+fn format(value: f64, significant: usize, glyphs: Glyphs, trim: bool) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        let text = if value.is_nan() { "NaN".to_owned() } else { format!("{value}") };
+        return signed(text.replace("inf", glyphs.pick("∞", "inf")), glyphs);
+    }
+    let significant = significant.clamp(1, 17);
+    // Rounded first: 9.9996 to four digits is 10.00, of another size.
+    let scientific = format!("{value:.*e}", significant - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let most = (significant as i32 - 1).max(4);
+    if (-3..=most).contains(&exponent) {
+        let decimals = (significant as i32 - 1 - exponent).max(0) as usize;
+        let text = format!("{value:.decimals$}");
+        return signed(if trim { trimmed(&text).to_owned() } else { text }, glyphs);
+    }
+    let mantissa = if trim { trimmed(mantissa) } else { mantissa };
+    if glyphs.is_ascii() {
+        format!("{mantissa}e{exponent}")
+    } else {
+        signed(mantissa.to_owned(), glyphs) + &power(exponent, glyphs)
+    }
+}
+
+/// Without the zeros after the point.
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}

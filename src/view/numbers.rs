@@ -1,0 +1,74 @@
+//! The page of numbers: everything that can be seen of the present state, as text.
+//!
+//! In: the channels and their values. Out: a page of text. Never here: pictures.
+
+use unicode_width::UnicodeWidthStr;
+
+use super::document::Document;
+use super::gauges::word;
+use super::number::{drift, readable};
+use super::quantity::Quantities;
+use super::theme::Role;
+use crate::system::{Channel, ChannelKind};
+
+/// Columns of a name, and of a number.
+const NAME: usize = 30;
+const NUMBER: usize = 20;
+
+/// A heading, and which channels stand under it.
+type Group = (&'static str, fn(&ChannelKind) -> bool);
+
+/// The page.
+pub(super) fn document(q: &Quantities<'_>) -> Document {
+    let mut page = Document::default();
+    let glyphs = q.look.glyphs;
+    page.heading("State");
+    page.row(line("t", &readable(q.snapshot.time, 10, glyphs), ""));
+    let groups: [Group; 4] = [
+        ("", |kind| matches!(kind, ChannelKind::Position(_))),
+        ("Velocities", |kind| matches!(kind, ChannelKind::Velocity(_))),
+        ("Momenta", |kind| matches!(kind, ChannelKind::Momentum(_))),
+        ("Observables", |kind| {
+            matches!(
+                kind,
+                ChannelKind::Energy
+                    | ChannelKind::Ledger
+                    | ChannelKind::Observable(_)
+                    | ChannelKind::Extra(_)
+            )
+        }),
+    ];
+    let channels = q.lab.loaded.system.channels();
+    for (title, belongs) in groups {
+        let members: Vec<(usize, &Channel)> =
+            channels.iter().enumerate().filter(|(_, c)| belongs(&c.kind)).collect();
+        if !title.is_empty() && !members.is_empty() {
+            page.heading(title);
+        }
+        for (index, channel) in members {
+            let value = readable(q.value(index), 10, glyphs);
+            page.row(line(&q.name(index), &value, &channel.unit));
+        }
+    }
+    page.heading("Gauges");
+    for gauge in q.snapshot.gauges.iter() {
+        let name = glyphs.pick(&gauge.shown, &gauge.name);
+        let mut row = line(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "");
+        let (text, role) = word(&gauge.verdict);
+        row.push((Role::Dim, format!("  drift {:<8} ", drift(gauge.drift))));
+        row.push((role, format!("{text:<9}")));
+        row.push((Role::Dim, gauge.reason.clone()));
+        page.row(row);
+    }
+    page
+}
+
+fn line(name: &str, value: &str, unit: &str) -> Vec<(Role, String)> {
+    let gap = " ".repeat(NAME.saturating_sub(name.width()));
+    let before = " ".repeat(NUMBER.saturating_sub(value.width()));
+    vec![
+        (Role::Text, format!("  {name}{gap}")),
+        (Role::Accent, format!("{before}{value}")),
+        (Role::Dim, format!(" {unit}")),
+    ]
+}

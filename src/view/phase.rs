@@ -1,0 +1,70 @@
+//! A phase portrait: one quantity against another, with its fading trail and, for one degree of freedom, the level
+//! curves of the energy behind it.
+//!
+//! In: two channels, the trail, the landscape. Out: cells. Never here: what the levels are.
+
+use ratatui::layout::Rect;
+
+use super::canvas::{Canvas, Span};
+use super::cursor;
+use super::number::readable;
+use super::plot::{Axes, Marker, Pen, Raster};
+use super::quantity::Quantities;
+use super::theme::Role;
+use crate::app::Plot;
+
+/// The layers of the picture, the lowest first.
+const LEVELS: u8 = 0;
+const SEPARATRIX: u8 = 1;
+const TRAIL: u8 = 2;
+const NOW: u8 = 3;
+
+/// The heading: what is shown, and the present values.
+pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, [x, y]: [usize; 2]) -> Vec<Span> {
+    let mut spans = vec![canvas.span(Role::Title, "Phase")];
+    for channel in [x, y] {
+        let value = readable(q.value(channel), 4, canvas.look.glyphs);
+        spans.push(canvas.span(Role::Dim, format!("  {}", q.name(channel))));
+        spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+    }
+    spans
+}
+
+/// The picture inside the frame.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, plot: &Plot) {
+    let Plot::Phase { x, y, lens } = plot else { return };
+    let look = canvas.look;
+    let landscape = q.lab.landscape(plot);
+    let window = |axis: usize| landscape.map(|l| l.window[axis]);
+    let axes = Axes::new(q.axis(*x, window(0), (*lens, 0)), q.axis(*y, window(1), (*lens, 1)));
+    let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
+    let mut raster = Raster::new(frame.area, look.glyphs);
+    if let Some(landscape) = landscape {
+        let kinds = [
+            (&landscape.levels, Role::Level, LEVELS),
+            (&landscape.separatrices, Role::Separatrix, SEPARATRIX),
+        ];
+        for (curves, role, layer) in kinds {
+            let pen = Pen::shaded(look.theme.line(role), layer);
+            for curve in curves {
+                raster.polyline(&frame, curve.iter().copied(), &pen);
+            }
+        }
+        let pen = Pen::shaded(look.theme.line(Role::Separatrix), SEPARATRIX);
+        for saddle in &landscape.saddles {
+            raster.marker(&frame, *saddle, Marker::Cross, &pen);
+        }
+    }
+    let mut points: Vec<[f64; 2]> = q
+        .snapshot
+        .trail
+        .rows()
+        .filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]))
+        .collect();
+    let now = [q.value(*x), q.value(*y)];
+    points.push(now);
+    raster.trail(&frame, &points, look.theme.trail(0), TRAIL);
+    raster.marker(&frame, now, Marker::Disc, &Pen::new(look.theme[Role::Accent], NOW));
+    raster.draw(canvas.buffer);
+    cursor::draw(canvas, area, &frame, *lens);
+}

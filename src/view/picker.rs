@@ -1,0 +1,164 @@
+//! The picker: the systems by topic, a search, and the selected system's summary and moving preview.
+//!
+//! In: the picker's state and the lab that previews. Out: cells. Never here: loading.
+
+use ratatui::layout::Rect;
+use tui_input::Input;
+
+use super::canvas::{Canvas, columns, row};
+use super::layout::{split_columns, split_rows};
+use super::quantity::Quantities;
+use super::theme::Role;
+use super::values::window;
+use super::wrap::{capitalised, words};
+use super::{phase, series, space};
+use crate::app::{App, Picker, Plot};
+use crate::preset::{Entry, Origin};
+
+/// Columns of the list where something stands beside it.
+const LIST: (u16, u16) = (34, 46);
+
+/// Draws list and preview.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    if area.width < 64 {
+        let about = if area.height > 12 { 4 } else { 0 };
+        let (above, below) = split_rows(area, area.height - about);
+        list(canvas, above, &app.picker);
+        if let Some(entry) = app.picker.current() {
+            summary(canvas, columns(below, 2, below.width.saturating_sub(4)), entry);
+        }
+        return;
+    }
+    let (left, right) = split_columns(area, (area.width * 2 / 5).clamp(LIST.0, LIST.1));
+    list(canvas, left, &app.picker);
+    let Some(entry) = app.picker.current() else {
+        let inner = canvas.pane(right, &[], false);
+        canvas.left(
+            columns(row(inner, 0), 1, inner.width),
+            Role::Dim,
+            "No system fits this search.",
+        );
+        return;
+    };
+    let title = [canvas.span(Role::Title, &entry.info.title)];
+    let inner = canvas.pane(right, &title, false);
+    let text = columns(inner, 1, inner.width.saturating_sub(2));
+    let used = summary(canvas, text, entry);
+    let (_, below) = split_rows(inner, used + 1);
+    preview(canvas, below, app, entry);
+}
+
+/// A line of the list.
+enum Line<'a> {
+    Topic(&'a str),
+    System(usize, &'a Entry),
+}
+
+fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
+    let shown = picker.shown();
+    let count = format!("{} of {}", shown.len(), picker.entries.len());
+    let mut title = vec![canvas.span(Role::Title, "Systems")];
+    if picker.search.is_some() {
+        title.push(canvas.span(Role::Dim, format!("  {count}")));
+    }
+    let inner = canvas.pane(area, &title, true);
+    search(
+        canvas,
+        columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
+        picker.search.as_ref(),
+    );
+    let (_, body) = split_rows(inner, 2);
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    let mut topic = None;
+    let mut here = 0;
+    for (place, &index) in shown.iter().enumerate() {
+        let entry = &picker.entries[index];
+        if topic != Some(entry.topic()) {
+            topic = Some(entry.topic());
+            lines.push(Line::Topic(entry.topic()));
+        }
+        if place == picker.selected {
+            here = lines.len();
+        }
+        lines.push(Line::System(place, entry));
+    }
+    let rows = usize::from(body.height);
+    let first = window(here, lines.len(), rows);
+    for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
+        let area = row(body, index);
+        match line {
+            Line::Topic(topic) => {
+                canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
+            }
+            Line::System(place, entry) => {
+                let selected = *place == picker.selected;
+                let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
+                canvas.left(columns(area, 1, 1), Role::Accent, mark);
+                let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
+                let name = columns(area, 3, area.width.saturating_sub(4));
+                canvas.left(name, role, &entry.info.title);
+                if selected {
+                    canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
+                }
+            }
+        }
+    }
+}
+
+fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {
+    let Some(input) = search else {
+        canvas.left(area, Role::Dim, "/ to search, or begin to type");
+        return;
+    };
+    let used = canvas.left(area, Role::Accent, "/ ");
+    let field = columns(area, used, area.width);
+    let room = usize::from(field.width.saturating_sub(1));
+    let skipped = input.visual_scroll(room);
+    let text: String = input.value().chars().skip(skipped).take(room).collect();
+    canvas.left(field, Role::Text, &text);
+    let cursor = (input.visual_cursor().saturating_sub(skipped)).min(room) as u16;
+    canvas.tint(columns(field, cursor, 1), Role::Selected);
+}
+
+/// What the selected system is; returns the rows used.
+fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &Entry) -> u16 {
+    let width = usize::from(area.width);
+    let mut lines: Vec<(Role, String)> = Vec::new();
+    let text = canvas.text(&entry.info.summary);
+    lines.extend(words(&text, width).into_iter().map(|line| (Role::Text, line)));
+    let own = matches!(entry.origin, Origin::User(_)) && entry.info.source.is_empty();
+    let source = if own { "your own presets" } else { entry.info.source.as_str() };
+    let source = canvas.text(source);
+    lines.extend(words(&source, width).into_iter().map(|line| (Role::Dim, line)));
+    let topics = canvas.text(&entry.info.topics.join(" · "));
+    lines.extend(words(&topics, width).into_iter().map(|line| (Role::Dim, line)));
+    lines.retain(|(_, line)| !line.is_empty());
+    for (index, (role, line)) in lines.iter().enumerate() {
+        canvas.left(row(area, index), *role, line);
+    }
+    lines.len().min(usize::from(area.height)) as u16
+}
+
+/// The selected system in motion, or why it cannot be shown.
+fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
+    let text = columns(area, 1, area.width.saturating_sub(2));
+    if let Some(failure) = app.picker.failure.as_ref().filter(|f| f.name == entry.name) {
+        canvas.left(row(text, 0), Role::Bad, "This file has mistakes; Enter shows all of them.");
+        for (index, line) in failure.message.lines().take(usize::from(text.height)).enumerate() {
+            canvas.left(row(text, index + 2), Role::Text, line);
+        }
+        return;
+    }
+    let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
+    let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.look)?, lab))) else {
+        canvas.left(row(text, 0), Role::Dim, "…");
+        return;
+    };
+    let space = lab.plots.iter().find(|plot| matches!(plot, Plot::Space(_)));
+    match space.or(lab.plots.first()) {
+        Some(Plot::Space(eye)) => space::draw(canvas, area, &q, eye),
+        Some(plot @ Plot::Phase { .. }) => phase::draw(canvas, area, &q, plot),
+        Some(Plot::Time { y, lens }) => series::draw(canvas, area, &q, (y, *lens)),
+        None => {}
+    }
+}

@@ -1,0 +1,16 @@
+//! A plot for a terminal: sub-cell dots in layers, axes, ticks and a camera.
+//!
+//! In: points in data coordinates as `f64`, whatever their bits. Out: cells of a ratatui buffer.
+//! Never here: anything of phaselab. A number that cannot be drawn is left out, never a panic or a long loop.
+
+pub mod axes;
+pub mod camera;
+pub mod raster;
+pub mod scale;
+mod stroke;
+pub mod ticks;
+
+pub use axes::{Axes, Axis};
+pub use camera::{Bounds, Camera};
+pub use raster::{Marker, Pen, Raster};
+pub use scale::{Frame, Kind, Scale};

@@ -1,0 +1,260 @@
+//! Axes: lines at the left and below, ticks with labels, titles with units.
+//!
+//! In: two titled scales and an area. Out: the axes on the buffer, and the [`Frame`] left for the plot. The frame is a
+//! pure function of the area, so that the mouse can ask for it too. Never here: data.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::scale::{Frame, Kind, Scale};
+use super::ticks::Ticks;
+use crate::view::glyphs::Glyphs;
+use crate::view::number::power;
+use crate::view::theme::{Role, Theme};
+
+/// Below this many columns or rows the plot takes all the room and the axes are left out.
+const LEAST: (u16, u16) = (16, 5);
+
+/// An axis with its name.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// What is measured: `θ`.
+    pub title: String,
+    /// In what: `rad`; may be empty.
+    pub unit: String,
+    /// The range shown.
+    pub scale: Scale,
+}
+
+impl Axis {
+    /// An axis from its parts.
+    pub fn new(title: impl Into<String>, unit: impl Into<String>, scale: Scale) -> Self {
+        Self { title: title.into(), unit: unit.into(), scale }
+    }
+
+    /// `θ [rad] ×10⁻³`, without what is empty.
+    fn heading(&self, exponent: i32, glyphs: Glyphs) -> String {
+        let title = glyphs.text(&self.title);
+        let unit = match self.unit.as_str() {
+            "" => String::new(),
+            unit => format!("[{}]", glyphs.text(unit)),
+        };
+        let factor = if exponent == 0 { String::new() } else { power(exponent, glyphs) };
+        [&*title, &unit, &factor]
+            .into_iter()
+            .filter(|part| !part.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+}
+
+/// A pair of axes.
+#[derive(Clone, Debug)]
+pub struct Axes {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Whether a unit is as long on both.
+    pub equal: bool,
+    /// Whether faint dots mark where ticks cross.
+    pub grid: bool,
+}
+
+/// Where everything stands.
+struct Plan {
+    frame: Frame,
+    x: Ticks,
+    y: Ticks,
+    bare: bool,
+}
+
+impl Axes {
+    /// Axes with free proportions and no grid.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self { x, y, equal: false, grid: false }
+    }
+
+    /// With units equally long on both axes, so that circles are round.
+    #[must_use]
+    pub fn equal(self) -> Self {
+        Self { equal: true, ..self }
+    }
+
+    /// With a grid of faint dots.
+    #[must_use]
+    pub fn grid(self) -> Self {
+        Self { grid: true, ..self }
+    }
+
+    /// The frame that is left for the plot.
+    pub fn frame(&self, area: Rect, glyphs: Glyphs) -> Frame {
+        self.plan(area, glyphs).frame
+    }
+
+    /// Draws the axes and returns the frame that is left for the plot.
+    pub fn draw(&self, area: Rect, buffer: &mut Buffer, theme: &Theme, glyphs: Glyphs) -> Frame {
+        let plan = self.plan(area, glyphs);
+        let mut sheet = Sheet { buffer, area, theme, glyphs };
+        sheet.zero_lines(&plan.frame);
+        if self.grid {
+            sheet.grid(&plan);
+        }
+        if !plan.bare {
+            sheet.left(&plan, &self.y.heading(plan.y.exponent, glyphs));
+            sheet.below(&plan, &self.x.heading(plan.x.exponent, glyphs));
+        }
+        plan.frame
+    }
+
+    fn plan(&self, area: Rect, glyphs: Glyphs) -> Plan {
+        if area.width < LEAST.0 || area.height < LEAST.1 {
+            let frame = self.over(area);
+            return Plan { frame, x: Ticks::default(), y: Ticks::default(), bare: true };
+        }
+        let titled = u16::from(!self.y.title.is_empty() || !self.y.unit.is_empty());
+        let inside = |margin: u16| Rect {
+            x: area.x.saturating_add(margin),
+            y: area.y.saturating_add(titled),
+            width: area.width - margin,
+            height: area.height - titled - 2,
+        };
+        // The labels' width depends on the range, which with equal units depends on the width: settled in two rounds.
+        let mut margin = 6;
+        let mut frame = self.over(inside(margin));
+        let mut y = Ticks::default();
+        for _ in 0..2 {
+            y = Ticks::of(&frame.y, usize::from(frame.area.height.div_ceil(3)).max(3), glyphs);
+            let widest = y.marks.iter().map(|tick| tick.label.width()).max().unwrap_or(0);
+            margin = (widest as u16 + 2).min(area.width / 3);
+            frame = self.over(inside(margin));
+        }
+        let x = x_ticks(&frame, area, glyphs);
+        Plan { frame, x, y, bare: false }
+    }
+
+    fn over(&self, area: Rect) -> Frame {
+        if self.equal {
+            Frame::equal(self.x.scale, self.y.scale, area)
+        } else {
+            Frame::new(self.x.scale, self.y.scale, area)
+        }
+    }
+}
+
+/// As many ticks as have labels that keep apart.
+fn x_ticks(frame: &Frame, area: Rect, glyphs: Glyphs) -> Ticks {
+    let most = usize::from(frame.area.width / 6).clamp(2, 12);
+    let apart = |ticks: &Ticks| {
+        let places: Vec<_> = label_places(ticks, frame, area).collect();
+        places.windows(2).all(|pair| pair[0].0 + pair[0].1 + 2 <= pair[1].0)
+    };
+    (1..=most).rev().map(|most| Ticks::of(&frame.x, most, glyphs)).find(apart).unwrap_or_default()
+}
+
+/// First column and width of each label of the horizontal axis.
+fn label_places(ticks: &Ticks, frame: &Frame, area: Rect) -> impl Iterator<Item = (u16, u16)> {
+    ticks.marks.iter().filter_map(move |tick| {
+        let column = frame.cell([tick.value, frame.y.middle()])?.x;
+        let width = tick.label.width() as u16;
+        let last = area.right().saturating_sub(width);
+        Some((column.saturating_sub(width / 2).clamp(area.left().min(last), last), width))
+    })
+}
+
+/// The buffer with what every stroke needs.
+struct Sheet<'a> {
+    buffer: &'a mut Buffer,
+    area: Rect,
+    theme: &'a Theme,
+    glyphs: Glyphs,
+}
+
+impl Sheet<'_> {
+    fn put(&mut self, x: u16, y: u16, symbol: &str, style: Style) {
+        let inside = self.area.contains(Position::new(x, y));
+        if let Some(cell) = self.buffer.cell_mut((x, y)).filter(|_| inside) {
+            cell.set_symbol(symbol).set_style(style);
+        }
+    }
+
+    /// Text from a column on, cut at the area's end.
+    fn write(&mut self, x: u16, y: u16, text: &str, style: Style) {
+        let room = self.area.right().min(self.buffer.area.right()).saturating_sub(x);
+        if self.buffer.area.contains(Position::new(x, y)) {
+            self.buffer.set_stringn(x, y, text, usize::from(room), style);
+        }
+    }
+
+    fn zero_lines(&mut self, frame: &Frame) {
+        let inside = |scale: &Scale| scale.kind != Kind::Log && scale.lo < 0.0 && scale.hi > 0.0;
+        let style = self.theme[Role::Border];
+        let Rect { x, y, .. } = frame.area;
+        let row = frame.cell([frame.x.middle(), 0.0]).filter(|_| inside(&frame.y));
+        let column = frame.cell([0.0, frame.y.middle()]).filter(|_| inside(&frame.x));
+        if let Some(row) = row {
+            for x in (x..frame.area.right()).step_by(self.glyphs.pick(1, 2)) {
+                self.put(x, row.y, self.glyphs.pick("┈", "."), style);
+            }
+        }
+        if let Some(column) = column {
+            for y in y..frame.area.bottom() {
+                self.put(column.x, y, self.glyphs.pick("┊", "."), style);
+            }
+        }
+    }
+
+    fn grid(&mut self, plan: &Plan) {
+        let style = self.theme[Role::Border];
+        for y in &plan.y.marks {
+            for x in &plan.x.marks {
+                if let Some(cell) = plan.frame.cell([x.value, y.value]) {
+                    self.put(cell.x, cell.y, self.glyphs.pick("·", "."), style);
+                }
+            }
+        }
+    }
+
+    fn left(&mut self, plan: &Plan, heading: &str) {
+        let Rect { x, y, height, .. } = plan.frame.area;
+        let line = x.saturating_sub(1);
+        for row in y..y.saturating_add(height) {
+            self.put(line, row, self.glyphs.pick("│", "|"), self.theme[Role::Border]);
+        }
+        for tick in &plan.y.marks {
+            let Some(cell) = plan.frame.cell([plan.frame.x.middle(), tick.value]) else { continue };
+            self.put(line, cell.y, self.glyphs.pick("┤", "+"), self.theme[Role::Border]);
+            let width = tick.label.width() as u16;
+            let start = line.saturating_sub(width).max(self.area.x);
+            self.write(start, cell.y, &tick.label, self.theme[Role::Dim]);
+        }
+        if y > self.area.y {
+            let start = line.saturating_sub(heading.width() as u16 / 2).max(self.area.x);
+            self.write(start, self.area.y, heading, self.theme[Role::Text]);
+        }
+    }
+
+    fn below(&mut self, plan: &Plan, heading: &str) {
+        let Rect { x, width, .. } = plan.frame.area;
+        let row = plan.frame.area.bottom();
+        let border = self.theme[Role::Border];
+        self.put(x.saturating_sub(1), row, self.glyphs.pick("└", "+"), border);
+        for column in x..x.saturating_add(width) {
+            self.put(column, row, self.glyphs.pick("─", "-"), border);
+        }
+        let places: Vec<_> = label_places(&plan.x, &plan.frame, self.area).collect();
+        for (tick, (start, _)) in plan.x.marks.iter().zip(places) {
+            let Some(cell) = plan.frame.cell([tick.value, plan.frame.y.middle()]) else { continue };
+            self.put(cell.x, row, self.glyphs.pick("┬", "+"), border);
+            self.write(start, row.saturating_add(1), &tick.label, self.theme[Role::Dim]);
+        }
+        // The name stands in the line itself, at its end, and costs no row.
+        let long = heading.width() as u16 + 1;
+        if !heading.is_empty() && long < width {
+            let start = plan.frame.area.right() - long;
+            self.write(start, row, &format!(" {heading}"), self.theme[Role::Text]);
+        }
+    }
+}

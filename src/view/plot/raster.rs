@@ -1,0 +1,292 @@
+//! The raster: dots finer than cells, in layers.
+//!
+//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. Dots of everything
+//! that crosses a cell are united; the cell takes the style of the highest layer and, within it, of the newest dot.
+//! Never here: axes, or what the curves mean.
+
+mod cloud;
+mod hand;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use super::scale::{Frame, Scale};
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::Shade;
+use hand::Hand;
+
+/// More cells than this in a row or column are not drawn; no terminal has them.
+const MOST_CELLS: u16 = 1024;
+
+/// Beyond this many plot lengths a point is as good as infinitely far; nearer ones keep their direction exactly.
+const FAR: f64 = 1e7;
+
+/// What a line is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pen {
+    /// Style of the cells it touches.
+    pub style: Style,
+    /// The higher layer gives a shared cell its style.
+    pub layer: u8,
+    /// Within a layer the greater freshness wins.
+    pub fresh: u8,
+    /// Share of the dots that are drawn, 0 to 1.
+    pub coverage: f64,
+}
+
+impl Pen {
+    /// A full line on a layer.
+    pub fn new(style: Style, layer: u8) -> Self {
+        Self { style, layer, fresh: 0, coverage: 1.0 }
+    }
+
+    /// The same pen leaving out dots: 0.5 looks dotted, 1 is full.
+    #[must_use]
+    pub fn covering(self, coverage: f64) -> Self {
+        Self { coverage, ..self }
+    }
+
+    /// A line in a shade of the theme.
+    pub fn shaded(shade: Shade, layer: u8) -> Self {
+        Self { style: shade.style, layer, fresh: 0, coverage: shade.coverage }
+    }
+
+    fn aged(shade: Shade, layer: u8, fresh: usize) -> Self {
+        Self { fresh: fresh.min(usize::from(u8::MAX)) as u8, ..Self::shaded(shade, layer) }
+    }
+}
+
+/// A sign of one cell for a point of its own: a body, the present state, a fixed point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// `●`, or `@`: the present state, a mass.
+    Disc,
+    /// `○`, or `o`: a second of the kind, a centre.
+    Ring,
+    /// `×`, or `x`: a saddle, an unstable point.
+    Cross,
+    /// `◆`, or `*`: an event.
+    Diamond,
+    /// `■`, or `#`: a fixed body.
+    Square,
+}
+
+impl Marker {
+    /// The character that stands for it.
+    pub fn symbol(self, glyphs: Glyphs) -> char {
+        match self {
+            Self::Disc => glyphs.pick('●', '@'),
+            Self::Ring => glyphs.pick('○', 'o'),
+            Self::Cross => glyphs.pick('×', 'x'),
+            Self::Diamond => glyphs.pick('◆', '*'),
+            Self::Square => glyphs.pick('■', '#'),
+        }
+    }
+}
+
+/// One cell: its dots, and who gave it its style.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spot {
+    /// One bit per dot, row by row, the left dot of a row first.
+    dots: u8,
+    /// A character in place of the dots: a marker, or the direction of a line in ASCII.
+    sign: Option<char>,
+    /// Layer and freshness of the style, and whether it is a marker's; the greatest wins.
+    rank: (u8, bool, u8),
+    style: Style,
+}
+
+/// Dots over an area of cells.
+#[derive(Clone, Debug)]
+pub struct Raster {
+    area: Rect,
+    glyphs: Glyphs,
+    spots: Vec<Spot>,
+}
+
+impl Raster {
+    /// An empty raster over an area of the screen.
+    pub fn new(area: Rect, glyphs: Glyphs) -> Self {
+        let area =
+            Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
+        let cells = usize::from(area.width) * usize::from(area.height);
+        Self { area, glyphs, spots: vec![Spot::default(); cells] }
+    }
+
+    /// The dots set so far.
+    pub fn count(&self) -> usize {
+        self.spots.iter().map(|spot| spot.dots.count_ones() as usize).sum()
+    }
+
+    /// Whether a dot is set; `[0, 0]` is the upper left one.
+    pub fn is_set(&self, [x, y]: [i32; 2]) -> bool {
+        self.place([x, y]).is_some_and(|(cell, bit)| self.spots[cell].dots & bit != 0)
+    }
+
+    /// Dots across and down.
+    pub fn size(&self) -> [i32; 2] {
+        let (wide, high) = self.glyphs.dots();
+        [
+            i32::from(self.area.width) * i32::from(wide),
+            i32::from(self.area.height) * i32::from(high),
+        ]
+    }
+
+    /// Sets one dot by its place; outside the raster nothing happens.
+    pub fn dot(&mut self, dot: [i32; 2], pen: &Pen) {
+        self.ink(dot, pen, None);
+    }
+
+    /// A straight line between two points of the frame, clipped.
+    pub fn line(&mut self, frame: &Frame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
+        self.polyline(frame, [a, b], pen);
+    }
+
+    /// A line through points. It is broken where a point has no place (NaN), and where it wraps round an axis.
+    pub fn polyline(
+        &mut self,
+        frame: &Frame,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        pen: &Pen,
+    ) {
+        let mut hand = Hand::new(self, frame);
+        for point in points {
+            hand.to(point, pen);
+        }
+        hand.rest();
+    }
+
+    /// A fading trail, oldest point first: the points are shared out among the steps of a ramp.
+    pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
+        if ramp.is_empty() {
+            return;
+        }
+        let mut hand = Hand::new(self, frame);
+        for (index, point) in points.iter().enumerate() {
+            let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
+            hand.fade(age, ramp.len());
+            hand.to(*point, &Pen::aged(ramp[age], layer, age));
+        }
+        hand.rest();
+    }
+
+    /// Single dots.
+    pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
+        let size = self.size();
+        for point in points {
+            let place = spot_of(frame, point, size);
+            if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
+                self.dot(std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1)), pen);
+            }
+        }
+    }
+
+    /// A circle about a point of the frame, its radius in the units of the axes.
+    pub fn circle(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
+        let sides = 128;
+        let corner = |side: i32| {
+            let (sin, cos) = (f64::from(side) * std::f64::consts::TAU / f64::from(sides)).sin_cos();
+            [x + radius * cos, y + radius * sin]
+        };
+        self.polyline(frame, (0..=sides).map(corner), pen);
+    }
+
+    /// A marker in the cell under a point, above the dots of its own layer and of all below.
+    pub fn marker(&mut self, frame: &Frame, point: [f64; 2], marker: Marker, pen: &Pen) {
+        let Some(cell) = frame.cell(point) else { return };
+        let sign = marker.symbol(self.glyphs);
+        let (column, row) = (cell.x.wrapping_sub(self.area.x), cell.y.wrapping_sub(self.area.y));
+        if column >= self.area.width || row >= self.area.height {
+            return;
+        }
+        let spot =
+            &mut self.spots[usize::from(row) * usize::from(self.area.width) + usize::from(column)];
+        let rank = (pen.layer, true, pen.fresh);
+        if rank >= spot.rank {
+            *spot = Spot { sign: Some(sign), rank, style: pen.style, ..*spot };
+        }
+    }
+
+    /// Puts the dots on the screen. Cells without any are left as they were, and so is the background.
+    pub fn draw(&self, buffer: &mut Buffer) {
+        let width = usize::from(self.area.width);
+        for (index, spot) in self.spots.iter().enumerate() {
+            let symbol = match (spot.sign, self.glyphs) {
+                (Some(sign), _) => sign,
+                (None, _) if spot.dots == 0 => continue,
+                (None, Glyphs::Braille) => braille(spot.dots),
+                (None, Glyphs::HalfBlock) => half_block(spot.dots),
+                (None, Glyphs::Ascii) => '.',
+            };
+            let x = u32::from(self.area.x) + (index % width) as u32;
+            let y = u32::from(self.area.y) + (index / width) as u32;
+            let (Ok(x), Ok(y)) = (u16::try_from(x), u16::try_from(y)) else { continue };
+            if let Some(cell) = buffer.cell_mut((x, y)) {
+                // The old modifiers go with the old character.
+                let background = cell.bg;
+                cell.reset();
+                cell.set_char(symbol).set_bg(background).set_style(spot.style);
+            }
+        }
+    }
+
+    fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
+        if pen.coverage < 1.0 && noise(dot) >= pen.coverage {
+            return;
+        }
+        let Some((cell, bit)) = self.place(dot) else { return };
+        let spot = &mut self.spots[cell];
+        spot.dots |= bit;
+        let rank = (pen.layer, false, pen.fresh);
+        if rank >= spot.rank {
+            spot.rank = rank;
+            spot.style = pen.style;
+            spot.sign = sign;
+        }
+    }
+
+    /// The cell and the bit of a dot.
+    fn place(&self, [x, y]: [i32; 2]) -> Option<(usize, u8)> {
+        let [wide, high] = self.size();
+        if !(0..wide).contains(&x) || !(0..high).contains(&y) {
+            return None;
+        }
+        let (across, down) = self.glyphs.dots();
+        let (across, down) = (usize::from(across), usize::from(down));
+        let (x, y) = (x as usize, y as usize);
+        let cell = y / down * usize::from(self.area.width) + x / across;
+        Some((cell, 1 << (y % down * across + x % across)))
+    }
+}
+
+/// The place of a point in dots, y counting downwards; NaN where a coordinate is not finite.
+fn spot_of(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
+    let fraction = |scale: &Scale, value: f64| {
+        if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
+    };
+    let (right, up) = (fraction(&frame.x, x), fraction(&frame.y, y));
+    [right * f64::from(wide), (1.0 - up) * f64::from(high)]
+}
+
+/// A value in 0..1 fixed to a dot, spread evenly along every direction (M. Roberts' R2 sequence, 2018), so that
+/// thinned lines neither flicker nor vanish.
+fn noise([x, y]: [i32; 2]) -> f64 {
+    (f64::from(x) * 0.754_877_666_246_692_7 + f64::from(y) * 0.569_840_290_998_053_2)
+        .rem_euclid(1.0)
+}
+
+/// Dots row by row to the order of Unicode's braille block.
+fn braille(dots: u8) -> char {
+    const BITS: [u8; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
+    let pattern: u8 = (0..8).filter(|i| dots & (1 << i) != 0).map(|i| BITS[i]).sum();
+    char::from_u32(0x2800 + u32::from(pattern)).unwrap_or('⣿')
+}
+
+fn half_block(dots: u8) -> char {
+    match dots & 3 {
+        1 => '▀',
+        2 => '▄',
+        _ => '█',
+    }
+}

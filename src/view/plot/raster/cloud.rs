@@ -1,0 +1,56 @@
+//! Clouds: many points at once, shaded by how many fall into each cell.
+//!
+//! In: points in data coordinates and a ramp. Out: dots where the points are, styled by density. Never here: a single
+//! point's history.
+
+use super::{Pen, Raster, spot_of};
+use crate::view::glyphs::Glyphs;
+use crate::view::plot::scale::Frame;
+use crate::view::theme::Shade;
+
+/// ASCII characters from sparse to dense.
+const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
+
+impl Raster {
+    /// Points shaded by density: the step of the ramp grows with the logarithm of the count in a cell, the fullest
+    /// cell taking the last step.
+    pub fn cloud(
+        &mut self,
+        frame: &Frame,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        ramp: &[Shade],
+        layer: u8,
+    ) {
+        let size = self.size();
+        let mut counts = vec![(0_u32, 0_u8); self.spots.len()];
+        for point in points {
+            let place = spot_of(frame, point, size);
+            if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
+                let dot = std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1));
+                if let Some((cell, bit)) = self.place(dot) {
+                    counts[cell].0 = counts[cell].0.saturating_add(1);
+                    counts[cell].1 |= bit;
+                }
+            }
+        }
+        let fullest = counts.iter().map(|(count, _)| *count).max().unwrap_or(0);
+        if fullest == 0 || ramp.is_empty() {
+            return;
+        }
+        for (spot, (count, dots)) in self.spots.iter_mut().zip(counts) {
+            if count == 0 {
+                continue;
+            }
+            let level = f64::from(count).ln_1p() / f64::from(fullest).ln_1p();
+            let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
+            let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
+            spot.dots |= dots;
+            let rank = (pen.layer, false, pen.fresh);
+            if rank >= spot.rank {
+                spot.rank = rank;
+                spot.style = pen.style;
+                spot.sign = (self.glyphs == Glyphs::Ascii).then(|| DENSITY[step(DENSITY.len())]);
+            }
+        }
+    }
+}

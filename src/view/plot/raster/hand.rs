@@ -1,0 +1,122 @@
+//! The hand that draws a line: it breaks at gaps, wraps, clips and keeps the line thin.
+//!
+//! In: data points one after the other, each with its pen. Out: inked dots of a raster. Never here: what a dot looks
+//! like.
+
+use super::{Pen, Raster, spot_of};
+use crate::view::glyphs::Glyphs;
+use crate::view::plot::scale::Frame;
+use crate::view::plot::stroke::{Tip, clip};
+
+/// Draws through points in data coordinates; [`Hand::rest`] ends the line.
+pub(super) struct Hand<'a> {
+    raster: &'a mut Raster,
+    frame: Frame,
+    size: [i32; 2],
+    tip: Tip<(Pen, Option<char>)>,
+    at: Option<[f64; 2]>,
+    /// The first point of a line, until there is a second.
+    lone: Option<([f64; 2], Pen)>,
+    /// Age and number of ages of a trail, which in ASCII choose the character.
+    fading: Option<(usize, usize)>,
+}
+
+impl<'a> Hand<'a> {
+    /// A hand that has not begun.
+    pub(super) fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
+        let size = raster.size();
+        let tip = Tip::lifted();
+        Self { raster, frame: *frame, size, tip, at: None, lone: None, fading: None }
+    }
+
+    /// From here on the line is `age` of `ages` steps old.
+    pub(super) fn fade(&mut self, age: usize, ages: usize) {
+        self.fading = Some((age, ages));
+    }
+
+    /// Draws on to a point.
+    pub(super) fn to(&mut self, point: [f64; 2], pen: &Pen) {
+        let next = spot_of(&self.frame, point, self.size);
+        if !next.iter().all(|v| v.is_finite()) {
+            return self.rest();
+        }
+        let Some(from) = self.at.replace(next) else {
+            self.lone = Some((next, *pen));
+            return;
+        };
+        self.lone = None;
+        let shift = self.wrapped(from, next);
+        if shift == [0.0, 0.0] {
+            self.stroke(from, next, pen);
+        } else {
+            // Out over one edge, in over the other.
+            self.stroke(from, [next[0] - shift[0], next[1] - shift[1]], pen);
+            self.lift();
+            self.stroke([from[0] + shift[0], from[1] + shift[1]], next, pen);
+        }
+    }
+
+    /// Ends the line; a line of one point is a dot.
+    pub(super) fn rest(&mut self) {
+        if let Some((point, pen)) = self.lone.take() {
+            self.stroke(point, point, &pen);
+        }
+        self.lift();
+        self.at = None;
+    }
+
+    /// By how much `next` was moved when it wrapped, in dots; more than half a turn at once is taken for a wrap.
+    fn wrapped(&self, from: [f64; 2], next: [f64; 2]) -> [f64; 2] {
+        let turn = |axis: usize| {
+            let scale = [&self.frame.x, &self.frame.y][axis];
+            let Some(turn) = scale.turn_length().map(|t| t * f64::from(self.size[axis])) else {
+                return 0.0;
+            };
+            let jump = next[axis] - from[axis];
+            if jump.abs() > turn / 2.0 { turn.copysign(jump) } else { 0.0 }
+        };
+        [turn(0), turn(1)]
+    }
+
+    fn stroke(&mut self, from: [f64; 2], next: [f64; 2], pen: &Pen) {
+        let last = self.size.map(|n| n - 1);
+        let inside = clip(from, next, self.size.map(f64::from));
+        let Some((a, b)) = inside.filter(|_| !last.contains(&-1)) else { return self.lift() };
+        let sign = (self.raster.glyphs == Glyphs::Ascii).then(|| match self.fading {
+            Some((age, ages)) => faded(age, ages),
+            None => direction(b[0] - a[0], b[1] - a[1]),
+        });
+        let raster = &mut *self.raster;
+        self.tip.follow((a, b), last, (*pen, sign), |dot, (pen, sign)| raster.ink(dot, &pen, sign));
+        if b != next {
+            self.lift();
+        }
+    }
+
+    fn lift(&mut self) {
+        let raster = &mut *self.raster;
+        self.tip.lift(|dot, (pen, sign)| raster.ink(dot, &pen, sign));
+    }
+}
+
+/// The character of a trail's age in ASCII.
+fn faded(age: usize, ages: usize) -> char {
+    const AGES: [char; 4] = ['.', ':', '+', 'o'];
+    AGES[(age * AGES.len() / ages.max(1)).min(AGES.len() - 1)]
+}
+
+/// The character along a direction given in cells, y downwards.
+fn direction(dx: f64, dy: f64) -> char {
+    let (across, down) = (dx.abs(), dy.abs());
+    if across == 0.0 && down == 0.0 {
+        '.'
+    } else if down < 0.4 * across {
+        '-'
+    } else if across < 0.4 * down {
+        '|'
+    } else if (dx > 0.0) == (dy > 0.0) {
+        '\\'
+    } else {
+        '/'
+    }
+}

@@ -1,0 +1,226 @@
+//! Scales and frames: from data to places on the screen and back.
+//!
+//! In: values in the units of an axis. Out: fractions of the axis, dots and cells. Never here: what is drawn there.
+
+use ratatui::layout::{Position, Rect};
+
+use crate::view::glyphs::Glyphs;
+
+/// A cell is about twice as high as it is wide.
+pub const CELL_ASPECT: f64 = 2.0;
+
+/// How an axis is divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Evenly.
+    Linear,
+    /// Evenly, with ticks at fractions of π.
+    Angle,
+    /// By decades; only what is positive has a place.
+    Log,
+}
+
+/// One axis: the range of values it shows, from left to right or from bottom to top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// Value at the left or lower end.
+    pub lo: f64,
+    /// Value at the right or upper end, above `lo`.
+    pub hi: f64,
+    /// How the axis is divided.
+    pub kind: Kind,
+    /// Period after which values repeat; they are then shown wrapped about the middle of the range.
+    pub period: Option<f64>,
+}
+
+impl Scale {
+    /// A linear scale. An empty, reversed or non-finite range becomes a usable one.
+    pub fn linear(lo: f64, hi: f64) -> Self {
+        let (lo, hi) = usable(lo, hi);
+        Self { lo, hi, kind: Kind::Linear, period: None }
+    }
+
+    /// A logarithmic scale; a range that is not positive becomes the decades just below its upper end.
+    pub fn log(lo: f64, hi: f64) -> Self {
+        let hi = if hi.is_finite() && hi > f64::MIN_POSITIVE { hi } else { 1.0 };
+        let lo = if lo.is_finite() && lo > 0.0 && lo < hi {
+            lo
+        } else {
+            (hi * 1e-3).max(f64::MIN_POSITIVE)
+        };
+        let lo = if hi.log10() - lo.log10() > 1e-9 { lo } else { hi * 0.5 };
+        Self { lo, hi, kind: Kind::Log, period: None }
+    }
+
+    /// One turn of an angle in radians, −π to π, wrapped.
+    pub fn turn() -> Self {
+        Self::linear(-std::f64::consts::PI, std::f64::consts::PI)
+            .angle()
+            .wrapped(std::f64::consts::TAU)
+    }
+
+    /// The same range with ticks at fractions of π.
+    #[must_use]
+    pub fn angle(self) -> Self {
+        Self { kind: Kind::Angle, ..self }
+    }
+
+    /// The same range for values that repeat after `period`; a period that is not positive is ignored.
+    #[must_use]
+    pub fn wrapped(self, period: f64) -> Self {
+        Self { period: Some(period).filter(|p| p.is_finite() && *p > 0.0), ..self }
+    }
+
+    /// The middle of the range.
+    pub fn middle(&self) -> f64 {
+        self.value(0.5)
+    }
+
+    /// The range magnified by `factor` about the value at `anchor` (a fraction of the axis).
+    #[must_use]
+    pub fn zoomed(&self, factor: f64, anchor: f64) -> Self {
+        let factor = if factor.is_finite() && factor > 0.0 { factor } else { 1.0 };
+        let end = |fraction: f64| self.value(anchor + (fraction - anchor) / factor);
+        self.with_range(end(0.0), end(1.0))
+    }
+
+    /// The range moved by a fraction of its length.
+    #[must_use]
+    pub fn panned(&self, fraction: f64) -> Self {
+        self.with_range(self.value(fraction), self.value(1.0 + fraction))
+    }
+
+    /// The same axis over another range.
+    #[must_use]
+    pub fn with_range(&self, lo: f64, hi: f64) -> Self {
+        let Self { lo, hi, .. } =
+            if self.kind == Kind::Log { Self::log(lo, hi) } else { Self::linear(lo, hi) };
+        Self { lo, hi, ..*self }
+    }
+
+    /// The place of a value on the axis: 0 at `lo`, 1 at `hi`, not clamped; NaN if it has none. Wraps if periodic.
+    pub fn fraction(&self, value: f64) -> f64 {
+        let value = self.wrap(value);
+        match self.kind {
+            // Halved, because the length of a huge range overflows.
+            Kind::Linear | Kind::Angle => {
+                (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
+            }
+            Kind::Log if value > 0.0 => (value.ln() - self.lo.ln()) / (self.hi.ln() - self.lo.ln()),
+            Kind::Log => f64::NAN,
+        }
+    }
+
+    /// The value at a place on the axis; the inverse of [`Self::fraction`].
+    pub fn value(&self, fraction: f64) -> f64 {
+        match self.kind {
+            Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
+            Kind::Log => (self.lo.ln() * (1.0 - fraction) + self.hi.ln() * fraction).exp(),
+        }
+    }
+
+    /// The fraction of the axis that one period takes, if it is periodic.
+    pub(super) fn turn_length(&self) -> Option<f64> {
+        let length = self.period? / (self.hi - self.lo);
+        (self.kind != Kind::Log && length.is_finite() && length > 0.0).then_some(length)
+    }
+
+    fn wrap(&self, value: f64) -> f64 {
+        match self.period {
+            Some(period) if self.kind != Kind::Log => {
+                // The upper end belongs to the window, so that a range of one period keeps both its ends.
+                let turns = (value - self.middle()) / period;
+                let turns = if turns.abs() <= 0.5 { 0.0 } else { turns.round() };
+                value - period * turns
+            }
+            _ => value,
+        }
+    }
+}
+
+/// A usable range from any two numbers.
+fn usable(lo: f64, hi: f64) -> (f64, f64) {
+    let (lo, hi) = match (lo.is_finite(), hi.is_finite()) {
+        (true, true) => (lo.min(hi), lo.max(hi)),
+        (true, false) => (lo, lo),
+        (false, true) => (hi, hi),
+        (false, false) => (0.0, 0.0),
+    };
+    // Narrower than the numbers can tell apart is as good as empty.
+    let size = lo.abs().max(hi.abs());
+    if hi - lo > size * 1e-12 && hi - lo > f64::MIN_POSITIVE {
+        return (lo, hi);
+    }
+    let half = if size < 1e-300 { 1.0 } else { size * 0.5 };
+    ((lo - half).max(f64::MIN), (hi + half).min(f64::MAX))
+}
+
+/// Two scales over a rectangle of cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The horizontal axis.
+    pub x: Scale,
+    /// The vertical axis, growing upwards.
+    pub y: Scale,
+    /// The cells they cover.
+    pub area: Rect,
+}
+
+impl Frame {
+    /// The two scales over an area.
+    pub fn new(x: Scale, y: Scale, area: Rect) -> Self {
+        Self { x, y, area }
+    }
+
+    /// The same with one range widened about its middle until a unit is as long on both axes. Logarithmic axes have no
+    /// common unit and stay as they are.
+    pub fn equal(x: Scale, y: Scale, area: Rect) -> Self {
+        if x.kind == Kind::Log || y.kind == Kind::Log {
+            return Self::new(x, y, area);
+        }
+        let wide = f64::from(area.width.max(1));
+        let high = f64::from(area.height.max(1)) * CELL_ASPECT;
+        let unit = ((x.hi - x.lo) / wide).max((y.hi - y.lo) / high);
+        let widened = |scale: &Scale, length: f64| {
+            let half = unit * length / 2.0;
+            scale.with_range(scale.middle() - half, scale.middle() + half)
+        };
+        Self { x: widened(&x, wide), y: widened(&y, high), area }
+    }
+
+    /// The cell under a point, `None` outside the area.
+    pub fn cell(&self, [x, y]: [f64; 2]) -> Option<Position> {
+        let column = index(self.x.fraction(x), self.area.width)?;
+        let row = index(1.0 - self.y.fraction(y), self.area.height)?;
+        Some(Position::new(self.area.x.saturating_add(column), self.area.y.saturating_add(row)))
+    }
+
+    /// The data coordinates of the middle of a cell, for the cursor's readout.
+    pub fn at(&self, cell: Position) -> [f64; 2] {
+        let middle = |cell: u16, start: u16, length: u16| {
+            (f64::from(cell) - f64::from(start) + 0.5) / f64::from(length.max(1))
+        };
+        [
+            self.x.value(middle(cell.x, self.area.x, self.area.width)),
+            self.y.value(1.0 - middle(cell.y, self.area.y, self.area.height)),
+        ]
+    }
+
+    /// The number of dots across and down.
+    pub fn dots(&self, glyphs: Glyphs) -> (u32, u32) {
+        let (wide, high) = glyphs.dots();
+        (
+            u32::from(self.area.width) * u32::from(wide),
+            u32::from(self.area.height) * u32::from(high),
+        )
+    }
+}
+
+/// Which of `count` equal parts a fraction falls in; the end 1 belongs to the last.
+fn index(fraction: f64, count: u16) -> Option<u16> {
+    if !(0.0..=1.0).contains(&fraction) || count == 0 {
+        return None;
+    }
+    // On the border of two parts rounding must not decide, or even ticks stand unevenly.
+    Some(((fraction * f64::from(count) + 1e-9) as u16).min(count - 1))
+}

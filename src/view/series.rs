@@ -1,0 +1,79 @@
+//! A time series: quantities against time, each in its colour, named in the frame.
+//!
+//! In: channels and the trail. Out: cells. Never here: how the trail is recorded.
+
+use ratatui::layout::Rect;
+
+use super::canvas::{Canvas, Span};
+use super::cursor;
+use super::number::readable;
+use super::plot::{Axes, Axis, Marker, Pen, Raster, Scale};
+use super::quantity::{Quantities, through};
+use super::theme::Role;
+use crate::app::Lens;
+
+/// For how many seconds of the wall clock, at the file's own speed, the window reaches back.
+const SECONDS: f64 = 20.0;
+
+/// The heading: each quantity in its colour with its present value.
+pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, channels: &[usize]) -> Vec<Span> {
+    let mut spans = vec![canvas.span(Role::Title, "Time")];
+    for (index, channel) in channels.iter().enumerate() {
+        let value = readable(q.value(*channel), 4, canvas.look.glyphs);
+        let mark = canvas.look.glyphs.pick("━", "-");
+        spans.push((format!("  {mark} "), canvas.look.theme.curve(index)));
+        spans.push(canvas.span(Role::Dim, q.name(*channel)));
+        spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+    }
+    spans
+}
+
+/// The picture inside the frame.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    q: &Quantities<'_>,
+    (channels, lens): (&[usize], Lens),
+) {
+    let look = canvas.look;
+    let time = Axis::new("t", "", window(q, lens));
+    let axes = Axes::new(time, common_axis(q, channels, lens));
+    let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
+    let mut raster = Raster::new(frame.area, look.glyphs);
+    for (index, channel) in channels.iter().enumerate().rev() {
+        let layer = (channels.len() - index).min(200) as u8;
+        let now = [q.snapshot.time, q.value(*channel)];
+        let rows = q.snapshot.trail.rows();
+        let points = rows.filter_map(|row| Some([*row.first()?, *row.get(1 + channel)?]));
+        let shown = points.filter(|point| point[0] >= frame.x.lo - (frame.x.hi - frame.x.lo));
+        let pen = Pen::shaded(look.theme.series(index), layer);
+        raster.polyline(&frame, shown.chain([now]), &pen);
+        raster.marker(&frame, now, Marker::Disc, &Pen::new(look.theme.curve(index), layer));
+    }
+    raster.draw(canvas.buffer);
+    cursor::draw(canvas, area, &frame, lens);
+}
+
+/// The stretch of time shown: it stands still until it is full, then moves along.
+fn window(q: &Quantities<'_>, lens: Lens) -> Scale {
+    let speed = q.lab.loaded.model.run.speed;
+    let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
+    let start = q.lab.loaded.model.run.start;
+    let end = q.snapshot.time.max(start + span);
+    let span = span / lens.zoom[0];
+    let shift = lens.pan[0] * span;
+    Scale::linear(end - span + shift, end + shift)
+}
+
+/// One axis for all quantities: their names stand in the frame, the unit here if they share it.
+fn common_axis(q: &Quantities<'_>, channels: &[usize], lens: Lens) -> Axis {
+    if let [only] = channels {
+        return q.axis(*only, None, (lens, 1));
+    }
+    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Lens::WHOLE, 1))).collect();
+    let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
+    let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
+    let unit = axes.first().map_or("", |axis| &axis.unit);
+    let shared = axes.iter().all(|axis| axis.unit == unit);
+    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (lens, 1)))
+}

@@ -1,0 +1,189 @@
+//! The motion in space: the file's shapes, seen through the camera, with the tracks they leave.
+//!
+//! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
+
+mod scene;
+
+use ratatui::layout::Rect;
+
+use super::canvas::{Canvas, Span};
+use super::plot::{Camera, Frame, Marker, Pen, Raster};
+use super::quantity::Quantities;
+use super::theme::Role;
+use crate::app::Eye;
+use crate::model::{Point, Shape};
+use scene::Scene;
+
+/// The layers of the picture, the lowest first.
+const GROUND: u8 = 0;
+const TRACK: u8 = 1;
+const SOLID: u8 = 2;
+const BODY: u8 = 3;
+
+/// The heading.
+pub(super) fn title(canvas: &Canvas<'_>, eye: &Eye) -> Vec<Span> {
+    let mut spans = vec![canvas.span(Role::Title, "Motion")];
+    if eye.zoom != 1.0 {
+        let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
+        spans.push(canvas.span(Role::Dim, format!("  ×{zoom}")));
+    }
+    spans
+}
+
+/// The picture inside the frame.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &Eye) {
+    if area.is_empty() {
+        return;
+    }
+    let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
+    let scene = Scene::of(q);
+    let frame = camera.frame(&scene.bounds, area);
+    let raster = Raster::new(area, canvas.look.glyphs);
+    let mut artist = Artist { raster, frame, camera, q, tracks: 0, bodies: 0 };
+    for shape in &q.lab.loaded.model.space {
+        artist.shape(shape);
+    }
+    artist.raster.draw(canvas.buffer);
+    if eye.pitch < std::f64::consts::FRAC_PI_2 {
+        compass(canvas, area, &camera);
+    }
+}
+
+/// The directions of the axes, small in the lower left corner.
+fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
+    if area.width < 30 || area.height < 14 {
+        return;
+    }
+    let centre = (f64::from(area.x) + 5.0, f64::from(area.bottom()) - 3.5);
+    for (name, axis) in [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])] {
+        let [right, up, _] = camera.project(axis);
+        let at = ((centre.0 + 4.0 * right).round() as u16, (centre.1 - 2.0 * up).round() as u16);
+        canvas.write(at.into(), 1, name, canvas.style(Role::Dim));
+    }
+    let origin = (centre.0.round() as u16, centre.1.round() as u16);
+    canvas.write(origin.into(), 1, "·", canvas.style(Role::Dim));
+}
+
+/// Draws shape after shape.
+struct Artist<'a> {
+    raster: Raster,
+    frame: Frame,
+    camera: Camera,
+    q: &'a Quantities<'a>,
+    tracks: usize,
+    bodies: usize,
+}
+
+impl Artist<'_> {
+    fn shape(&mut self, shape: &Shape) {
+        let theme = &self.q.look.theme;
+        let solid = Pen::new(theme[Role::Text], SOLID);
+        let ground = Pen::shaded(theme.line(Role::Level), GROUND);
+        match shape {
+            Shape::Line { from, to } => {
+                let (from, to) = (self.q.point(from), self.q.point(to));
+                self.curve(&[from, to], &solid);
+            }
+            Shape::Spring { from, to } => {
+                let (from, to) = (self.q.point(from), self.q.point(to));
+                self.spring(from, to, &solid);
+            }
+            Shape::Circle { centre, radius, normal } => {
+                let (centre, normal) = (self.q.point(centre), self.q.point(normal));
+                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                self.curve(&rim, &solid);
+            }
+            Shape::Mass { at, radius } => {
+                let at = self.q.point(at);
+                let radius = radius.map(|radius| self.q.number(radius));
+                self.mass(at, radius);
+            }
+            Shape::Trace { at } => self.track(at),
+            Shape::Vector { at, components } => {
+                let (foot, along) = (self.q.point(at), self.q.point(components));
+                let pen = Pen::new(theme[Role::Accent], SOLID);
+                self.arrow(foot, along, &pen);
+            }
+            Shape::Path { points } => {
+                let points: Vec<_> = points.iter().map(|point| self.q.point(point)).collect();
+                self.curve(&points, &ground);
+            }
+            Shape::Plane { at, normal, size } => {
+                let (at, normal) = (self.q.point(at), self.q.point(normal));
+                let edge = self.q.number(*size);
+                let corners = scene::square(at, normal, edge);
+                self.curve(&corners, &ground);
+            }
+        }
+    }
+
+    fn flat(&self, point: [f64; 3]) -> [f64; 2] {
+        let [right, up, _] = self.camera.project(point);
+        [right, up]
+    }
+
+    fn curve(&mut self, points: &[[f64; 3]], pen: &Pen) {
+        let flat: Vec<_> = points.iter().map(|point| self.flat(*point)).collect();
+        self.raster.polyline(&self.frame, flat, pen);
+    }
+
+    /// A zigzag of eight turns between two straight ends; it keeps its width while it is stretched.
+    fn spring(&mut self, from: [f64; 3], to: [f64; 3], pen: &Pen) {
+        let (a, b) = (self.flat(from), self.flat(to));
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = along[0].hypot(along[1]);
+        let width =
+            0.025 * (self.frame.x.hi - self.frame.x.lo).min(self.frame.y.hi - self.frame.y.lo);
+        let across = [-along[1] / length * width, along[0] / length * width];
+        let turns = 16;
+        let corner = |i: i32| {
+            let share = 0.1 + 0.8 * (f64::from(i) + 0.5) / f64::from(turns);
+            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            [0, 1].map(|k| a[k] + share * along[k] + side * across[k])
+        };
+        let straight = |share: f64| [0, 1].map(|k| a[k] + share * along[k]);
+        let coil = (0..turns).map(corner);
+        let points = [a, straight(0.1)].into_iter().chain(coil).chain([straight(0.9), b]);
+        self.raster.polyline(&self.frame, points, pen);
+    }
+
+    /// A body: a disc as large as its radius, or one sign where that is smaller than a cell.
+    fn mass(&mut self, at: [f64; 3], radius: Option<f64>) {
+        let style = self.q.look.theme.curve(self.bodies);
+        let pen = Pen::new(style, BODY);
+        let centre = self.flat(at);
+        let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
+        let cells = radius.map_or(0.0, |radius| radius.abs() / cell);
+        if cells.is_finite() && cells > 1.2 {
+            let rings = (cells * 3.0).min(120.0) as u32;
+            for ring in 0..=rings {
+                let share = f64::from(ring) / f64::from(rings);
+                self.raster.circle(&self.frame, centre, share * cells * cell, &pen);
+            }
+        } else {
+            self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
+        }
+        self.bodies += 1;
+    }
+
+    fn track(&mut self, point: &Point) {
+        let sources = point.map(|expression| self.q.place(expression));
+        let rows = self.q.snapshot.trail.rows().filter_map(|row| row.get(1..));
+        let past = rows.map(|row| self.flat(sources.map(|source| source.read(row))));
+        let mut points: Vec<[f64; 2]> = past.collect();
+        points.push(self.flat(self.q.point(point)));
+        let ramp = self.q.look.theme.trail(self.tracks);
+        self.raster.trail(&self.frame, &points, ramp, TRACK);
+        self.tracks += 1;
+    }
+
+    /// A shaft with a head of two strokes, an eighth of its length.
+    fn arrow(&mut self, foot: [f64; 3], along: [f64; 3], pen: &Pen) {
+        let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
+        let (a, b) = (self.flat(foot), self.flat(tip));
+        let back = [(a[0] - b[0]) / 8.0, (a[1] - b[1]) / 8.0];
+        let wing = |side: f64| [b[0] + back[0] - side * back[1], b[1] + back[1] + side * back[0]];
+        self.raster.polyline(&self.frame, [a, b], pen);
+        self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], pen);
+    }
+}

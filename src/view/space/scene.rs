@@ -1,0 +1,193 @@
+//! The scene: where the points of the shapes are, and the box that holds all they may reach.
+//!
+//! In: shapes and the bounds of their channels. Out: points, a box that changes seldom. Never here: the camera.
+
+use std::f64::consts::TAU;
+
+use crate::model::{Point, Shape};
+use crate::view::plot::Bounds;
+use crate::view::quantity::{Quantities, Source};
+
+/// What the camera has to show.
+pub(super) struct Scene {
+    /// The box that holds it.
+    pub(super) bounds: Bounds,
+}
+
+/// The two ends of a box.
+type Span3 = [[f64; 3]; 2];
+
+impl Scene {
+    /// The scene of a lab.
+    ///
+    /// A rod (a line that keeps its length) may swing round its one end: the box holds all its circle from the start, and the
+    /// picture does not shrink while the first swing goes on.
+    pub(super) fn of(q: &Quantities<'_>) -> Self {
+        let mut scene = Self { bounds: Bounds::EMPTY };
+        let mut reached: Vec<(Point, Span3)> = Vec::new();
+        for (shape, &rod) in q.lab.loaded.model.space.iter().zip(&q.lab.rods) {
+            scene.hold(q, shape, rod, &mut reached);
+        }
+        // Rounded outwards, so that the picture stays still while the box grows a little.
+        if let Some([low, high]) = scene.bounds.ends() {
+            let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+            let step = round_step(longest / 10.0);
+            let out = |v: f64, round: fn(f64) -> f64| round(v / step) * step;
+            let flat = |k: usize| low[k] == high[k];
+            let corner = |end: [f64; 3], round: fn(f64) -> f64| {
+                [0, 1, 2].map(|k| if flat(k) { end[k] } else { out(end[k], round) })
+            };
+            let ends = [corner(low, f64::floor), corner(high, f64::ceil)];
+            if ends.as_flattened().iter().all(|v| v.is_finite()) {
+                scene.bounds = Bounds::around(ends);
+            }
+        }
+        scene
+    }
+
+    fn hold(
+        &mut self,
+        q: &Quantities<'_>,
+        shape: &Shape,
+        rod: bool,
+        reached: &mut Vec<(Point, Span3)>,
+    ) {
+        match shape {
+            Shape::Spring { from, to } => {
+                self.add(reach(q, from, reached));
+                self.add(extent(q, to));
+            }
+            Shape::Line { from, to } => {
+                let start = reach(q, from, reached);
+                let end = if rod { swing(q, from, to, start) } else { reach(q, to, reached) };
+                self.add(start);
+                self.add(end);
+                reached.push((*to, end));
+            }
+            Shape::Mass { at, radius } => {
+                let radius = radius.map_or(0.0, |radius| q.number(radius));
+                self.add(grown(reach(q, at, reached), radius, is_flat(q, at)));
+            }
+            Shape::Trace { at } => self.add(reach(q, at, reached)),
+            Shape::Circle { centre, radius, normal } => {
+                let middle = q.point(centre);
+                let normal = q.point(normal);
+                for point in circle(middle, q.number(*radius), normal) {
+                    self.bounds = self.bounds.with(point);
+                }
+            }
+            Shape::Vector { at, components } => {
+                let foot = q.point(at);
+                let along = q.point(components);
+                self.bounds = self.bounds.with(foot).with([0, 1, 2].map(|k| foot[k] + along[k]));
+            }
+            Shape::Path { points } => {
+                for point in points {
+                    self.bounds = self.bounds.with(q.point(point));
+                }
+            }
+            Shape::Plane { at, normal, size } => {
+                let at = q.point(at);
+                let normal = q.point(normal);
+                for corner in square(at, normal, q.number(*size)) {
+                    self.bounds = self.bounds.with(corner);
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, [low, high]: Span3) {
+        self.bounds = self.bounds.with(low).with(high);
+    }
+}
+
+/// 1, 2 or 5 times a power of ten, not above a length.
+fn round_step(length: f64) -> f64 {
+    let power = 10_f64.powf(length.log10().floor());
+    let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);
+    digit.unwrap_or(1.0) * power
+}
+
+/// What the far end of a rod may reach: where it has been and, in a plane, all round the near end. In space the motion
+/// seldom fills the sphere.
+fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
+    let own = extent(q, to);
+    let (a, b) = (q.point(from), q.point(to));
+    let moves = own[0] != own[1];
+    let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+    let plane = is_flat(q, from) && is_flat(q, to);
+    if !moves || !plane || !length.is_finite() {
+        return own;
+    }
+    let round = grown(start, length, plane);
+    [0, 1].map(|end| {
+        [0, 1, 2]
+            .map(|k| if end == 0 { own[0][k].min(round[0][k]) } else { own[1][k].max(round[1][k]) })
+    })
+}
+
+/// What a point may reach: what is known of it as the end of a rod, or where it has been.
+fn reach(q: &Quantities<'_>, point: &Point, reached: &[(Point, Span3)]) -> Span3 {
+    let known = reached.iter().find(|(other, _)| other == point);
+    known.map_or_else(|| extent(q, point), |(_, span)| *span)
+}
+
+/// Where a point has been.
+fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
+    let ends = point.map(|expression| match q.place(expression) {
+        Source::Number(number) => (number, number),
+        Source::Channel(channel) => q.bounds(channel),
+    });
+    [ends.map(|end| end.0), ends.map(|end| end.1)]
+}
+
+fn is_flat(q: &Quantities<'_>, point: &Point) -> bool {
+    matches!(q.place(point[2]), Source::Number(z) if z == 0.0)
+}
+
+fn grown([low, high]: Span3, by: f64, flat: bool) -> Span3 {
+    let by = [by, by, if flat { 0.0 } else { by }];
+    [[0, 1, 2].map(|k| low[k] - by[k]), [0, 1, 2].map(|k| high[k] + by[k])]
+}
+
+/// The rim of a circle about an axis.
+pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
+    let sides = 96;
+    let [u, v] = across(normal);
+    let point = |side: i32| {
+        let (sin, cos) = (f64::from(side) * TAU / f64::from(sides)).sin_cos();
+        [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
+    };
+    (0..=sides).map(point).collect()
+}
+
+/// The outline of a square with an edge and a normal.
+pub(super) fn square(centre: [f64; 3], normal: [f64; 3], edge: f64) -> Vec<[f64; 3]> {
+    let [u, v] = across(normal);
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    let corner =
+        |(a, b): (f64, f64)| [0, 1, 2].map(|k| centre[k] + edge / 2.0 * (a * u[k] + b * v[k]));
+    corners.into_iter().map(corner).collect()
+}
+
+/// Two unit vectors at right angles to a normal and to each other; without a normal those of the plane of x and y.
+fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
+    let length = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
+    if !length.is_finite() || length == 0.0 {
+        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    }
+    let n = normal.map(|v| v / length);
+    // The axis farthest from the normal gives the better start.
+    let helper = if n[2].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let u = unit(cross(helper, n));
+    [u, cross(n, u)]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    v.map(|v| v / length)
+}

@@ -1,0 +1,100 @@
+//! Strips of one row: a history of values, and a value within its range.
+//!
+//! In: any numbers. Out: cells. Never here: a panic on NaN or on a value outside its range, as ratatui's gauges have.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::widgets::Widget;
+
+use super::glyphs::Glyphs;
+use super::plot::Scale;
+
+/// A history, the newest value at the right end; each column shows the greatest value of its share.
+#[derive(Clone, Copy, Debug)]
+pub struct History<'a> {
+    /// Oldest first. NaN leaves a gap.
+    pub values: &'a [f64],
+    /// Bottom and top.
+    pub scale: Scale,
+    /// Style of the columns.
+    pub style: Style,
+    /// What they are made of.
+    pub glyphs: Glyphs,
+}
+
+impl Widget for History<'_> {
+    fn render(self, area: Rect, buffer: &mut Buffer) {
+        let area = area.intersection(buffer.area);
+        if area.is_empty() || self.values.is_empty() {
+            return;
+        }
+        let steps: &[&str] = self.glyphs.pick(
+            &["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"],
+            &[".", ":", "-", "=", "+", "*", "#", "@"],
+        );
+        let columns = usize::from(area.width).min(self.values.len());
+        let start = area.right() - columns as u16;
+        for column in 0..columns {
+            let share = |column: usize| column * self.values.len() / columns;
+            let values = &self.values[share(column)..share(column + 1)];
+            // `max` passes over NaN.
+            let value = values.iter().copied().fold(f64::NAN, f64::max);
+            if value.is_nan() {
+                continue;
+            }
+            let fraction = self.scale.fraction(value);
+            // A value with no place on a logarithmic scale is below all of it.
+            let fraction = if fraction.is_nan() { 0.0 } else { fraction.clamp(0.0, 1.0) };
+            let step = ((fraction * steps.len() as f64) as usize).min(steps.len() - 1);
+            let place = (start + column as u16, area.bottom() - 1);
+            if let Some(cell) = buffer.cell_mut(place) {
+                cell.set_symbol(steps[step]).set_style(self.style);
+            }
+        }
+    }
+}
+
+/// A value within its range: `━━━━●────`; beyond an end it becomes an arrow there, without a value there is no knob.
+#[derive(Clone, Copy, Debug)]
+pub struct RangeBar {
+    /// The value.
+    pub value: f64,
+    /// Its range, linear or logarithmic.
+    pub scale: Scale,
+    /// Style of the part up to the value, and of the knob.
+    pub filled: Style,
+    /// Style of the rest.
+    pub rest: Style,
+    /// What it is made of.
+    pub glyphs: Glyphs,
+}
+
+impl Widget for RangeBar {
+    fn render(self, area: Rect, buffer: &mut Buffer) {
+        let area = area.intersection(buffer.area);
+        if area.is_empty() {
+            return;
+        }
+        let fraction = self.scale.fraction(self.value);
+        let last = f64::from(area.width - 1);
+        let knob = (!fraction.is_nan()).then(|| (fraction.clamp(0.0, 1.0) * last).round() as u16);
+        // A knob at the very end is no sign of trouble if rounding put it there.
+        let slack = 1e-9;
+        let sign = match fraction {
+            f if f < -slack => self.glyphs.pick("◂", "<"),
+            f if f > 1.0 + slack => self.glyphs.pick("▸", ">"),
+            _ => self.glyphs.pick("●", "o"),
+        };
+        for column in 0..area.width {
+            let (symbol, style) = match knob {
+                Some(knob) if column == knob => (sign, self.filled),
+                Some(knob) if column < knob => (self.glyphs.pick("━", "="), self.filled),
+                _ => (self.glyphs.pick("─", "-"), self.rest),
+            };
+            if let Some(cell) = buffer.cell_mut((area.x + column, area.y)) {
+                cell.set_symbol(symbol).set_style(style);
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Themes: what each part of the screen means, resolved to the styles a terminal can show.
+//!
+//! In: a palette of [`PALETTES`] and a [`ColourDepth`]. Out: a [`Theme`], which is asked by [`Role`].
+//! Never here: where a role is used. Without colour the roles differ by bold, dim, reverse and underline alone.
+
+mod palettes;
+mod ramps;
+
+use std::ops::Index;
+
+use ratatui::style::{Color, Modifier, Style};
+
+use super::colour::{ColourDepth, Rgb};
+use ramps::Ramps;
+
+pub use palettes::{PALETTES, Palette};
+
+/// What a piece of the screen is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Ordinary text, in the terminal's own colour.
+    Text,
+    /// Text of less weight: units, ticks, hints.
+    Dim,
+    /// What draws the eye: the value that moves, a hint's key.
+    Accent,
+    /// Titles of panes and pages.
+    Title,
+    /// Frames and axes of panes without the focus.
+    Border,
+    /// The frame of the pane with the focus.
+    Focus,
+    /// A verdict: as it should be.
+    Good,
+    /// A verdict: to be watched.
+    Warn,
+    /// A verdict: wrong, and errors.
+    Bad,
+    /// The selected row of a list.
+    Selected,
+    /// The separatrix among the level curves.
+    Separatrix,
+    /// Level curves of H and other constructions behind the motion.
+    Level,
+}
+
+impl Role {
+    /// Every role, in the order in which palettes list them.
+    pub const ALL: [Self; 12] = [
+        Self::Text,
+        Self::Dim,
+        Self::Accent,
+        Self::Title,
+        Self::Border,
+        Self::Focus,
+        Self::Good,
+        Self::Warn,
+        Self::Bad,
+        Self::Selected,
+        Self::Separatrix,
+        Self::Level,
+    ];
+
+    /// Whether words are set in this role, so that it needs a text's contrast (4.5 to 1); lines need 2 to 1.
+    pub fn is_text(self) -> bool {
+        !matches!(self, Self::Border | Self::Level)
+    }
+}
+
+/// One colour of a palette: in full, among the sixteen, and what stands for it without colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Ink {
+    /// The colour itself; `None` is the terminal's own foreground.
+    pub rgb: Option<Rgb>,
+    /// Its stand-in among the terminal's sixteen.
+    pub ansi: Color,
+    /// Weight, used at every depth.
+    pub weight: Modifier,
+    /// What replaces the colour where there is none.
+    pub mono: Modifier,
+}
+
+impl Ink {
+    /// The style that shows this ink at a depth.
+    pub fn style(&self, depth: ColourDepth) -> Style {
+        let style = Style::new().add_modifier(self.weight);
+        match (depth, self.rgb) {
+            (ColourDepth::None, _) => style.add_modifier(self.mono),
+            (ColourDepth::Ansi16, _) => style.fg(self.ansi),
+            (_, None) => style.fg(Color::Reset),
+            (ColourDepth::Ansi256, Some(rgb)) => style.fg(Color::Indexed(rgb.nearest256())),
+            (ColourDepth::True, Some(Rgb(r, g, b))) => style.fg(Color::Rgb(r, g, b)),
+        }
+    }
+}
+
+/// A step of a fading ramp: how it is coloured and what share of its dots is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shade {
+    /// The style of the dots.
+    pub style: Style,
+    /// Share of the dots that are drawn, 0 to 1; below 1 only where colour cannot say how old they are.
+    pub coverage: f64,
+}
+
+/// Series with a colour of their own.
+pub const CURVES: usize = 7;
+
+/// Steps of a trail from oldest to newest; few, so that a frame changes few cells.
+const AGES: usize = 8;
+
+/// Steps of the density ramp from sparse to dense.
+const DENSITIES: usize = 12;
+
+/// The styles of a palette at one depth.
+#[derive(Clone, Debug)]
+pub struct Theme {
+    palette: &'static Palette,
+    depth: ColourDepth,
+    roles: [Style; Role::ALL.len()],
+    curves: [Style; CURVES],
+    trails: Vec<Vec<Shade>>,
+    density: Vec<Shade>,
+}
+
+impl Theme {
+    /// The theme of that name at a depth, `None` if there is no such palette.
+    pub fn named(name: &str, depth: ColourDepth) -> Option<Self> {
+        PALETTES.iter().find(|palette| palette.name == name).map(|p| Self::new(p, depth))
+    }
+
+    /// The default theme: for dark terminals, and still legible on light ones.
+    pub fn dark(depth: ColourDepth) -> Self {
+        Self::new(&PALETTES[0], depth)
+    }
+
+    /// A palette's styles at a depth.
+    pub fn new(palette: &'static Palette, depth: ColourDepth) -> Self {
+        let ramps = Ramps { palette, depth };
+        Self {
+            palette,
+            depth,
+            roles: palette.roles.map(|ink| ink.style(depth)),
+            curves: palette.curves.map(|ink| ink.style(depth)),
+            trails: palette.curves.iter().map(|ink| ramps.trail(ink, AGES)).collect(),
+            density: ramps.density(DENSITIES),
+        }
+    }
+
+    /// The same theme with another number of steps in its trails: fewer change fewer cells a frame.
+    #[must_use]
+    pub fn with_ages(self, ages: usize) -> Self {
+        let ramps = Ramps { palette: self.palette, depth: self.depth };
+        let trails = self.palette.curves.iter().map(|ink| ramps.trail(ink, ages)).collect();
+        Self { trails, ..self }
+    }
+
+    /// The palette.
+    pub fn palette(&self) -> &'static Palette {
+        self.palette
+    }
+
+    /// How much colour it may use.
+    pub fn depth(&self) -> ColourDepth {
+        self.depth
+    }
+
+    /// The style of words about the n-th series; the colours repeat after the last.
+    pub fn curve(&self, series: usize) -> Style {
+        self.curves[series % CURVES]
+    }
+
+    /// What the line of the n-th series is drawn with; without colour every second one is dotted.
+    pub fn series(&self, series: usize) -> Shade {
+        let dotted = self.depth == ColourDepth::None && series % 2 == 1;
+        Shade { style: self.curve(series), coverage: if dotted { 0.5 } else { 1.0 } }
+    }
+
+    /// What a line of a role is drawn with; without colour what stands behind the motion is dotted.
+    pub fn line(&self, role: Role) -> Shade {
+        let behind = matches!(role, Role::Level | Role::Border | Role::Dim);
+        let dotted = self.depth == ColourDepth::None && behind;
+        Shade { style: self[role], coverage: if dotted { 0.4 } else { 1.0 } }
+    }
+
+    /// The fading trail of the n-th series, from nearly the background to its colour, brightened.
+    ///
+    /// The contrast with the background never falls from one step to the next. Without colour old steps are
+    /// dimmed and thinned out.
+    pub fn trail(&self, series: usize) -> &[Shade] {
+        &self.trails[series % CURVES]
+    }
+
+    /// The shades of a cloud of points from sparse to dense, of rising contrast.
+    pub fn density(&self) -> &[Shade] {
+        &self.density
+    }
+}
+
+impl Index<Role> for Theme {
+    type Output = Style;
+
+    fn index(&self, role: Role) -> &Style {
+        &self.roles[role as usize]
+    }
+}

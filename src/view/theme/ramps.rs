@@ -1,0 +1,104 @@
+//! Ramps: rows of shades whose contrast with the background only grows.
+//!
+//! In: a palette and a depth. Out: the steps of trails and of density. Never here: which step a dot gets.
+
+use ratatui::style::{Color, Modifier, Style};
+
+use super::{Ink, Palette, Shade};
+use crate::view::colour::{ColourDepth, Rgb};
+
+/// Makes the ramps of a palette at a depth.
+pub(super) struct Ramps {
+    pub(super) palette: &'static Palette,
+    pub(super) depth: ColourDepth,
+}
+
+impl Ramps {
+    /// `ages` steps from nearly the background to the ink, brightened.
+    pub(super) fn trail(&self, ink: &Ink, ages: usize) -> Vec<Shade> {
+        let background = self.palette.background;
+        let colour = ink.rgb.unwrap_or(self.palette.foreground);
+        let newest = colour.mix(self.palette.foreground, 0.35);
+        let base = ink.ansi;
+        // Bright is stronger than plain on black, but weaker on white.
+        let oldest = if self.contrast(Color::DarkGray) < self.contrast(base) {
+            Color::DarkGray
+        } else {
+            base
+        };
+        let bright = brighter(base);
+        let bright = if self.contrast(bright) > self.contrast(base) { bright } else { base };
+        self.steps(ages, &[oldest, base, base, bright], |fresh| {
+            if fresh < 0.75 {
+                background.mix(colour, 0.38 + 0.62 * fresh / 0.75)
+            } else {
+                colour.mix(newest, (fresh - 0.75) / 0.25)
+            }
+        })
+    }
+
+    /// `steps` shades from sparse to dense.
+    pub(super) fn density(&self, steps: usize) -> Vec<Shade> {
+        let heat = self.palette.heat.map(|ink| ink.rgb.unwrap_or(self.palette.foreground));
+        self.steps(steps, &self.palette.heat.map(|ink| ink.ansi), |share| {
+            let place = share * (heat.len() - 1) as f64;
+            let below = (place as usize).min(heat.len() - 2);
+            heat[below].mix(heat[below + 1], place - below as f64)
+        })
+    }
+
+    /// A ramp from few colours among the sixteen, or from a colour for each place from 0 to 1.
+    fn steps(&self, steps: usize, few: &[Color], at: impl Fn(f64) -> Rgb) -> Vec<Shade> {
+        let mut strongest = (0.0, Color::Reset);
+        (0..steps)
+            .map(|step| {
+                let share = if steps < 2 { 1.0 } else { step as f64 / (steps - 1) as f64 };
+                if self.depth == ColourDepth::None {
+                    return weight(share);
+                }
+                let colour = match self.depth {
+                    ColourDepth::Ansi256 => Color::Indexed(at(share).nearest256()),
+                    ColourDepth::True => {
+                        let Rgb(r, g, b) = at(share);
+                        Color::Rgb(r, g, b)
+                    }
+                    _ => few[((share * few.len() as f64) as usize).min(few.len() - 1)],
+                };
+                // Rounding to the palette may step back; then the step before is kept.
+                if self.contrast(colour) >= strongest.0 {
+                    strongest = (self.contrast(colour), colour);
+                }
+                Shade { style: Style::new().fg(strongest.1), coverage: 1.0 }
+            })
+            .collect()
+    }
+
+    fn contrast(&self, colour: Color) -> f64 {
+        Rgb::of(colour).unwrap_or(self.palette.foreground).contrast(self.palette.background)
+    }
+}
+
+/// A step without colour: dim and thin, plain, bold.
+fn weight(share: f64) -> Shade {
+    let modifier = match share {
+        s if s < 0.3 => Modifier::DIM,
+        s if s < 0.9 => Modifier::empty(),
+        _ => Modifier::BOLD,
+    };
+    let style = Style::new().add_modifier(modifier);
+    Shade { style, coverage: (0.2 + 1.2 * share).min(1.0) }
+}
+
+/// The bright partner of one of the eight base colours.
+fn brighter(colour: Color) -> Color {
+    match colour {
+        Color::Red => Color::LightRed,
+        Color::Green => Color::LightGreen,
+        Color::Yellow => Color::LightYellow,
+        Color::Blue => Color::LightBlue,
+        Color::Magenta => Color::LightMagenta,
+        Color::Cyan => Color::LightCyan,
+        Color::Gray => Color::White,
+        other => other,
+    }
+}

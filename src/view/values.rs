@@ -1,0 +1,155 @@
+//! A list of values: parameters or initial values, each with its number, unit and, where it has a range, a bar.
+//!
+//! In: the lab's values and what is selected. Out: cells. Never here: how a value is changed.
+
+use ratatui::layout::{Position, Rect};
+use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, columns, row};
+use super::number::brief;
+use super::plot::Scale;
+use super::strip::RangeBar;
+use super::theme::Role;
+use super::wrap::words;
+use crate::app::{Facts, Field, Lab, Purpose, Target};
+use crate::model;
+
+/// Columns of a number.
+const NUMBER: u16 = 10;
+
+/// The most columns of a name and of a unit.
+const NAME: u16 = 12;
+const UNIT: u16 = 9;
+
+/// Where the columns of a list stand: as wide as its longest name and unit.
+struct Columns {
+    number: u16,
+    unit: u16,
+    bar: u16,
+}
+
+/// A list of values.
+pub(super) struct Values<'a> {
+    pub(super) lab: &'a Lab,
+    /// Parameters or initial values.
+    pub(super) kind: fn(usize) -> Target,
+    /// The selected one.
+    pub(super) selected: usize,
+    /// Whether keys go to this list.
+    pub(super) focused: bool,
+    /// The field open for one of them.
+    pub(super) field: Option<&'a Field>,
+}
+
+impl Values<'_> {
+    /// Draws the rows around the selected one and, if there is room, what it means.
+    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, area: Rect) {
+        let count = self.lab.count(self.kind);
+        if count == 0 {
+            canvas.left(row(area, 0), Role::Dim, "  none");
+            return;
+        }
+        let about = self.about(area, count);
+        let grid = self.columns(canvas, count);
+        let rows = usize::from(area.height).saturating_sub(about.len());
+        let first = window(self.selected, count, rows);
+        for index in first..count.min(first + rows) {
+            self.line(canvas, row(area, index - first), (index, &grid));
+        }
+        let start = usize::from(area.height) - about.len();
+        for (index, line) in about.iter().enumerate() {
+            let place = columns(row(area, start + index), 2, area.width);
+            canvas.left(place, Role::Dim, line);
+        }
+    }
+
+    /// What the selected value means, as far as rows are left over.
+    fn about(&self, area: Rect, count: usize) -> Vec<String> {
+        let spare = usize::from(area.height).saturating_sub(count);
+        let facts = self.lab.facts((self.kind)(self.selected));
+        let text = facts.map_or_else(String::new, |facts| facts.about);
+        let mut lines = words(&text, usize::from(area.width.saturating_sub(3)));
+        lines.retain(|line| !line.is_empty());
+        lines.truncate(spare.saturating_sub(usize::from(spare > lines.len())));
+        lines
+    }
+
+    fn columns(&self, canvas: &Canvas<'_>, count: usize) -> Columns {
+        let glyphs = canvas.look.glyphs;
+        let facts: Vec<Facts> = (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
+        let widest = |text: &dyn Fn(&Facts) -> String, most: u16| {
+            let wide = facts.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
+            wide.unwrap_or(0).min(most)
+        };
+        let name = widest(&|f| glyphs.pick(&f.shown, &f.name).clone(), NAME);
+        let unit = widest(&|f| f.unit.clone(), UNIT);
+        let number = 3 + name;
+        Columns { number, unit: number + NUMBER + 1, bar: number + NUMBER + unit + 3 }
+    }
+
+    fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &Columns)) {
+        let target = (self.kind)(index);
+        let Some(facts) = self.lab.facts(target) else { return };
+        let value = self.lab.value(target);
+        let glyphs = canvas.look.glyphs;
+        let here = self.selected == index;
+        let mark = if here { glyphs.pick("›", ">") } else { " " };
+        canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);
+        let name = glyphs.pick(&facts.shown, &facts.name);
+        let role = if here && self.focused { Role::Title } else { Role::Text };
+        canvas.left(columns(area, 2, grid.number - 3), role, name);
+        let number = columns(area, grid.number, NUMBER);
+        let typed = self.field.filter(|field| field.purpose == Purpose::Value(target));
+        if let Some(field) = typed {
+            typing(canvas, number, field);
+        } else {
+            let text = value.map_or_else(|| "·".to_owned(), |value| brief(value, 6, glyphs));
+            canvas.right(number, Role::Accent, &text);
+            if here && self.focused {
+                canvas.tint(number, Role::Selected);
+            }
+        }
+        canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &facts.unit);
+        if let Some(value) = value {
+            bar(canvas, columns(area, grid.bar, area.width), &facts, value, here && self.focused);
+        }
+    }
+}
+
+/// The bar of a value within its range, if it has one and there is room.
+fn bar(canvas: &mut Canvas<'_>, area: Rect, facts: &Facts, value: f64, here: bool) {
+    let Some((min, max, scale)) = facts.range else { return };
+    if area.width < 6 {
+        return;
+    }
+    let scale = match scale {
+        model::Scale::Linear => Scale::linear(min, max),
+        model::Scale::Log => Scale::log(min, max),
+    };
+    let filled = canvas.style(if here { Role::Focus } else { Role::Level });
+    let rest = canvas.style(Role::Border);
+    let bar = RangeBar { value, scale, filled, rest, glyphs: canvas.look.glyphs };
+    bar.render(columns(area, 0, area.width.saturating_sub(1).min(30)), canvas.buffer);
+}
+
+/// The text of a field, with its end in view, and its cursor.
+pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
+    if area.width < 2 {
+        return;
+    }
+    let room = usize::from(area.width - 1);
+    let skipped = field.input.visual_scroll(room);
+    let text: String = field.input.value().chars().skip(skipped).take(room).collect();
+    let role = if field.mistake.is_some() { Role::Bad } else { Role::Text };
+    canvas.left(area, role, &format!("{text:<room$}"));
+    canvas.tint(area, Role::Title);
+    let cursor = area.x + (field.input.visual_cursor().saturating_sub(skipped)).min(room) as u16;
+    let at = Position::new(cursor, area.y);
+    canvas.tint(Rect { x: at.x, width: 1, ..area }, Role::Selected);
+}
+
+/// The first row of a list that keeps the selected one in view, as near the middle as can be.
+pub(super) fn window(selected: usize, count: usize, rows: usize) -> usize {
+    selected.saturating_sub(rows / 2).min(count.saturating_sub(rows))
+}

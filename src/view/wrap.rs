@@ -1,0 +1,132 @@
+//! Wrapping: paragraphs and formulas in lines of a given width.
+//!
+//! In: text. Out: its lines. Never here: styles, or where the lines stand.
+
+use unicode_width::UnicodeWidthStr;
+
+/// The lines of a paragraph, broken at spaces; a word longer than a line is broken where it must.
+pub(super) fn words(text: &str, width: usize) -> Vec<String> {
+    fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0)
+}
+
+/// The text with a capital at its beginning.
+pub(super) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses where that is enough, else within
+/// them, else at spaces and before `*`. All lines but the first are indented.
+pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
+    let room = width.saturating_sub(indent).max(1);
+    let mut pieces = Vec::new();
+    break_up(text, room, 0, &mut pieces);
+    fill(pieces.into_iter(), width, indent)
+}
+
+/// How deep in parentheses a formula is broken before its operators.
+const DEEPEST: usize = 6;
+
+/// Cuts a formula into pieces that fit, each with whether a space parts it from the one before.
+fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, bool)>) {
+    for term in terms(text, depth) {
+        if term.width() <= room {
+            pieces.push((term, true));
+        } else if depth < DEEPEST {
+            break_up(&term, room, depth + 1, pieces);
+        } else {
+            for (i, factor) in factors(&term).into_iter().enumerate() {
+                // What follows a `*` sign stands close to it.
+                let spaced = i == 0 || factor.starts_with(' ');
+                pieces.push((factor.trim_start().to_owned(), spaced));
+            }
+        }
+    }
+}
+
+/// A formula cut before each `+`, `−`, `-` and `=` that stands between spaces at most so deep in parentheses.
+fn terms(text: &str, depth: usize) -> Vec<String> {
+    let mut terms: Vec<String> = Vec::new();
+    let mut open = 0_usize;
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
+        let operator = matches!(word, "+" | "−" | "-" | "=");
+        match terms.last_mut() {
+            Some(term) if !(operator && open <= depth) => {
+                term.push(' ');
+                term.push_str(word);
+            }
+            _ => terms.push(word.to_owned()),
+        }
+        open += word.matches(['(', '[']).count();
+        open = open.saturating_sub(word.matches([')', ']']).count());
+    }
+    terms
+}
+
+/// A long term cut at its spaces (kept at the front of what follows) and before each `*`.
+fn factors(term: &str) -> Vec<String> {
+    let mut factors = vec![String::new()];
+    for character in term.chars() {
+        if matches!(character, ' ' | '*') {
+            factors.push(String::new());
+        }
+        if let Some(factor) = factors.last_mut() {
+            factor.push(character);
+        }
+    }
+    factors
+}
+
+/// Fills lines with pieces; each comes with whether a space parts it from the one before.
+fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usize) -> Vec<String> {
+    let width = width.max(1);
+    let indent = indent.min(width / 2);
+    let mut lines: Vec<String> = vec![String::new()];
+    let mut fresh = true;
+    for (piece, spaced) in pieces {
+        let mut piece = piece;
+        loop {
+            let margin = if lines.len() > 1 { indent } else { 0 };
+            let Some(line) = lines.last_mut() else { break };
+            let gap = usize::from(spaced && !fresh);
+            if fresh && line.is_empty() {
+                line.push_str(&" ".repeat(margin));
+            }
+            if line.width() + gap + piece.width() <= width {
+                line.push_str(&" ".repeat(gap));
+                line.push_str(&piece);
+                fresh = false;
+                break;
+            }
+            if !fresh {
+                lines.push(String::new());
+                fresh = true;
+                continue;
+            }
+            // Alone on its line and still too long: cut by letters.
+            let room = width.saturating_sub(line.width()).max(1);
+            let (head, rest) = split(&piece, room);
+            line.push_str(&head);
+            if rest.is_empty() {
+                fresh = false;
+                break;
+            }
+            lines.push(String::new());
+            piece = rest;
+        }
+    }
+    lines
+}
+
+/// The first `room` columns of a text (at least one letter), and the rest.
+fn split(text: &str, room: usize) -> (String, String) {
+    let mut head = String::new();
+    for (index, character) in text.char_indices() {
+        let longer = format!("{head}{character}");
+        if longer.width() > room && !head.is_empty() {
+            return (head, text[index..].to_owned());
+        }
+        head = longer;
+    }
+    (head, String::new())
+}

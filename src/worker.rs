@@ -1,0 +1,109 @@
+//! The thread that keeps an experiment in motion: commands in, the newest snapshot out.
+//!
+//! In: an experiment ([`Worker::load`]) and [`Command`]s. Out: [`Snapshot`]s through a slot of
+//! one, where the newest wins and nobody waits. The mailbox is emptied before each slice of about
+//! two milliseconds, so a held key costs one slice; nothing is computed, and nothing wakes, while
+//! time is held. A panic of the experiment becomes a fault in a snapshot. Never here: terminals,
+//! physics, drawing.
+
+mod pace;
+mod slice;
+mod subject;
+mod thread;
+
+use std::io;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Sender};
+use std::thread::{Builder, JoinHandle};
+
+use arc_swap::ArcSwapOption;
+
+use crate::experiment::{Command, Snapshot};
+
+pub use subject::Subject;
+
+use thread::Letter;
+
+/// The name of the worker's thread, for a panic hook to tell it from the one that owns the
+/// terminal.
+pub const THREAD_NAME: &str = "phaselab worker";
+
+/// A thread and the two ways to and from it. Dropping it ends the thread.
+#[derive(Debug)]
+pub struct Worker {
+    mailbox: Sender<Letter>,
+    slot: Arc<ArcSwapOption<Snapshot>>,
+    seen: Option<Arc<Snapshot>>,
+    epoch: u64,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Worker {
+    /// A worker with nothing to do yet.
+    ///
+    /// # Errors
+    /// Where the system has no thread to give.
+    pub fn idle() -> io::Result<Worker> {
+        let (mailbox, letters) = mpsc::channel();
+        let slot = Arc::new(ArcSwapOption::empty());
+        let theirs = Arc::clone(&slot);
+        let thread = Builder::new()
+            .name(THREAD_NAME.to_owned())
+            .spawn(move || thread::run(&letters, &theirs))?;
+        Ok(Worker { mailbox, slot, seen: None, epoch: 0, thread: Some(thread) })
+    }
+
+    /// A worker with an experiment, which is of epoch 1.
+    ///
+    /// # Errors
+    /// Where the system has no thread to give.
+    pub fn spawn(subject: impl Subject + 'static) -> io::Result<Worker> {
+        let mut worker = Worker::idle()?;
+        worker.load(subject);
+        Ok(worker)
+    }
+
+    /// Puts another experiment in the place of the present one; its snapshots are of the epoch
+    /// returned, and none of another epoch follows them.
+    pub fn load(&mut self, mut subject: impl Subject + 'static) -> u64 {
+        self.epoch += 1;
+        subject.set_epoch(self.epoch);
+        self.send(Letter::Load(self.epoch, Box::new(subject)));
+        self.epoch
+    }
+
+    /// The epoch of what was loaded last; 0 before anything was.
+    pub fn epoch(&self) -> u64 {
+        self.epoch
+    }
+
+    /// Hands over a command. It is obeyed before the next slice, and a snapshot follows at once.
+    pub fn tell(&self, command: Command) {
+        self.send(Letter::Obey(command));
+    }
+
+    /// The newest snapshot of the present epoch, if it was not returned before.
+    pub fn newest(&mut self) -> Option<Arc<Snapshot>> {
+        let newest = self.slot.load_full().filter(|s| s.epoch == self.epoch)?;
+        if self.seen.as_ref().is_some_and(|seen| Arc::ptr_eq(seen, &newest)) {
+            return None;
+        }
+        self.seen = Some(Arc::clone(&newest));
+        Some(newest)
+    }
+
+    fn send(&self, letter: Letter) {
+        // a thread that is gone cannot be told anything; there is nothing to be done about it
+        let _ = self.mailbox.send(letter);
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.send(Letter::Stop);
+        if let Some(thread) = self.thread.take() {
+            // its panics were caught where they happened
+            let _ = thread.join();
+        }
+    }
+}

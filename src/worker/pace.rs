@@ -1,0 +1,36 @@
+//! Keeps simulated time at a chosen speed against the wall clock.
+
+use std::time::{Duration, Instant};
+
+/// How far simulated time may fall behind before the lost time is given up, so that an experiment
+/// too slow for its speed does not rush when it becomes fast again.
+const MOST_BEHIND: Duration = Duration::from_millis(50);
+
+/// A pair of moments that belong together, and the speed since.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace {
+    wall: Instant,
+    time: f64,
+    speed: f64,
+}
+
+impl Pace {
+    /// Simulated `time` is now, and runs at `speed`.
+    pub(super) fn new(now: Instant, time: f64, speed: f64) -> Pace {
+        Pace { wall: now, time, speed }
+    }
+
+    /// The simulated time that it should be; infinite when flat out. `time` is what it is.
+    pub(super) fn target(&mut self, now: Instant, time: f64) -> f64 {
+        if self.speed.is_infinite() {
+            return f64::INFINITY;
+        }
+        let target = self.time + self.speed * now.duration_since(self.wall).as_secs_f64();
+        let furthest = time + self.speed * MOST_BEHIND.as_secs_f64();
+        if target > furthest {
+            *self = Pace { wall: now, time: furthest, speed: self.speed };
+            return furthest;
+        }
+        target
+    }
+}

@@ -1,0 +1,175 @@
+//! The loop on the thread.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::time::{Duration, Instant};
+
+use arc_swap::ArcSwapOption;
+
+use super::Subject;
+use super::pace::Pace;
+use super::slice::Slice;
+use crate::experiment::{Command, Fault, Progress, Snapshot, Status};
+
+/// The least time between two snapshots that no command asked for.
+const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
+
+/// What can lie in the mailbox.
+pub(super) enum Letter {
+    /// A command for the subject.
+    Obey(Command),
+    /// Another subject, and its epoch.
+    Load(u64, Box<dyn Subject>),
+    /// The end.
+    Stop,
+}
+
+/// The end was asked for.
+struct Stopped;
+
+/// Works until told to stop.
+pub(super) fn run(letters: &Receiver<Letter>, slot: &ArcSwapOption<Snapshot>) {
+    let mut bench = Bench {
+        letters,
+        slot,
+        subject: None,
+        epoch: 0,
+        pace: Pace::new(Instant::now(), 0.0, 1.0),
+        slice: Slice::new(),
+        published: Instant::now(),
+    };
+    while bench.turn().is_ok() {}
+}
+
+/// The worker's own state.
+struct Bench<'a> {
+    letters: &'a Receiver<Letter>,
+    slot: &'a ArcSwapOption<Snapshot>,
+    /// `None` before the first one, and after one has panicked.
+    subject: Option<Box<dyn Subject>>,
+    epoch: u64,
+    pace: Pace,
+    slice: Slice,
+    published: Instant,
+}
+
+impl Bench<'_> {
+    /// One round: letters, a slice of work, a snapshot, and sleep where there is time.
+    fn turn(&mut self) -> Result<(), Stopped> {
+        self.read_letters()?;
+        let Some(subject) = self.running() else {
+            let letter = self.letters.recv().map_err(|_| Stopped)?;
+            return self.handle(letter);
+        };
+        let time = subject.time();
+        let began = Instant::now();
+        let target = self.pace.target(began, time);
+        let budget = self.slice.budget();
+        let progress = self.guarded(|subject| subject.advance(target, budget));
+        if progress == Some(Progress::Underway) {
+            self.slice.learn(began.elapsed());
+        }
+        let since = self.published.elapsed();
+        if since >= BETWEEN_SNAPSHOTS || progress == Some(Progress::Stuck) {
+            self.publish();
+        } else if progress == Some(Progress::Arrived) {
+            return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));
+        }
+        Ok(())
+    }
+
+    /// The subject, if time runs in it.
+    fn running(&self) -> Option<&dyn Subject> {
+        self.subject.as_deref().filter(|subject| subject.status() == Status::Running)
+    }
+
+    /// Sleeps so long, or until a letter comes.
+    fn wait(&mut self, time: Duration) -> Result<(), Stopped> {
+        match self.letters.recv_timeout(time) {
+            Ok(letter) => self.handle(letter),
+            Err(RecvTimeoutError::Timeout) => Ok(()),
+            Err(RecvTimeoutError::Disconnected) => Err(Stopped),
+        }
+    }
+
+    /// Empties the mailbox.
+    fn read_letters(&mut self) -> Result<(), Stopped> {
+        loop {
+            match self.letters.try_recv() {
+                Ok(letter) => self.handle(letter)?,
+                Err(TryRecvError::Empty) => return Ok(()),
+                Err(TryRecvError::Disconnected) => return Err(Stopped),
+            }
+        }
+    }
+
+    /// Does what a letter asks, and shows what came of it. Simulated time goes on without a
+    /// hitch, unless the letter was about it.
+    fn handle(&mut self, letter: Letter) -> Result<(), Stopped> {
+        let before = self.clockwork();
+        match letter {
+            Letter::Stop => return Err(Stopped),
+            Letter::Load(epoch, subject) => {
+                self.epoch = epoch;
+                self.subject = Some(subject);
+            }
+            Letter::Obey(command) => {
+                self.guarded(|subject| subject.obey(command));
+            }
+        }
+        let after = self.clockwork();
+        if let Some((_, time, speed)) = after
+            && after != before
+        {
+            self.pace = Pace::new(Instant::now(), time, speed);
+        }
+        self.publish();
+        Ok(())
+    }
+
+    /// What the pace depends on: whether time runs, from where, and how fast.
+    fn clockwork(&self) -> Option<(bool, f64, f64)> {
+        let subject = self.subject.as_deref()?;
+        Some((subject.status() == Status::Running, subject.time(), subject.speed()))
+    }
+
+    /// Puts a snapshot into the slot.
+    fn publish(&mut self) {
+        if let Some(snapshot) = self.guarded(|subject| subject.snapshot()) {
+            self.slot.store(Some(Arc::new(snapshot)));
+        }
+        self.published = Instant::now();
+    }
+
+    /// Lets the subject do something; where it panics it is given up, and the newest snapshot
+    /// says so.
+    fn guarded<T>(&mut self, act: impl FnOnce(&mut dyn Subject) -> T) -> Option<T> {
+        let subject = self.subject.as_deref_mut()?;
+        // the subject is dropped if it panics, so nobody sees what it left undone
+        match catch_unwind(AssertUnwindSafe(|| act(subject))) {
+            Ok(result) => Some(result),
+            Err(panic) => {
+                self.subject = None;
+                self.tell_panic(panic.as_ref());
+                None
+            }
+        }
+    }
+
+    fn tell_panic(&self, panic: &(dyn Any + Send)) {
+        let last = self.slot.load_full().filter(|last| last.epoch == self.epoch);
+        let last = last.map_or_else(|| Snapshot::empty(self.epoch), |last| (*last).clone());
+        let reason = panic
+            .downcast_ref::<String>()
+            .map(String::as_str)
+            .or_else(|| panic.downcast_ref::<&str>().copied())
+            .unwrap_or("no reason given");
+        let message = format!(
+            "the integrator stopped by a defect of the program ({reason}); load the system again"
+        );
+        let status = Status::Faulted(Fault { time: last.time, message });
+        self.slot.store(Some(Arc::new(Snapshot { status, ..last })));
+    }
+}

@@ -1,0 +1,5 @@
+//! What `analysis` says of histories whose nature is known.
+
+mod landscape;
+mod level;
+mod verdict;

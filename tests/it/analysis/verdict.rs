@@ -1,0 +1,148 @@
+//! Verdicts on made-up drifts of every kind.
+
+use phaselab::analysis::{Growth, History, Verdict, rounding_floor};
+
+const FLOOR: f64 = 1e-12;
+
+/// The verdict on `count` values of `drift` at times 0, 0.1, ….
+fn verdict(count: u32, drift: impl FnMut(f64) -> f64) -> Verdict {
+    Verdict::of(&history(count, drift), FLOOR)
+}
+
+fn history(count: u32, mut drift: impl FnMut(f64) -> f64) -> History {
+    let mut history = History::new();
+    for k in 0..count {
+        let t = 0.1 * f64::from(k);
+        history.push(t, drift(t));
+    }
+    history
+}
+
+fn secular(verdict: &Verdict) -> Option<f64> {
+    match verdict {
+        Verdict::Secular(slope) => Some(*slope),
+        _ => None,
+    }
+}
+
+/// Even noise in [−1, 1), the same in every run (a linear congruence by Knuth's constants).
+fn noise() -> impl FnMut() -> f64 {
+    let mut state = 0x2545_f491_4f6c_dd1d_u64;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
+    }
+}
+
+#[test]
+fn too_short_a_history_stays_open() {
+    assert_eq!(verdict(0, |_| 0.0), Verdict::Open);
+    assert_eq!(verdict(16, |t| t), Verdict::Open);
+    assert_ne!(verdict(40, |t| t), Verdict::Open);
+}
+
+#[test]
+fn what_never_changes_is_exact_and_level() {
+    assert_eq!(verdict(5000, |_| 0.0), Verdict::Exact(Growth::Level));
+}
+
+#[test]
+fn noise_at_the_floor_is_level_a_walk_a_root_a_bias_faster() {
+    let mut white = noise();
+    assert_eq!(verdict(5000, |_| 1e-15 * white()), Verdict::Exact(Growth::Level));
+    for walk in 0..20 {
+        let mut step = noise();
+        for _ in 0..walk * 7919 {
+            step();
+        }
+        let mut place = 0.0;
+        let found = verdict(20_000, |_| {
+            place += 1e-16 * step();
+            place
+        });
+        assert_eq!(found, Verdict::Exact(Growth::Root), "walk {walk}");
+    }
+    assert_eq!(verdict(5000, |t| 1e-15 * t), Verdict::Exact(Growth::Faster));
+}
+
+#[test]
+fn what_swings_is_bounded_at_any_rate_and_shape() {
+    for rate in [0.09, 0.31, 1.0, 6.3, 17.0, 400.0] {
+        assert_eq!(verdict(6000, |t| 1e-4 * (1.0 - (rate * t).cos())), Verdict::Bounded, "{rate}");
+    }
+    // short spikes, as at the pericentre of a narrow ellipse
+    assert_eq!(verdict(6000, |t| 1e-3 / (1.0 + 400.0 * t.sin().powi(2))), Verdict::Bounded);
+    // two rates that never meet, and noise above the floor
+    assert_eq!(verdict(6000, |t| 1e-6 * (t.sin() + (2_f64.sqrt() * t).sin())), Verdict::Bounded);
+    let mut white = noise();
+    assert_eq!(verdict(6000, |_| 1e-9 * white()), Verdict::Bounded);
+}
+
+#[test]
+fn what_jumps_once_and_stays_is_not_a_trend() {
+    assert_eq!(verdict(6000, |t| if t < 100.0 { 0.0 } else { 1e-5 }), Verdict::Bounded);
+    assert_eq!(verdict(6000, |t| 1e-5 * (1.0 - (-t / 10.0).exp())), Verdict::Bounded);
+}
+
+#[test]
+fn what_grows_is_secular_with_its_slope() {
+    for slope in [-3e-7, 2e-9, 1e-3] {
+        let found = secular(&verdict(6000, |t| slope * t)).expect("a straight line is a trend");
+        assert!((found / slope - 1.0).abs() < 1e-9, "{found} for {slope}");
+    }
+    // a staircase, one step a period
+    let stairs = secular(&verdict(6000, |t| -1e-6 * (t / 7.3).floor()));
+    assert!((stairs.expect("a staircase is a trend") / (-1e-6 / 7.3) - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn a_trend_is_found_under_a_swing_ten_times_its_size() {
+    let found = verdict(6000, |t| 1e-8 * t + 6e-5 * (2.0 * t).sin());
+    let slope = secular(&found).expect("600 time units of 1e-8 against 6e-5");
+    assert!((slope / 1e-8 - 1.0).abs() < 0.05, "{slope}");
+    // the same swing without the trend has none
+    assert_eq!(verdict(6000, |t| 6e-5 * (2.0 * t).sin()), Verdict::Bounded);
+}
+
+#[test]
+fn a_trend_is_the_same_however_long_the_history() {
+    for count in [200, 1_000, 30_000, 1_000_000] {
+        assert!(secular(&verdict(count, |t| 1e-6 * t)).is_some(), "{count}");
+        assert_eq!(verdict(count, |t| 1e-6 * (5.0 * t).sin()), Verdict::Bounded, "{count}");
+    }
+}
+
+#[test]
+fn a_drift_above_the_floor_is_never_exact() {
+    let mut step = noise();
+    let mut place = 0.0;
+    let found = verdict(6000, |_| {
+        place += 1e-9 * step();
+        place
+    });
+    assert!(matches!(found, Verdict::Bounded | Verdict::Secular(_)), "{found:?}");
+}
+
+#[test]
+fn values_that_are_not_finite_are_passed_over() {
+    let found = verdict(6000, |t| if (t - 30.0).abs() < 1.0 { f64::NAN } else { 0.0 });
+    assert_eq!(found, Verdict::Exact(Growth::Level));
+}
+
+#[test]
+fn a_history_keeps_its_extremes_in_bounded_memory() {
+    let history = history(1_000_000, |t| if t == 1234.5 { 9.0 } else { (3.0 * t).sin() });
+    assert_eq!(history.peak(), 9.0);
+    assert_eq!(history.len(), 1_000_000);
+    assert!((64..=128).contains(&history.stretches().len()));
+    assert_eq!(history.stretches()[0].start, 0.0);
+    assert!(history.stretches().windows(2).all(|pair| pair[0].end < pair[1].start));
+}
+
+#[test]
+fn the_floor_rises_like_brouwers_walk() {
+    assert!(rounding_floor(0) < 4e-15);
+    let ratio = rounding_floor(100_000_000) / rounding_floor(1_000_000);
+    assert!((9.0..10.1).contains(&ratio), "{ratio}");
+}

@@ -1,0 +1,5 @@
+//! The application by its keys: a state, keys, the state and the effects after them.
+
+mod keys;
+mod scripts;
+mod values;

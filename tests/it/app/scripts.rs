@@ -1,0 +1,238 @@
+//! Scripts: keys pressed in the lab or the picker, where one then is, and what was asked for.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use phaselab::app::{App, Effect, Event, LoadFailure, Over, Page, Pane, Plot};
+use phaselab::experiment::Command;
+
+use crate::hand::{at_picker, catalog, in_lab, loaded, pendulum, press, snapshot};
+
+/// Where the keys go, in a few words.
+fn place(app: &App) -> String {
+    let over = match &app.over {
+        None => String::new(),
+        Some(Over::Help(_)) => " + help".to_owned(),
+        Some(Over::Message(_)) => " + message".to_owned(),
+        Some(Over::Menu(menu)) => format!(" + menu {:?}", menu.title),
+        Some(Over::Field(field)) => format!(" + field {:?}", field.input.value()),
+    };
+    let page = match (app.page, &app.lab) {
+        (Page::Picker, _) => {
+            let name = app.picker.current().map_or("nothing", |entry| &entry.name);
+            let search = app.picker.search.as_ref().map(|s| format!(" /{}", s.value()));
+            format!("picker {name}{}", search.unwrap_or_default())
+        }
+        (Page::Lab, Some(lab)) => {
+            let pane = match lab.focus {
+                Pane::Plot(i) => match &lab.plots[i] {
+                    Plot::Space(_) => "space".to_owned(),
+                    Plot::Phase { x, y, .. } => format!("phase {x} {y}"),
+                    Plot::Time { y, .. } => format!("time {y:?}"),
+                },
+                Pane::Parameters => format!("parameter {}", lab.selection.parameter),
+                Pane::Initial => format!("initial {}", lab.selection.initial),
+                Pane::Gauges => format!("gauge {}", lab.selection.gauge),
+            };
+            format!("lab {pane}{}", if lab.zoomed { " zoomed" } else { "" })
+        }
+        (page, _) => format!("{page:?}").to_lowercase(),
+    };
+    page + &over
+}
+
+fn asked(effects: &[Effect]) -> String {
+    let word = |effect: &Effect| match effect {
+        Effect::Tell(command) => format!("{command:?}"),
+        other => format!("{other:?}"),
+    };
+    effects.iter().map(word).collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn scripts_in_the_lab() {
+    // Keys; where one then is; what the last word asked for.
+    let scripts = [
+        ("", "lab parameter 0", ""),
+        ("Down", "lab parameter 1", ""),
+        ("Up", "lab parameter 0", ""),
+        ("End", "lab parameter 3", ""),
+        ("End Down j", "lab parameter 3", ""),
+        ("Tab", "lab initial 0", ""),
+        ("Tab Tab", "lab gauge 0", ""),
+        ("Tab Tab Tab", "lab space", ""),
+        ("Tab Tab Tab Tab", "lab phase 0 2", ""),
+        ("Shift-Tab", "lab time [0]", ""),
+        ("z", "lab parameter 0 zoomed", ""),
+        ("z z", "lab parameter 0", ""),
+        ("z Esc", "lab parameter 0", ""),
+        ("Esc", "picker pendulum", ""),
+        ("Esc Enter", "lab parameter 0", "Reset, Play"),
+        ("2", "equations", ""),
+        ("2 Esc", "lab parameter 0", ""),
+        ("3", "notes", ""),
+        ("4 1", "lab parameter 0", ""),
+        ("?", "lab parameter 0 + help", ""),
+        ("? ?", "lab parameter 0", ""),
+        ("? Esc", "lab parameter 0", ""),
+        ("3 ? Esc", "notes", ""),
+        ("Space", "lab parameter 0", "Pause"),
+        ("p", "lab parameter 0", "Pause"),
+        (".", "lab parameter 0", "Pause, Step(1)"),
+        ("2 .", "equations", "Pause, Step(1)"),
+        ("]", "lab parameter 0", "Speed(2.0)"),
+        ("] ] ]", "lab parameter 0", "Speed(10.0)"),
+        ("[", "lab parameter 0", "Speed(0.5)"),
+        ("] ] ] ] ] ] ] ] ] ]", "lab parameter 0", "Speed(inf)"),
+        ("] ] ] ] ] ] ] ] ] ] [", "lab parameter 0", "Speed(1000.0)"),
+        ("r", "lab parameter 0", "Reset"),
+        ("R", "lab parameter 0", "FullReset"),
+        ("e", "lab parameter 0", "Reference"),
+        ("m", "lab parameter 0 + menu \"Method of integration\"", ""),
+        ("m Enter", "lab parameter 0", "Method(\"taylor\")"),
+        ("m Esc", "lab parameter 0", ""),
+        ("m q", "lab parameter 0 + menu \"Method of integration\"", "Quit"),
+        ("Right", "lab parameter 0", "Parameter { index: 0, value: 1.02 }"),
+        ("Left", "lab parameter 0", "Parameter { index: 0, value: 0.98 }"),
+        ("L", "lab parameter 0", "Parameter { index: 0, value: 1.2 }"),
+        ("Shift-Left", "lab parameter 0", "Parameter { index: 0, value: 0.8 }"),
+        ("Right Right Right", "lab parameter 0", "Parameter { index: 0, value: 1.06 }"),
+        ("Right u", "lab parameter 0", "Parameter { index: 0, value: 1.0 }"),
+        ("Right u U", "lab parameter 0", "Parameter { index: 0, value: 1.02 }"),
+        ("Right Backspace", "lab parameter 0", "Parameter { index: 0, value: 1.0 }"),
+        ("Tab Right", "lab initial 0", "Initial { index: 0, value: 2.01 }"),
+        ("Tab Down Down Left", "lab initial 1", "Initial { index: 1, value: -0.005 }"),
+        ("Enter", "lab parameter 0 + field \"1\"", ""),
+        ("Enter q", "lab parameter 0 + field \"1q\"", ""),
+        ("Enter Esc", "lab parameter 0", ""),
+        ("Enter Ctrl-c", "lab parameter 0 + field \"1\"", "Quit"),
+        ("q", "lab parameter 0", "Quit"),
+        ("4 q", "numbers", "Quit"),
+        ("? q", "lab parameter 0 + help", "Quit"),
+        // Esc and q that arrived together.
+        ("2 Alt-q", "lab parameter 0", "Quit"),
+        ("Enter Alt-q", "lab parameter 0 + field \"1\"", ""),
+        ("Ctrl-z", "lab parameter 0", "Suspend"),
+        ("Ctrl-l", "lab parameter 0", "Repaint"),
+        ("s Ctrl-u 0 . 5 Enter", "lab parameter 0", "StepSize(0.5)"),
+        ("a Ctrl-u 1 e - 9 Enter", "lab parameter 0", "Tolerance(1e-9)"),
+        // The axes of a plot: time across, then θ̇ upwards; then p against θ again.
+        ("Tab Tab Tab v", "lab space + menu \"Along the axis\"", ""),
+        ("Tab Tab Tab v Down Enter", "lab space + menu \"Upwards, against t\"", ""),
+        ("Tab Tab Tab v Down Enter Down Enter", "lab time [1]", ""),
+        ("Tab Tab Tab v Down Enter Tab Down Tab Enter", "lab time [0, 1]", ""),
+        ("Tab Tab Tab v Down Down Enter Down Down Enter", "lab phase 0 2", ""),
+        ("Tab Tab Tab v Esc", "lab space", ""),
+        (": z o o m Enter", "lab parameter 0 zoomed", ""),
+    ];
+    for (keys, wanted, effects) in scripts {
+        let mut app = in_lab();
+        let words: Vec<&str> = keys.split_whitespace().collect();
+        let mut last = Vec::new();
+        for word in words {
+            last = press(&mut app, word);
+        }
+        assert_eq!(place(&app), wanted, "after {keys}");
+        assert_eq!(asked(&last), effects, "after {keys}");
+    }
+}
+
+#[test]
+fn scripts_in_the_picker() {
+    let scripts = [
+        ("", "picker pendulum", ""),
+        ("Home", "picker planet", ""),
+        ("Enter", "lab parameter 0", "Reset, Play"),
+        ("/", "picker planet /", ""),
+        ("h e n o n", "picker henon-heiles /henon", ""),
+        ("/ q", "picker planet /q", ""),
+        ("k a p Enter", "picker kapitza /kap", "Load(\"kapitza\")"),
+        ("/ k a p Esc", "picker kapitza", ""),
+        ("q", "picker pendulum", "Quit"),
+        ("/ Ctrl-c", "picker planet /", "Quit"),
+        ("/ x y z Enter", "picker nothing /xyz", ""),
+        ("Esc", "picker pendulum", ""),
+        ("?", "picker pendulum + help", ""),
+    ];
+    for (keys, wanted, effects) in scripts {
+        let mut app = at_picker();
+        let mut last = Vec::new();
+        for word in keys.split_whitespace() {
+            last = press(&mut app, word);
+        }
+        assert_eq!(place(&app), wanted, "after {keys}");
+        assert_eq!(asked(&last), effects, "after {keys}");
+    }
+}
+
+#[test]
+fn a_preview_waits_until_the_selection_rests() {
+    let mut app = at_picker();
+    press(&mut app, "Home Down");
+    let name = app.picker.current().unwrap().name.clone();
+    assert_eq!(app.update(Event::Tick(Duration::from_millis(50))), []);
+    press(&mut app, "Up");
+    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "{name} was left before");
+    assert_eq!(
+        app.update(Event::Tick(Duration::from_millis(100))),
+        [Effect::Load("planet".into())]
+    );
+    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), []);
+}
+
+#[test]
+fn a_system_opened_before_it_is_there_opens_when_it_comes() {
+    let mut app = at_picker();
+    press(&mut app, "/ k a p");
+    assert_eq!(press(&mut app, "Enter"), [Effect::Load("kapitza".into())]);
+    assert_eq!(press(&mut app, "Enter"), [], "it is on its way");
+    assert_eq!(app.page, Page::Picker);
+    assert_eq!(app.update(Event::Loaded(Ok(loaded("kapitza", 2)))), [Effect::Tell(Command::Play)]);
+    assert_eq!(app.page, Page::Lab);
+}
+
+#[test]
+fn what_cannot_be_loaded_is_told_and_the_rest_goes_on() {
+    let (mut app, effects) = App::new(catalog(), Some("own.toml"));
+    assert_eq!(effects, [Effect::Load("own.toml".into())]);
+    let failure = LoadFailure { name: "own.toml".into(), message: "line 1\nline 2".into() };
+    app.update(Event::Loaded(Err(failure.clone())));
+    assert!(matches!(&app.over, Some(Over::Message(f)) if *f == failure));
+    press(&mut app, "Esc");
+    assert!(app.over.is_none());
+    assert_eq!(app.page, Page::Picker);
+    assert_eq!(press(&mut app, "Enter").len(), 1, "another system can be opened");
+}
+
+#[test]
+fn snapshots_of_another_system_are_dropped() {
+    let mut app = in_lab();
+    let mut other = snapshot(&pendulum(), 7.0);
+    other.epoch = 9;
+    app.update(Event::Snapshot(Arc::new(other)));
+    assert_eq!(app.snapshot().unwrap().time, 2.0);
+}
+
+#[test]
+fn news_of_the_experiment_is_told_once() {
+    let mut app = in_lab();
+    let mut told = snapshot(&pendulum(), 2.5);
+    told.notices = ["the energy jumped".to_owned()].into();
+    app.update(Event::Snapshot(Arc::new(told.clone())));
+    assert!(app.notice.take().is_some_and(|notice| notice.text == "the energy jumped"));
+    app.update(Event::Snapshot(Arc::new(told)));
+    assert_eq!(app.notice, None);
+}
+
+#[test]
+fn a_page_of_text_does_not_scroll_beyond_its_end() {
+    let mut app = in_lab();
+    press(&mut app, "2");
+    app.update(Event::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20 }));
+    press(&mut app, "Down Down Down Down Down Down");
+    assert_eq!(app.scroll, 3);
+    press(&mut app, "Up");
+    assert_eq!(app.scroll, 2);
+    press(&mut app, "End g");
+    assert_eq!(app.scroll, 0);
+}

@@ -1,0 +1,136 @@
+//! The command line, run as a program: what it writes where, and how it exits.
+
+mod check;
+mod derive;
+mod list;
+mod run;
+mod write;
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// What a command did.
+struct Done {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+/// The program with an environment that is the same everywhere: English, UTF-8, an empty home.
+fn program(home: &Path) -> Command {
+    let mut command = Command::cargo_bin("phaselab").expect("cargo builds the program for tests");
+    command
+        .env_clear()
+        .env("HOME", home)
+        .env("LANG", "C.UTF-8")
+        .current_dir(home)
+        .timeout(std::time::Duration::from_secs(120));
+    command
+}
+
+fn done(command: &mut Command) -> Done {
+    let output = command.output().expect("the program can be started");
+    Done {
+        code: output.status.code().expect("it exits by itself"),
+        stdout: String::from_utf8(output.stdout).expect("UTF-8 on standard output"),
+        stderr: String::from_utf8(output.stderr).expect("UTF-8 on standard error"),
+    }
+}
+
+/// Runs the program in an empty folder.
+fn phaselab(arguments: &[&str]) -> Done {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    done(program(home.path()).args(arguments))
+}
+
+/// Runs the program in a folder that holds `system.toml`.
+fn with_file(text: &str, arguments: &[&str]) -> Done {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(home.path().join("system.toml"), text).expect("a file can be written there");
+    done(program(home.path()).args(arguments))
+}
+
+impl Done {
+    /// What a command that succeeded wrote.
+    fn success(self) -> String {
+        assert_eq!((self.code, self.stderr.as_str()), (0, ""), "{}", self.stdout);
+        self.stdout
+    }
+
+    fn json(self) -> Value {
+        let text = self.success();
+        serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why} in {text}"))
+    }
+
+    /// Holds that a command failed with a code, wrote nothing, and said all of this.
+    fn fails(self, code: i32, said: &[&str]) {
+        assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
+        for words in said {
+            assert!(self.stderr.contains(words), "no `{words}` in: {}", self.stderr);
+        }
+    }
+}
+
+/// A pendulum of length 1 where g = 1, thrown from the bottom.
+const PENDULUM: &str = r#"
+title = "A pendulum"
+
+[coordinates]
+theta = { initial = 0.0, velocity = "w" }
+
+[parameters]
+m = 2.0
+w = 1.0
+
+[lagrangian]
+L = "1/2*m*theta'^2 + m*cos(theta)"
+"#;
+
+#[test]
+fn help_and_version_go_to_standard_output() {
+    let help = phaselab(&["--help"]).success();
+    for words in ["list", "derive", "check", "run", "methods", "PRESET|FILE", "Exit status"] {
+        assert!(help.contains(words), "no `{words}` in {help}");
+    }
+    assert_eq!(
+        phaselab(&["--version"]).success(),
+        concat!("phaselab ", env!("CARGO_PKG_VERSION"), "\n")
+    );
+    for command in ["list", "derive", "check", "run", "methods"] {
+        assert!(phaselab(&[command, "--help"]).success().contains("Usage:"), "{command}");
+    }
+}
+
+#[test]
+fn wrong_use_is_told_with_exit_2() {
+    phaselab(&["run"]).fails(2, &["PRESET|FILE", "Usage:"]);
+    phaselab(&["run", "pendulum", "--format", "xml"]).fails(2, &["xml", "csv", "jsonl"]);
+    phaselab(&["run", "pendulum", "--untli", "3"]).fails(2, &["--untli", "--until"]);
+    phaselab(&["run", "pendulum", "--every", "1", "--at", "1,2"]).fails(2, &["--every", "--at"]);
+    phaselab(&["list", "everything"]).fails(2, &["everything"]);
+}
+
+#[test]
+fn a_name_that_is_not_found_gets_the_nearest_one() {
+    phaselab(&["derive", "pendulm"]).fails(2, &["there is no preset `pendulm`", "`pendulum`"]);
+    phaselab(&["run", "heavytop"]).fails(2, &["did you mean `heavy-top`?"]);
+    phaselab(&["derive", "./pendulum"]).fails(2, &["cannot read ./pendulum"]);
+    phaselab(&["derive", "pendulum.toml"]).fails(2, &["cannot read pendulum.toml"]);
+    phaselab(&["check", "pendulum.toml"]).fails(2, &["cannot read pendulum.toml"]);
+}
+
+#[test]
+fn a_users_preset_comes_before_a_shipped_one() {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let folder = home.path().join(".config/phaselab/presets");
+    std::fs::create_dir_all(&folder).expect("a folder can be made there");
+    std::fs::write(folder.join("pendulum.toml"), PENDULUM).expect("a file can be written there");
+    let derived = done(program(home.path()).args(["derive", "pendulum"])).success();
+    assert!(derived.starts_with("A pendulum\n"), "{derived}");
+    let listed = done(program(home.path()).args(["list"])).success();
+    let named = listed.lines().filter(|line| line.starts_with("  pendulum "));
+    assert_eq!(named.count(), 1, "{listed}");
+    assert!(listed.contains("A pendulum (your own)"), "{listed}");
+}

@@ -1,0 +1,137 @@
+//! `check`: mistakes of the text, and claims that are false.
+
+use super::{PENDULUM, phaselab, with_file};
+
+fn claim(lines: &str) -> String {
+    format!("{PENDULUM}\n{lines}\n")
+}
+
+#[test]
+fn a_file_without_mistakes_is_passed_in_silence() {
+    assert_eq!(with_file(PENDULUM, &["check", "system.toml"]).success(), "");
+}
+
+#[test]
+fn mistakes_are_shown_at_their_places_with_exit_65() {
+    let wrong = PENDULUM.replace("m*cos(theta)", "m*cso(theta) + k");
+    with_file(&wrong, &["check", "system.toml"]).fails(
+        65,
+        &[
+            "system.toml:12:",
+            "there is no function `cso`",
+            "`cos`",
+            "`k`",
+            "2 mistakes in system.toml",
+        ],
+    );
+}
+
+#[test]
+fn a_file_with_mistakes_is_neither_run_nor_derived() {
+    let wrong = PENDULUM.replace("theta'^2", "theta''^2");
+    for command in ["run", "derive"] {
+        with_file(&wrong, &[command, "system.toml"])
+            .fails(65, &["system.toml:12:12", "`theta''` may not stand here"]);
+    }
+}
+
+#[test]
+fn a_warning_is_shown_and_is_no_failure() {
+    let unused = PENDULUM.replace("m = 2.0", "m = 2.0\nidle = 1.0");
+    let done = with_file(&unused, &["check", "system.toml"]);
+    assert_eq!((done.code, done.stdout.as_str()), (0, ""));
+    assert!(done.stderr.contains("idle"), "{}", done.stderr);
+}
+
+#[test]
+fn a_false_claim_of_conservation_is_a_mistake_where_it_stands() {
+    let file =
+        claim("[[observables]]\nname = \"speed\"\nexpression = \"theta'\"\nconserved = true");
+    with_file(&file, &["check", "system.toml"]).fails(
+        65,
+        &["`speed` is said to be conserved, but it is not", "conserved = true", "drifts by"],
+    );
+    let file = claim("[expect]\nconserves = [\"energy\", \"p_theta\"]");
+    with_file(&file, &["check", "system.toml"])
+        .fails(65, &["`p_theta` is said to be conserved", "1 mistake"]);
+}
+
+#[test]
+fn a_true_claim_is_passed_proved_or_not() {
+    let energy = claim("[expect]\nconserves = [\"energy\"]");
+    assert_eq!(with_file(&energy, &["check", "system.toml"]).success(), "");
+    let hidden = claim(
+        "[[observables]]\nname = \"square\"\nexpression = \"(theta'^2/2 - cos(theta))^2\"\nconserved = true",
+    );
+    assert_eq!(with_file(&hidden, &["check", "system.toml"]).success(), "");
+}
+
+#[test]
+fn what_is_conserved_may_not_be_denied() {
+    let file =
+        claim("[[observables]]\nname = \"half\"\nexpression = \"energy/2\"\nconserved = false");
+    with_file(&file, &["check", "system.toml"])
+        .fails(65, &["`half` is said not to be conserved, but it is"]);
+}
+
+#[test]
+fn a_wrong_number_is_a_mistake_and_a_right_one_is_not() {
+    // the height of the throw: cos θ = 1 − w²/2, at a quarter of the period 4 K(w²/4)
+    let value = |at: &str, is: &str| {
+        claim(&format!(
+            "[expect]\nvalues = [{{ name = \"top\", expression = \"theta\", at = {at}, is = {is}, within = 1e-9 }}]"
+        ))
+    };
+    let right = value("1.685750354812596", "1.0471975511965976");
+    assert_eq!(with_file(&right, &["check", "system.toml"]).success(), "");
+    let wrong = value("1.685750354812596", "1.04720");
+    with_file(&wrong, &["check", "system.toml"])
+        .fails(65, &["top: this is 1.04719755", "not 1.0472", "off by 2.4e-6"]);
+    let early = value("-1.0", "0.0");
+    with_file(&early, &["check", "system.toml"]).fails(65, &["before the start, t = 0"]);
+}
+
+#[test]
+fn a_claim_beyond_a_fault_cannot_be_checked() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 + 1/x\"\n[expect]\nvalues = [\n  \
+                { name = \"after the fall\", expression = \"x\", at = 9.0, is = 1.0 },\n]\n";
+    with_file(file, &["check", "system.toml"]).fails(65, &["this cannot be checked", "t = 1.11"]);
+}
+
+#[test]
+fn several_files_are_all_checked() {
+    let done = with_file(PENDULUM, &["check", "system.toml", "system.toml"]);
+    assert_eq!(done.success(), "");
+    let wrong = PENDULUM.replace("m*cos", "n*cos");
+    with_file(&wrong, &["check", "system.toml", "system.toml"]).fails(65, &["mistakes in 2 files"]);
+}
+
+#[test]
+fn json_goes_to_standard_output() {
+    let wrong = PENDULUM.replace("m*cos", "n*cos");
+    let done = with_file(&wrong, &["check", "system.toml", "--format", "json"]);
+    assert_eq!(done.code, 65);
+    let object: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON");
+    let mistake = &object["files"][0]["mistakes"][0];
+    assert_eq!(mistake["severity"], "error");
+    assert_eq!((mistake["line"].as_u64(), mistake["column"].as_u64()), (Some(12), Some(23)));
+    assert!(mistake["message"].as_str().is_some_and(|m| m.contains("`n`")), "{object}");
+}
+
+#[test]
+fn every_shipped_preset_keeps_its_claims() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/presets");
+    let mut files = Vec::new();
+    for folder in std::fs::read_dir(root).expect("the presets are there") {
+        let folder = folder.expect("a folder can be read").path();
+        for file in std::fs::read_dir(folder).expect("a folder of presets") {
+            files.push(file.expect("a file").path().display().to_string());
+        }
+    }
+    files.sort();
+    assert!(files.len() > 20, "{files:?}");
+    let arguments: Vec<&str> =
+        ["check"].into_iter().chain(files.iter().map(String::as_str)).collect();
+    assert_eq!(phaselab(&arguments).success(), "");
+}

@@ -1,0 +1,101 @@
+//! `derive`: the keys and the syntax that other programs read.
+
+use std::collections::HashMap;
+
+use serde_json::Value;
+
+use super::{PENDULUM, done, phaselab, program, with_file};
+use phaselab::model::{Allowed, Scope};
+use phaselab::preset::Catalog;
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_else(|| panic!("{value} is not an expression"))
+}
+
+#[test]
+fn a_pendulum_as_an_object() {
+    let object = with_file(PENDULUM, &["derive", "system.toml", "--format", "json"]).json();
+    assert_eq!(object["coordinates"], serde_json::json!(["theta"]));
+    assert_eq!(text(&object["momenta"]["p_theta"]), "m*theta'");
+    assert_eq!(text(&object["equations"]["theta''"]), "-sin(theta)");
+    assert_eq!(object["mass_matrix"], serde_json::json!([["m"]]));
+    assert_eq!(object["right_hand_side"], serde_json::json!(["-m*sin(theta)"]));
+    assert_eq!(text(&object["hamiltonian"]), "1/2*p_theta^2/m - m*cos(theta)");
+    assert_eq!(text(&object["energy"]), "1/2*m*theta'^2 - m*cos(theta)");
+    assert_eq!(object["cyclic"], serde_json::json!([]));
+    assert_eq!(object["conserved"][0]["name"], "energy");
+    assert_eq!(object["constraints"], serde_json::json!([]));
+    assert_eq!(object["transformations"], serde_json::json!([]));
+    assert!(object.get("why").is_none());
+}
+
+#[test]
+fn a_hamiltonian_gives_both_rates() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\n\
+                [hamiltonian]\nH = \"p_x^2/2 + x^4/4\"\n";
+    let object = with_file(file, &["derive", "system.toml", "--format", "json"]).json();
+    assert_eq!(text(&object["equations"]["x'"]), "p_x");
+    assert_eq!(text(&object["equations"]["p_x'"]), "-x^3");
+    assert_eq!(text(&object["hamiltonian"]), "1/2*p_x^2 + 1/4*x^4");
+    assert!(object["mass_matrix"].is_null());
+}
+
+#[test]
+fn what_has_no_closed_form_is_null_and_says_why() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, velocity = 0.1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 + x'^4/4 + x'^6/6 - x^2/2\"\n";
+    let object = with_file(file, &["derive", "system.toml", "--format", "json"]).json();
+    assert!(object["hamiltonian"].is_null(), "{object}");
+    assert!(text(&object["why"]).contains("hamiltonian: "), "{object}");
+}
+
+#[test]
+fn every_preset_derives_in_its_own_syntax() {
+    for entry in Catalog::with_folder(None).entries() {
+        let name = entry.name.as_str();
+        let object = phaselab(&["derive", name, "--format", "json"]).json();
+        let document = entry.document().expect("a shipped preset is at hand");
+        let mut model = document.read().expect("a shipped preset is right").model;
+        let mut scope = Scope::new(&model, Allowed::Observable, "a test");
+        let momenta = object["momenta"].as_object().expect("an object of momenta");
+        let equations = object["equations"].as_object().cloned().unwrap_or_default();
+        let conserved = object["conserved"].as_array().expect("a list").iter();
+        let all: HashMap<String, &Value> = momenta
+            .iter()
+            .chain(&equations)
+            .map(|(name, e)| (name.clone(), e))
+            .chain(conserved.map(|c| (c["name"].to_string(), &c["expression"])))
+            .chain([("energy".to_owned(), &object["energy"])])
+            .collect();
+        for (quantity, e) in all {
+            let read = scope.read(&mut model.pool, text(e));
+            assert!(read.is_some(), "{name}, {quantity}: {:?}", scope.mistakes);
+        }
+    }
+}
+
+#[test]
+fn text_is_mathematics_in_unicode_and_in_ascii() {
+    let unicode = phaselab(&["derive", "pendulum"]).success();
+    for line in ["  L = ½ m l² θ̇² + m l g cos θ", "  θ̈ = −g sin θ/l", "  E   (∂L/∂t = 0)"]
+    {
+        assert!(unicode.contains(line), "no `{line}` in {unicode}");
+    }
+    let home = tempfile::tempdir().expect("a temporary folder");
+    for preset in Catalog::with_folder(None).entries() {
+        let name = preset.name.as_str();
+        let ascii = done(program(home.path()).env("LC_ALL", "C").args(["derive", name])).success();
+        assert!(ascii.is_ascii(), "{name}: {ascii}");
+    }
+}
+
+#[test]
+fn latex_is_one_aligned_block() {
+    let latex = phaselab(&["derive", "damped-pendulum", "--format", "latex"]).success();
+    assert!(latex.contains("\\begin{align*}\nL &= \\frac{1}{2} m {l}^{2} {\\dot{\\theta}}^{2}"));
+    assert!(latex.contains("\\ddot{\\theta} &= "), "{latex}");
+    assert!(latex.contains("F &= \\frac{1}{2} c {\\dot{\\theta}}^{2}"), "{latex}");
+    assert!(latex.ends_with("\\end{align*}\n"), "{latex}");
+    let opened = latex.matches('{').count();
+    assert_eq!(opened, latex.matches('}').count());
+}

@@ -1,0 +1,288 @@
+//! `run`: which rows, which columns, which numbers.
+
+use serde_json::Value;
+
+use super::{Done, PENDULUM, phaselab, with_file};
+
+/// Runs the pendulum thrown from the bottom.
+fn run(arguments: &[&str]) -> Done {
+    let mut all = vec!["run", "system.toml"];
+    all.extend(arguments);
+    with_file(PENDULUM, &all)
+}
+
+/// The rows of CSV, without its head.
+fn csv(text: &str) -> Vec<Vec<f64>> {
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    rows.map(|row| row.split(',').map(|x| x.parse().unwrap_or(f64::NAN)).collect()).collect()
+}
+
+fn rows(object: &Value) -> Vec<Vec<Option<f64>>> {
+    let rows = object["rows"].as_array().expect("rows");
+    let row = |row: &Value| row.as_array().expect("a row").iter().map(Value::as_f64).collect();
+    rows.iter().map(row).collect()
+}
+
+#[test]
+fn csv_says_what_was_run_and_names_its_columns() {
+    let text = run(&["--until", "1"]).success();
+    let head: Vec<&str> = text.lines().take(5).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    assert_eq!(head[0], format!("# phaselab {version}: A pendulum"));
+    assert_eq!(head[1], "# parameters: m=2.0 w=1.0");
+    assert!(head[2].starts_with("# method: name=taylor"), "{}", head[2]);
+    assert_eq!(head[3], "t,theta,theta',p_theta,energy");
+    assert_eq!(head[4], "0.0,0.0,1.0,2.0,-1.0");
+}
+
+#[test]
+fn columns_are_in_their_order_and_extra_ones_last() {
+    let file = r#"
+        title = "Two"
+        [coordinates]
+        x = { initial = 1, velocity = 0.5 }
+        phi = { initial = 0 }
+        [lagrangian]
+        L = "1/2*x'^2 + 1/2*(1 + x^2)*phi'^2 - x^2/2"
+        [[observables]]
+        name = "a, with a comma"
+        expression = "x + phi"
+    "#;
+    let arguments = ["run", "system.toml", "--observe", "x*p_phi", "--observe", "acc = x''"];
+    let object =
+        with_file(file, &[&arguments[..], &["--at", "0", "--format", "json"]].concat()).json();
+    let columns = serde_json::json!([
+        "t",
+        "x",
+        "phi",
+        "x'",
+        "phi'",
+        "p_x",
+        "p_phi",
+        "energy",
+        "a, with a comma",
+        "x*p_phi",
+        "acc"
+    ]);
+    assert_eq!(object["columns"], columns);
+    assert_eq!(rows(&object)[0][10], Some(-1.0));
+    let text = with_file(file, &[&arguments[..], &["--at", "0"]].concat()).success();
+    assert!(text.contains(",energy,\"a, with a comma\",x*p_phi,acc\n"), "{text}");
+}
+
+#[test]
+fn a_hamiltonian_has_velocities_too() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, momentum = 3 }\n\
+                [hamiltonian]\nH = \"p_x^2/4 + x^2\"\n";
+    let text = with_file(file, &["run", "system.toml", "--at", "0"]).success();
+    assert!(text.ends_with("t,x,x',p_x,energy\n0.0,1.0,1.5,3.0,3.25\n"), "{text}");
+}
+
+#[test]
+fn rows_are_at_the_times_asked_for() {
+    let times = |arguments: &[&str]| -> Vec<f64> {
+        csv(&run(arguments).success()).iter().map(|row| row[0]).collect()
+    };
+    assert_eq!(times(&["--at", "0.1,0.30000000000000004,7"]), [0.1, 0.300_000_000_000_000_04, 7.0]);
+    assert_eq!(times(&["--at", "0, pi/2"]), [0.0, std::f64::consts::FRAC_PI_2]);
+    assert_eq!(times(&["--until", "0.5", "--every", "0.1"]), [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]);
+    assert_eq!(times(&["--until", "1", "--every", "0.4"]), [0.0, 0.4, 0.8]);
+    assert_eq!(times(&["--until", "0"]), [0.0]);
+    let even = times(&["--until", "3"]);
+    assert_eq!((even.len(), even[0], even[1], even[200]), (201, 0.0, 0.015, 3.0));
+    let long = times(&[]);
+    assert_eq!((long.len(), long[200]), (201, 10.0));
+}
+
+#[test]
+fn a_file_says_when_a_run_begins_and_ends() {
+    let file = format!("{PENDULUM}\n[run]\nstart = -2.0\nuntil = 3.0\n");
+    let text = with_file(&file, &["run", "system.toml", "--every", "2.5"]).success();
+    let times: Vec<f64> = csv(&text).iter().map(|row| row[0]).collect();
+    assert_eq!(times, [-2.0, 0.5, 3.0]);
+    let text = with_file(&file, &["run", "system.toml", "--at", "-1,-0.5"]).success();
+    assert_eq!(csv(&text).len(), 2);
+    with_file(&file, &["run", "system.toml", "--at", "-3"]).fails(2, &["begins at -2", "-3"]);
+}
+
+#[test]
+fn times_out_of_order_are_refused() {
+    run(&["--at", "1,1"]).fails(2, &["--at", "1 follows 1"]);
+    run(&["--at", "2,1"]).fails(2, &["1 follows 2"]);
+    run(&["--at", "2", "--until", "1"]).fails(2, &["2 is after the end"]);
+    run(&["--until", "-1"]).fails(2, &["begins at 0"]);
+    run(&["--every", "0"]).fails(2, &["--every"]);
+    run(&["--every", "-1"]).fails(2, &["--every"]);
+    run(&["--at", "soon"]).fails(2, &["--at", "soon"]);
+    run(&["--until", "1/0"]).fails(2, &["--until"]);
+}
+
+#[test]
+fn parameters_are_set_by_name() {
+    let object = run(&["--set", "m=3", "--set", "w=-0.5", "--at", "0", "--format", "json"]).json();
+    assert_eq!(object["parameters"], serde_json::json!({ "m": 3.0, "w": -0.5 }));
+    // the initial velocity is the parameter w
+    assert_eq!(rows(&object)[0][2..4], [Some(-0.5), Some(-1.5)]);
+    run(&["--set", "mm=3"]).fails(2, &["there is no parameter `mm`", "did you mean `m`?"]);
+    run(&["--set", "m"]).fails(2, &["name=value"]);
+    run(&["--set", "m=heavy"]).fails(2, &["m=heavy"]);
+    run(&["--set", "m=inf"]).fails(2, &["finite"]);
+}
+
+#[test]
+fn initial_values_are_set_by_name_and_momenta_solve_for_velocities() {
+    let first = |arguments: &[&str]| -> Vec<f64> {
+        let mut all = vec!["--at", "0"];
+        all.extend(arguments);
+        csv(&run(&all).success())[0][1..4].to_vec()
+    };
+    assert_eq!(first(&["--init", "theta=-1"]), [-1.0, 1.0, 2.0]);
+    assert_eq!(first(&["--init", "theta=w/4"]), [0.25, 1.0, 2.0]);
+    assert_eq!(first(&["--init", "theta'=-3"]), [0.0, -3.0, -6.0]);
+    assert_eq!(first(&["--init", "p_theta=5"]), [0.0, 2.5, 5.0]);
+    assert_eq!(
+        first(&["--init", "p_theta=5", "--init", "theta=2", "--set", "m=4"]),
+        [2.0, 1.25, 5.0]
+    );
+    run(&["--init", "thta=1"]).fails(2, &["there is no initial value `thta`", "`theta`"]);
+    run(&["--init", "theta'=1", "--init", "p_theta=1"]).fails(2, &["theta'", "p_theta"]);
+    run(&["--init", "theta=x"]).fails(2, &["theta=x"]);
+}
+
+#[test]
+fn a_velocity_in_a_hamiltonian_solves_for_the_momentum() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, momentum = 3 }\n\
+                y = { initial = 0, momentum = 1 }\n\
+                [hamiltonian]\nH = \"sqrt(1 + p_x^2 + p_y^2) + x\"\n";
+    let text = with_file(file, &["run", "system.toml", "--at", "0", "--init", "x'=0.6"]).success();
+    let row = &csv(&text)[0];
+    // p_y stays 1, and 0.6 = p_x/√(2 + p_x²)
+    assert!((row[3] - 0.6).abs() < 1e-15 && (row[6] - 1.0).abs() < 1e-15, "{row:?}");
+    assert!((row[5] - 0.6 * (2.0_f64 / 0.64).sqrt()).abs() < 1e-14, "{row:?}");
+}
+
+#[test]
+fn json_holds_everything() {
+    let object = run(&["--until", "20", "--format", "json"]).json();
+    assert_eq!(object["phaselab"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(object["title"], "A pendulum");
+    assert_eq!(object["method"]["name"], "taylor");
+    assert_eq!(rows(&object).len(), 201);
+    let energy = &object["invariants"][0];
+    assert_eq!((&energy["name"], &energy["reason"]), (&"energy".into(), &"∂L/∂t = 0".into()));
+    assert_eq!(energy["initial"].as_f64(), Some(-1.0));
+    assert_eq!(energy["verdict"], "exact");
+    assert!(energy["final"].as_f64().is_some_and(|x| (x + 1.0).abs() < 1e-14));
+    assert!(energy["max_drift"].as_f64().is_some_and(|x| x < 1e-14));
+    assert_eq!(object["events"], serde_json::json!([]));
+    assert_eq!(object["status"], "completed");
+    assert!(object["message"].is_null());
+    let keys: Vec<&String> = object.as_object().expect("an object").keys().collect();
+    let order = [
+        "phaselab",
+        "title",
+        "parameters",
+        "method",
+        "columns",
+        "rows",
+        "invariants",
+        "events",
+        "status",
+        "message",
+    ];
+    assert_eq!(keys, order);
+}
+
+#[test]
+fn json_lines_hold_the_same() {
+    let whole = run(&["--until", "2", "--format", "json"]).json();
+    let text = run(&["--until", "2", "--format", "jsonl"]).success();
+    let lines: Vec<Value> =
+        text.lines().map(|line| serde_json::from_str(line).expect("JSON on every line")).collect();
+    assert_eq!(lines.len(), 203);
+    for key in ["phaselab", "title", "parameters", "method", "columns"] {
+        assert_eq!(lines[0][key], whole[key], "{key}");
+    }
+    assert_eq!(Value::Array(lines[1..202].to_vec()), whole["rows"]);
+    for key in ["invariants", "events", "status", "message"] {
+        assert_eq!(lines[202][key], whole[key], "{key}");
+    }
+}
+
+#[test]
+fn numbers_read_back_to_the_same_bits_in_every_format() {
+    let arguments = ["--until", "3", "--every", "0.7"];
+    let json = run(&[&arguments[..], &["--format", "json"]].concat()).json();
+    let csv = csv(&run(&arguments).success());
+    let json: Vec<Vec<f64>> =
+        rows(&json).into_iter().map(|row| row.into_iter().flatten().collect()).collect();
+    assert_eq!(json, csv);
+}
+
+#[test]
+fn what_is_not_finite_is_null_or_empty() {
+    let observe = ["--at", "0,1", "--observe", "u=ln(theta)", "--observe", "v=1/theta"];
+    let object = run(&[&observe[..], &["--format", "json"]].concat()).json();
+    assert_eq!(rows(&object)[0][5..], [None, None]);
+    assert!(rows(&object)[1][5..].iter().all(Option::is_some));
+    let text = run(&observe).success();
+    assert!(text.contains("0.0,0.0,1.0,2.0,-1.0,,\n"), "{text}");
+}
+
+#[test]
+fn an_observable_that_cannot_be_read_is_shown_with_a_caret() {
+    run(&["--observe", "thta + 1"]).fails(2, &["--observe:1:1", "^^^^", "did you mean `theta`?"]);
+    run(&["--observe", "theta", "--observe", "energy=1"]).fails(2, &["two columns `theta`"]);
+    run(&["--observe", "=1"]).fails(2, &["name"]);
+}
+
+#[test]
+fn friction_breaks_the_energy_and_the_ledger_keeps_it() {
+    let object =
+        phaselab(&["run", "driven-damped-pendulum", "--format", "json", "--until", "20"]).json();
+    let invariants = object["invariants"].as_array().expect("a list");
+    let find = |name: &str| invariants.iter().find(|i| i["name"] == name).expect("a gauge");
+    assert_eq!(find("energy")["verdict"], "broken by the physics");
+    assert_eq!(find("energy ledger")["verdict"], "exact");
+}
+
+#[test]
+fn a_fault_on_the_way_keeps_the_rows_before_it() {
+    // falls into the centre at π/(2√2) = 1.1107…
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 + 1/x\"\n";
+    let run = |format: &str| {
+        with_file(file, &["run", "system.toml", "--every", "0.5", "--format", format])
+    };
+    for format in ["csv", "json", "jsonl"] {
+        let done = run(format);
+        assert_eq!(done.code, 1, "{}", done.stderr);
+        assert!(done.stderr.starts_with("phaselab: ") && done.stderr.contains("1.110"));
+        assert!(done.stdout.contains("faulted"), "{}", done.stdout);
+        assert!(done.stdout.lines().any(|line| line.contains("1.0,0.")), "{}", done.stdout);
+    }
+    let object: Value = serde_json::from_str(&run("json").stdout).expect("JSON");
+    assert_eq!(object["status"], "faulted");
+    assert_eq!(rows(&object).len(), 3);
+    assert!(object["message"].as_str().is_some_and(|why| why.contains("1.110")), "{object}");
+}
+
+#[test]
+fn a_motion_that_cannot_begin_is_a_fault() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 0 }\n[lagrangian]\n\
+                L = \"1/2*x^2*x'^2 - x\"\n";
+    let run = |arguments: &[&str]| {
+        let all = [&["run", "system.toml", "--format", "json"], arguments].concat();
+        let done = with_file(file, &all);
+        assert_eq!(done.code, 1, "{}", done.stderr);
+        let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
+        assert_eq!(object["status"], "faulted");
+        (rows(&object).len(), done.stderr)
+    };
+    // there is a state at the start, but nothing follows from it
+    let (count, told) = run(&[]);
+    assert!(count == 1 && told.contains("the mass matrix is singular at t = 0"), "{told}");
+    // there is not even a state
+    let (count, told) = run(&["--init", "p_x=1"]);
+    assert!(count == 0 && told.contains("singular"), "{told}");
+}

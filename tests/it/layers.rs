@@ -1,0 +1,178 @@
+//! The house keeps its floors: which room uses which, read from every file of `src`.
+//!
+//! A room may use the rooms below it, save for the exceptions named here. `ARCHITECTURE.md` shows the same table.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms from the ground up, and the lower ones each may still not use.
+const ROOMS: [(&str, &[&str]); 13] = [
+    ("expr", &[]),
+    ("model", &[]),
+    ("preset", &[]),
+    ("mechanics", &[]),
+    ("system", &[]),
+    ("integrate", &[]),
+    ("analysis", &[]),
+    ("experiment", &[]),
+    ("worker", &[]),
+    ("app", &["worker"]),
+    ("view", &["worker"]),
+    ("shell", &[]),
+    ("cli", &[]),
+];
+
+/// What only some rooms let in from outside: what it is, how code names it, the rooms.
+const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
+    ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
+    ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
+    ("files", &["std::fs", "fs::", "File::"], &["preset", "shell", "cli"]),
+    (
+        "the terminal",
+        &["rustix::", "crossterm", "signal_hook::", "stdin(", "stdout(", "stderr(", "IsTerminal"],
+        &["shell", "cli"],
+    ),
+];
+
+/// A source file and the room it stands in.
+struct File {
+    path: PathBuf,
+    room: String,
+    /// How many `super` lead out of the room.
+    depth: usize,
+    /// Its code, without comments.
+    code: String,
+}
+
+fn files() -> Vec<File> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    let mut folders = vec![source.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder of src") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let inside = path.strip_prefix(&source).expect("inside").with_extension("");
+                let mut parts = inside.iter().map(|part| part.to_string_lossy().into_owned());
+                let room = parts.next().expect("a name");
+                let code = fs::read_to_string(&path).expect("a source file");
+                let code =
+                    code.lines().map(|line| line.split("//").next().unwrap_or("").to_owned());
+                let code = code.collect::<Vec<_>>().join("\n");
+                files.push(File { depth: parts.count() + 1, path, room, code });
+            }
+        }
+    }
+    files
+}
+
+fn floor(room: &str) -> Option<usize> {
+    ROOMS.iter().position(|(name, _)| *name == room)
+}
+
+/// The rooms that code names: after `crate::`, inside `crate::{…}`, and after more `super::` than the room is deep.
+fn rooms_named(code: &str, depth: usize) -> Vec<String> {
+    let mut named = Vec::new();
+    let way_out = "super::".repeat(depth);
+    for start in ["crate::", "phaselab::", way_out.as_str()] {
+        for (at, _) in code.match_indices(start) {
+            let before = code[..at].chars().next_back();
+            if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':' || c == '$') {
+                continue;
+            }
+            let rest = &code[at + start.len()..];
+            match rest.strip_prefix('{') {
+                Some(list) => named.extend(heads(list)),
+                None => named.extend(word(rest)),
+            }
+        }
+    }
+    named
+}
+
+/// The first words of the items of a `use` list, up to its closing brace.
+fn heads(list: &str) -> Vec<String> {
+    let mut heads = Vec::new();
+    let (mut depth, mut start) = (0, true);
+    for (at, character) in list.char_indices() {
+        match character {
+            '{' => depth += 1,
+            '}' if depth == 0 => break,
+            '}' => depth -= 1,
+            ',' if depth == 0 => start = true,
+            c if start && !c.is_whitespace() => {
+                heads.extend(word(&list[at..]));
+                start = false;
+            }
+            _ => {}
+        }
+    }
+    heads
+}
+
+fn word(text: &str) -> Option<String> {
+    let word: String = text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    (!word.is_empty()).then_some(word)
+}
+
+/// What is wrong with a use of one room by another.
+fn refusal(from: &str, to: &str) -> Option<String> {
+    let (Some(from_floor), Some(to_floor)) = (floor(from), floor(to)) else { return None };
+    if to_floor > from_floor {
+        return Some(format!("{from} uses {to}, which stands above it"));
+    }
+    let barred = ROOMS[from_floor].1.contains(&to);
+    barred.then(|| format!("{from} uses {to}, which it must not know"))
+}
+
+#[test]
+fn every_room_uses_only_what_it_may() {
+    let mut wrong = Vec::new();
+    for file in files().iter().filter(|file| floor(&file.room).is_some()) {
+        for named in rooms_named(&file.code, file.depth) {
+            wrong.extend(refusal(&file.room, &named).map(|why| (file.path.clone(), why)));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn the_world_outside_stays_where_it_is_let_in() {
+    let (files, mut wrong) = (files(), Vec::new());
+    for file in files.iter().filter(|file| floor(&file.room).is_some()) {
+        for (what, words, rooms) in OUTSIDE.iter().filter(|o| !o.2.contains(&file.room.as_str())) {
+            let found = words.iter().filter(|word| file.code.contains(**word));
+            wrong.extend(found.map(|word| (&file.path, what, word, rooms)));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn every_room_stands_in_the_table() {
+    for file in files() {
+        let known = floor(&file.room).is_some() || ["lib", "main"].contains(&file.room.as_str());
+        assert!(known, "{} belongs to no room of the table", file.path.display());
+    }
+}
+
+#[test]
+fn the_reader_of_uses_sees_them() {
+    let check = |code: &str, depth: usize, expected: &[&str]| {
+        assert_eq!(rooms_named(code, depth), expected, "{code}");
+    };
+    check("use crate::worker::Worker;", 1, &["worker"]);
+    check("use crate::{app::{App, Key}, view, shell::run};", 1, &["app", "view", "shell"]);
+    check("let x = crate::cli::main();", 2, &["cli"]);
+    check("use super::view::Look;", 1, &["view"]);
+    check("use super::theme::Theme;\nuse super::super::app::App;", 2, &["app"]);
+    assert_eq!(
+        refusal("view", "worker").as_deref(),
+        Some("view uses worker, which it must not know")
+    );
+    assert_eq!(refusal("app", "view").as_deref(), Some("app uses view, which stands above it"));
+    assert_eq!(refusal("shell", "worker"), None);
+    assert_eq!(refusal("app", "App"), None);
+}

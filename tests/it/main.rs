@@ -1,0 +1,24 @@
+//! One integration-test binary.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod analysis;
+mod app;
+mod build;
+mod cli;
+mod double;
+mod experiment;
+mod expr;
+mod expr_parse;
+mod hand;
+mod layers;
+mod mechanics;
+mod methods;
+mod plot;
+mod preset;
+mod readme;
+mod reference;
+mod screen;
+mod system;
+mod taylor;
+mod terminal;
+mod worker;

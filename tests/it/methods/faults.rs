@@ -1,0 +1,154 @@
+//! What a method cannot do, and how it says so.
+
+use phaselab::integrate::{METHODS, Settings, Stepping};
+use phaselab::system::Form;
+
+use crate::build::{dissipative, hamiltonian, lagrangian};
+
+use super::{Case, case, double_pendulum, fixed, named, pendulum, quartic};
+
+/// Why a method refuses a system.
+fn refusal(case: &Case, name: &str) -> String {
+    let method = named(name);
+    let why = (method.fits)(&case.system).expect_err("does not fit");
+    let made = (method.make)(&case.system, &Settings::default()).err();
+    assert_eq!(made.as_ref(), Some(&why));
+    why.to_string()
+}
+
+#[test]
+fn splitting_refuses_what_does_not_split_and_says_why() {
+    let polar = hamiltonian(&["r", "phi"], &[], "p_r^2/2 + p_phi^2/(2*r^2) - 1/r");
+    assert_eq!(
+        refusal(&case(polar, Form::Momentum, &[1.0, 0.0, 0.0, 1.0]), "leapfrog"),
+        "leapfrog cannot be used here: H is not of the form T(p) + V(q, t): ∂²H/∂p_phi∂r does \
+         not vanish"
+    );
+    let damped = dissipative(&["x"], &["c"], "1/2*x'^2 - 1/2*x^2", "1/2*c*x'^2", &["0"]);
+    assert_eq!(
+        refusal(&case(damped, Form::Velocity, &[1.0, 0.0]), "yoshida4"),
+        "yoshida4 cannot be used here: a force acts that does not come from H"
+    );
+    assert_eq!(
+        refusal(&quartic(), "yoshida8"),
+        "yoshida8 cannot be used here: there is no H in closed form: L is not quadratic in the \
+         velocities"
+    );
+    let growing = hamiltonian(&["x"], &[], "p_x^2*exp(t)/2 + x^2/2");
+    assert_eq!(
+        refusal(&case(growing, Form::Momentum, &[1.0, 0.0]), "yoshida6"),
+        "yoshida6 cannot be used here: H is not of the form T(p) + V(q, t): ∂²H/∂p_x∂t does not \
+         vanish"
+    );
+}
+
+#[test]
+fn a_lagrangian_that_splits_is_accepted() {
+    let l = "1/2*x'^2 + x'*y' + y'^2 - 1/4*x^4 - x*y";
+    let case = case(lagrangian(&["x", "y"], &[], l), Form::Velocity, &[0.5, 0.2, 0.1, -0.3]);
+    for method in METHODS {
+        assert_eq!((method.fits)(&case.system), Ok(()), "{}", method.name);
+    }
+}
+
+#[test]
+fn settings_without_sense_are_refused() {
+    let message = |name: &str, settings: Settings| {
+        let made = (named(name).make)(&pendulum().system, &settings);
+        made.err().expect("refused").to_string()
+    };
+    for (step, shown) in [(0.0, "0"), (-0.1, "-0.1"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        for method in fixed() {
+            assert_eq!(
+                message(method.name, Settings { step: Some(step), tolerance: None }),
+                format!("{} cannot be used here: the step {shown} is not above zero", method.name)
+            );
+        }
+    }
+    assert_eq!(
+        message("dop853", Settings { step: None, tolerance: Some(1e-18) }),
+        "dop853 cannot be used here: the tolerance 1e-18 is not between 1e-15 and 1"
+    );
+}
+
+/// What a method says when it cannot go on; the state before is kept, and finite.
+fn fault(case: &Case, name: &str, step: f64, until: f64) -> String {
+    let mut stepper = case.stepper(named(name), step);
+    let mut steps = 0;
+    loop {
+        let before = stepper.state().clone();
+        if let Err(fault) = stepper.step(until) {
+            assert_eq!(stepper.state(), &before, "{name}");
+            assert!(stepper.state().is_finite());
+            return fault.to_string();
+        }
+        steps += 1;
+        assert!(stepper.time() < until && steps < 100_000, "{name} arrived");
+    }
+}
+
+#[test]
+fn an_implicit_step_too_long_to_be_solved_is_a_fault() {
+    for name in ["gauss4", "gauss6"] {
+        assert_eq!(
+            fault(&double_pendulum(), name, 5.0, 100.0),
+            "the implicit step of size 5e0 was not solved at t = 0, x = 0.9, y = -0.4: try a \
+             smaller step"
+        );
+    }
+}
+
+#[test]
+fn a_pole_is_a_fault() {
+    // x = t − 1 arrives at a pole
+    let h = "p_x + 1/x";
+    let case = case(hamiltonian(&["x"], &[], h), Form::Momentum, &[-1.0, 0.0]);
+    assert_eq!(
+        fault(&case, "rk4", 0.125, 2.0),
+        "pₓ is no longer finite at t = 1, x = 0: a collision, a pole, or a value \
+         outside a function"
+    );
+    let message = fault(&case, "dop853", 0.0, 2.0);
+    assert!(
+        message.starts_with("the step became too small to move the clock at t = "),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_singular_mass_matrix_is_a_fault() {
+    let l = "1/2*x^2*x'^2 + 1/2*y'^2 + x";
+    let case = case(lagrangian(&["x", "y"], &[], l), Form::Velocity, &[0.0, 0.0, 0.0, 0.0]);
+    for method in METHODS.iter().filter(|method| (method.fits)(&case.system).is_ok()) {
+        let settings = match method.stepping {
+            Stepping::Fixed => Settings { step: Some(0.1), tolerance: None },
+            Stepping::Adaptive => Settings::default(),
+        };
+        let mut stepper = (method.make)(&case.system, &settings).expect("fits");
+        let outcome = stepper.start(&case.start, &[]).and_then(|()| stepper.step(1.0));
+        let message = outcome.expect_err("a fault").to_string();
+        assert_eq!(
+            message,
+            "the mass matrix is singular at t = 0, x = 0: a chart singularity or a degenerate \
+             Lagrangian",
+            "{}",
+            method.name
+        );
+    }
+}
+
+#[test]
+fn a_number_that_is_zero_but_for_rounding_does_not_stop_dop853() {
+    // the force on z vanishes identically, but not in the last digits
+    let h = "(p_x^2 + p_z^2)/2 - cos(x) + z*(tanh(2*x)*(1 + tanh(x)^2) - 2*tanh(x))";
+    let case = case(hamiltonian(&["x", "z"], &[], h), Form::Momentum, &[1.2, 0.0, 0.5, 0.0]);
+    let mut stepper = case.stepper_with(named("dop853"), Settings::default());
+    let mut steps = 0;
+    while stepper.time() < 20.0 {
+        stepper.step(20.0).expect("goes on");
+        steps += 1;
+        assert!(steps < 400, "at {}", stepper.time());
+    }
+    assert!(steps < 400, "{steps} steps");
+    assert!(stepper.state().values[1].abs() < 1e-12);
+}

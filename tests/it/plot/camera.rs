@@ -1,0 +1,101 @@
+//! The camera: face on, round about, and never out of the picture.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use phaselab::view::plot::{Bounds, Camera};
+use proptest::prelude::*;
+use ratatui::layout::Rect;
+
+fn close(found: [f64; 3], expected: [f64; 3]) {
+    let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(near, "{found:?} is not {expected:?}");
+}
+
+#[test]
+fn a_plane_system_is_seen_face_on_with_y_up() {
+    close(Camera::FACE_ON.project([1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn from_the_front_z_is_up_and_what_is_behind_is_deeper() {
+    let front = Camera { yaw: 0.0, pitch: 0.0, ..Camera::IN_SPACE };
+    close(front.project([1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+    close(front.project([0.0, 0.0, 1.0]), [0.0, 1.0, 0.0]);
+    close(front.project([0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
+    let side = front.turned(FRAC_PI_2, 0.0);
+    close(side.project([0.0, 1.0, 0.0]), [1.0, 0.0, 0.0]);
+    close(side.project([1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn perspective_makes_near_things_larger_and_is_safe_behind_the_eye() {
+    let camera = Camera { yaw: 0.0, pitch: 0.0, distance: Some(10.0), ..Camera::IN_SPACE };
+    let [near, ..] = camera.project([1.0, -2.0, 0.0]);
+    let [far, ..] = camera.project([1.0, 2.0, 0.0]);
+    assert!((near - 1.25).abs() < 1e-12 && (far - 10.0 / 12.0).abs() < 1e-12);
+    assert_eq!(camera.project([1.0, -50.0, 0.0])[0], 10.0);
+}
+
+#[test]
+fn pitch_stops_at_the_poles_and_zoom_within_reason() {
+    let camera = Camera::IN_SPACE.turned(100.0, 100.0).zoomed(1e9);
+    assert_eq!(camera.pitch, FRAC_PI_2);
+    assert_eq!(camera.zoom, 100.0);
+    assert_eq!(camera.turned(f64::NAN, f64::NAN).zoomed(f64::NAN), camera);
+}
+
+#[test]
+fn zoom_magnifies_and_pan_moves_the_picture() {
+    let area = Rect::new(0, 0, 40, 20);
+    let bounds = Bounds::around([[-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]]);
+    let plain = Camera::FACE_ON.frame(&bounds, area);
+    let near = Camera::FACE_ON.zoomed(2.0).frame(&bounds, area);
+    assert!(((plain.x.hi - plain.x.lo) / (near.x.hi - near.x.lo) - 2.0).abs() < 1e-12);
+    let moved = Camera::FACE_ON.panned(0.25, 0.0).frame(&bounds, area);
+    let column = |frame: phaselab::view::plot::Frame| frame.cell([0.01, 0.01]).unwrap().x;
+    assert_eq!(column(moved), column(plain) + 10, "a quarter of 40 columns to the right");
+}
+
+#[test]
+fn the_picture_does_not_breathe_while_it_is_turned() {
+    let area = Rect::new(0, 0, 60, 20);
+    let bounds = Bounds::around([[-3.0, -1.0, 0.0], [3.0, 1.0, 2.0]]);
+    let width = |yaw: f64| {
+        let frame = Camera { yaw, ..Camera::IN_SPACE }.frame(&bounds, area);
+        frame.x.hi - frame.x.lo
+    };
+    assert!((0..8).all(|i| (width(f64::from(i)) - width(0.0)).abs() < 1e-12));
+}
+
+proptest! {
+    #[test]
+    fn a_box_fits_its_frame_from_everywhere_with_equal_units(
+        low in prop::array::uniform3(-10.0..0.0_f64),
+        size in prop::array::uniform3(0.0..10.0_f64),
+        yaw in -PI..PI,
+        pitch in -FRAC_PI_2..FRAC_PI_2,
+        wide in 1_u16..200,
+        high in 1_u16..100,
+    ) {
+        let high_corner = std::array::from_fn(|i| low[i] + size[i]);
+        let bounds = Bounds::around([low, high_corner]);
+        let camera = Camera { yaw, pitch, ..Camera::IN_SPACE };
+        let frame = camera.frame(&bounds, Rect::new(0, 0, wide, high));
+        for corner in 0..8 {
+            let point = std::array::from_fn(|i| if corner >> i & 1 == 0 { low[i] } else { high_corner[i] });
+            let [x, y, _] = camera.project(point);
+            prop_assert!((0.0..=1.0).contains(&frame.x.fraction(x)));
+            prop_assert!((0.0..=1.0).contains(&frame.y.fraction(y)));
+        }
+        let unit = (frame.x.hi - frame.x.lo) / f64::from(wide);
+        let up = (frame.y.hi - frame.y.lo) / (2.0 * f64::from(high));
+        prop_assert!((unit / up - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_turn_keeps_lengths(point in prop::array::uniform3(-5.0..5.0_f64), yaw in -PI..PI, pitch in -1.5..1.5_f64) {
+        let seen = Camera { yaw, pitch, ..Camera::IN_SPACE }.project(point);
+        let length = |p: [f64; 3]| p.iter().map(|v| v * v).sum::<f64>();
+        prop_assert!((length(seen) - length(point)).abs() < 1e-12 * (1.0 + length(point)));
+    }
+}

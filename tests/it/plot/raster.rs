@@ -1,0 +1,232 @@
+//! Dots: united where lines cross, thin, round, and styled by the highest layer.
+
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::plot::{Frame, Marker, Pen, Raster, Scale};
+use phaselab::view::theme::Shade;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+
+use super::{dots, rows, unit};
+
+const PLAIN: Pen = Pen { style: Style::new(), layer: 0, fresh: 0, coverage: 1.0 };
+
+fn drawn(area: Rect, glyphs: Glyphs, draw: impl FnOnce(&mut Raster)) -> Buffer {
+    let mut raster = Raster::new(area, glyphs);
+    draw(&mut raster);
+    let mut buffer = Buffer::empty(area);
+    raster.draw(&mut buffer);
+    buffer
+}
+
+#[test]
+fn dots_of_crossing_lines_are_united() {
+    let area = Rect::new(0, 0, 12, 6);
+    let (up, down) = ([[0.0, 0.0], [1.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]);
+    let drawn = |lines: &[[[f64; 2]; 2]]| {
+        let mut raster = Raster::new(area, Glyphs::Braille);
+        for [a, b] in lines {
+            raster.line(&unit(area), *a, *b, &PLAIN);
+        }
+        raster
+    };
+    let mut union = dots(&drawn(&[up]));
+    union.extend(dots(&drawn(&[down])));
+    union.sort_unstable_by_key(|[x, y]| (*y, *x));
+    union.dedup();
+    assert_eq!(dots(&drawn(&[up, down])), union);
+    assert!(union.len() > dots(&drawn(&[up])).len());
+}
+
+#[test]
+fn a_shared_cell_takes_the_style_of_the_highest_layer_whatever_the_order() {
+    let area = Rect::new(0, 0, 4, 2);
+    let low = Pen::new(Style::new().fg(Color::Red), 1);
+    let high = Pen::new(Style::new().fg(Color::Blue).add_modifier(Modifier::BOLD), 2);
+    let frame = unit(area);
+    for pens in [[low, high], [high, low]] {
+        let buffer = drawn(area, Glyphs::Braille, |raster| {
+            for (pen, x) in pens.iter().zip([0.01, 0.2]) {
+                raster.points(&frame, [[x, 0.9]], pen);
+            }
+        });
+        assert_eq!(buffer[(0, 0)].fg, Color::Blue);
+        assert_eq!(buffer[(0, 0)].modifier, Modifier::BOLD);
+        assert_eq!(buffer[(0, 0)].symbol(), "⠉", "both dots are there");
+        assert_eq!(buffer[(1, 0)].symbol(), " ");
+    }
+}
+
+#[test]
+fn within_a_layer_the_newer_dot_gives_the_style() {
+    let area = Rect::new(0, 0, 1, 1);
+    let old = Pen { fresh: 1, ..Pen::new(Style::new().fg(Color::Red), 1) };
+    let new = Pen { fresh: 2, ..Pen::new(Style::new().fg(Color::Green), 1) };
+    let buffer = drawn(area, Glyphs::Braille, |raster| {
+        raster.dot([0, 0], &new);
+        raster.dot([1, 3], &old);
+    });
+    assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Green));
+}
+
+#[test]
+fn every_braille_dot_has_its_own_bit() {
+    let area = Rect::new(0, 0, 1, 1);
+    let expected = ['⠁', '⠈', '⠂', '⠐', '⠄', '⠠', '⡀', '⢀'];
+    for (index, symbol) in expected.into_iter().enumerate() {
+        let dot = [index as i32 % 2, index as i32 / 2];
+        let buffer = drawn(area, Glyphs::Braille, |raster| raster.dot(dot, &PLAIN));
+        assert_eq!(buffer[(0, 0)].symbol(), symbol.to_string());
+    }
+}
+
+#[test]
+fn half_blocks_have_two_dots_a_cell() {
+    let area = Rect::new(0, 0, 3, 1);
+    let buffer = drawn(area, Glyphs::HalfBlock, |raster| {
+        for dot in [[0, 0], [1, 1], [2, 0], [2, 1]] {
+            raster.dot(dot, &PLAIN);
+        }
+    });
+    assert_eq!(rows(&buffer), ["▀▄█"]);
+}
+
+#[test]
+fn in_ascii_a_line_shows_its_direction() {
+    let area = Rect::new(0, 0, 5, 5);
+    let line = |a, b| {
+        let buffer = drawn(area, Glyphs::Ascii, |raster| raster.line(&unit(area), a, b, &PLAIN));
+        rows(&buffer).concat().replace(' ', "")
+    };
+    assert_eq!(line([0.0, 0.5], [1.0, 0.5]), "-----");
+    assert_eq!(line([0.5, 0.0], [0.5, 1.0]), "|||||");
+    assert_eq!(line([0.0, 0.0], [1.0, 1.0]), "/////");
+    assert_eq!(line([0.0, 1.0], [1.0, 0.0]), "\\\\\\\\\\");
+}
+
+#[test]
+fn a_curve_of_many_points_is_one_dot_wide() {
+    let area = Rect::new(0, 0, 30, 15);
+    let mut raster = Raster::new(area, Glyphs::Braille);
+    let points = (0..=5000).map(|i| f64::from(i) / 5000.0).map(|x| [x, x.powi(3)]);
+    raster.polyline(&unit(area), points, &PLAIN);
+    let corners = dots(&raster).into_iter().filter(|[x, y]| {
+        let set = |dx: i32, dy: i32| raster.is_set([x + dx, y + dy]);
+        (set(-1, 0) || set(1, 0)) && (set(0, -1) || set(0, 1))
+    });
+    assert_eq!(corners.count(), 0);
+}
+
+#[test]
+fn a_line_is_whole_from_end_to_end() {
+    let area = Rect::new(0, 0, 20, 5);
+    let mut raster = Raster::new(area, Glyphs::Braille);
+    raster.line(&unit(area), [-3.0, 0.5], [7.0, 0.5], &PLAIN);
+    let columns: Vec<_> = dots(&raster).into_iter().map(|[x, _]| x).collect();
+    assert_eq!(columns, (0..40).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_circle_is_round_with_equal_units() {
+    for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
+        for (wide, high) in [(80, 24), (40, 40), (120, 33), (61, 50)] {
+            let area = Rect::new(0, 0, wide, high);
+            let scale = Scale::linear(-1.2, 1.2);
+            let frame = Frame::equal(scale, scale, area);
+            let mut raster = Raster::new(area, glyphs);
+            raster.circle(&frame, [0.0, 0.0], 1.0, &PLAIN);
+            let dots = dots(&raster);
+            let extent = |axis: usize| {
+                let along = dots.iter().map(|dot| dot[axis]);
+                f64::from(along.clone().max().unwrap() - along.min().unwrap())
+            };
+            // A cell is twice as high as wide; so many dots share each side of it.
+            let (across, down) = glyphs.dots();
+            let width = extent(0) / f64::from(across);
+            let height = 2.0 * extent(1) / f64::from(down);
+            // Beside the five percent a dot may be lost to rounding.
+            let dot = 2.0 / f64::from(down);
+            assert!(
+                (width - height).abs() <= 0.05 * height + if glyphs.is_ascii() { dot } else { 0.0 },
+                "{glyphs:?} {wide}×{high}: {width} by {height} cells"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_marker_stands_above_its_layer_and_below_the_next() {
+    let area = Rect::new(0, 0, 5, 1);
+    let frame = unit(area);
+    let across = |layer| Pen::new(Style::new().fg(Color::Red), layer);
+    let with_line_on = |layer| {
+        drawn(area, Glyphs::Braille, |raster| {
+            raster.marker(&frame, [0.5, 0.5], Marker::Disc, &Pen::new(Style::new(), 3));
+            raster.line(&frame, [0.0, 0.5], [1.0, 0.5], &across(layer));
+        })
+    };
+    assert_eq!(with_line_on(3)[(2, 0)].symbol(), "●");
+    assert_eq!(with_line_on(3)[(2, 0)].fg, Color::Reset);
+    assert_eq!(with_line_on(4)[(2, 0)].symbol(), "⠤");
+    let outside = drawn(area, Glyphs::Ascii, |raster| {
+        raster.marker(&frame, [1.5, 0.5], Marker::Disc, &PLAIN);
+        raster.marker(&frame, [f64::NAN, 0.5], Marker::Disc, &PLAIN);
+    });
+    assert_eq!(rows(&outside), [""]);
+}
+
+#[test]
+fn cells_without_dots_and_backgrounds_are_left_alone() {
+    let area = Rect::new(0, 0, 2, 1);
+    let mut buffer = Buffer::empty(area);
+    buffer.set_string(0, 0, "ab", Style::new().bg(Color::Green).add_modifier(Modifier::UNDERLINED));
+    let mut raster = Raster::new(area, Glyphs::Braille);
+    raster.dot([0, 0], &PLAIN);
+    raster.draw(&mut buffer);
+    assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].bg), ("⠁", Color::Green));
+    assert_eq!(buffer[(0, 0)].modifier, Modifier::empty(), "no underline of the text before");
+    assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].modifier), ("b", Modifier::UNDERLINED));
+}
+
+#[test]
+fn an_even_cloud_has_an_even_shade() {
+    let shades: Vec<Shade> = (0..8)
+        .map(|i| Shade { style: Style::new().fg(Color::Indexed(i)), coverage: 1.0 })
+        .collect();
+    let area = Rect::new(0, 0, 20, 10);
+    // A lattice of additive recurrences (Roberts' R2) fills the square evenly.
+    let points = (0..20_000).map(|i| {
+        let n = f64::from(i);
+        [(n * 0.754_877_666_246_692_7).fract(), (n * 0.569_840_290_998_053_2).fract()]
+    });
+    let buffer = drawn(area, Glyphs::Braille, |raster| {
+        raster.cloud(&unit(area), points, &shades, 0);
+    });
+    let steps: Vec<u8> = area
+        .positions()
+        .map(|cell| match buffer[cell].fg {
+            Color::Indexed(step) => step,
+            other => panic!("{cell:?} has {other:?}"),
+        })
+        .collect();
+    let (least, most) = (steps.iter().min().unwrap(), steps.iter().max().unwrap());
+    assert!(most - least <= 1, "{least} to {most}");
+}
+
+#[test]
+fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
+    let shades: Vec<Shade> = (0..8)
+        .map(|i| Shade { style: Style::new().fg(Color::Indexed(i)), coverage: 1.0 })
+        .collect();
+    let area = Rect::new(0, 0, 4, 1);
+    let points = [1, 10, 100, 1000]
+        .into_iter()
+        .enumerate()
+        .flat_map(|(column, count)| std::iter::repeat_n([(column as f64 + 0.5) / 4.0, 0.5], count));
+    let buffer = drawn(area, Glyphs::Ascii, |raster| {
+        raster.cloud(&unit(area), points, &shades, 0);
+    });
+    let colours: Vec<_> = (0..4).map(|x| buffer[(x, 0)].fg).collect();
+    assert_eq!(colours, [0, 2, 5, 7].map(Color::Indexed));
+    assert_eq!(rows(&buffer), [".=o@"]);
+}

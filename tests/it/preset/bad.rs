@@ -1,0 +1,61 @@
+//! Every mistake of the corpus `tests/bad`: each file has beside it the exact report it must give.
+//! With `UPDATE_EXPECT=1` in the environment the reports are written anew, to be read and judged.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use phaselab::preset::{Document, Severity};
+
+fn corpus() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad");
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn each_mistake_gives_its_report() {
+    let update = std::env::var_os("UPDATE_EXPECT").is_some();
+    let files = corpus();
+    assert!(files.len() >= 40, "the corpus holds {} files", files.len());
+    let mut wrong = Vec::new();
+    for path in files {
+        let mut document = Document::open(&path).unwrap();
+        document.path = format!("{}", path.file_name().unwrap().display());
+        let mistakes = document.read().expect_err(&document.path);
+        assert!(mistakes.iter().any(|m| m.severity == Severity::Error), "{}", document.path);
+        let given = document.report(&mistakes, false);
+        let expected = path.with_extension("txt");
+        if update {
+            fs::write(&expected, given).unwrap();
+        } else if fs::read_to_string(&expected).unwrap_or_default() != given {
+            wrong.push(given);
+        }
+    }
+    assert!(wrong.is_empty(), "reports that differ:\n\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn each_expected_report_has_its_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad");
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        assert!(path.with_extension("toml").exists(), "{} belongs to no file", path.display());
+    }
+}
+
+/// Places are within the file, on whole characters, and the report names the line and column.
+#[test]
+fn places_lie_in_the_file() {
+    for path in corpus() {
+        let document = Document::open(&path).unwrap();
+        for mistake in document.read().unwrap_err() {
+            let place = mistake.place.clone();
+            assert!(document.text.get(place).is_some(), "{}: {mistake:?}", path.display());
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The catalog: shipped presets, the user's own before them, and the way from a name to a text.
+
+use std::fs;
+use std::path::Path;
+
+use phaselab::preset::{Catalog, Entry, NotFound, Origin};
+use tempfile::TempDir;
+
+use super::GOOD;
+
+/// A user's folder with these files.
+fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, content) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn shipped_presets_are_those_of_the_folder() {
+    fn count(folder: &Path) -> usize {
+        let entries = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+        entries.map(|p| if p.is_dir() { count(&p) } else { 1 }).sum()
+    }
+    let catalog = Catalog::with_folder(None);
+    let presets = Path::new(env!("CARGO_MANIFEST_DIR")).join("presets");
+    assert_eq!(catalog.entries().len(), count(&presets));
+    let pendulum = catalog.find("pendulum").unwrap();
+    assert_eq!(pendulum.path, "presets/pendulums/pendulum.toml");
+    let on_disk = fs::read_to_string(presets.join("pendulums/pendulum.toml")).unwrap();
+    assert_eq!(pendulum.text, on_disk);
+}
+
+#[test]
+fn the_list_goes_by_topic_and_chapter() {
+    let preset = |topic: &str, chapter: &str, title: &str| {
+        format!("chapter = \"{chapter}\"\ntopics = [\"{topic}\"]\n{GOOD}")
+            .replace("Oscillator", title)
+    };
+    let user = folder(&[
+        ("a.toml", preset("zeta", "0.0.10", "ten").as_bytes()),
+        ("b.toml", preset("zeta", "0.0.9", "nine").as_bytes()),
+        ("c.toml", preset("alpha", "", "last of all").as_bytes()),
+        ("d.toml", preset("zeta", "", "unplaced").as_bytes()),
+        ("e.toml", preset("zeta", "0.0.9", "another nine").as_bytes()),
+    ]);
+    let catalog = Catalog::with_folder(Some(user.path()));
+    let titles: Vec<&str> = catalog
+        .entries()
+        .iter()
+        .filter(|entry| entry.origin != Origin::Shipped)
+        .map(|entry| entry.info.title.as_str())
+        .collect();
+    assert_eq!(titles, ["another nine", "nine", "ten", "unplaced", "last of all"]);
+    let first = &catalog.entries()[0];
+    assert_eq!((first.topic(), first.name.as_str()), ("zeta", "e"));
+    // a topic stands in one piece
+    let mut topics: Vec<&str> = catalog.entries().iter().map(Entry::topic).collect();
+    topics.dedup();
+    let mut once = topics.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), topics.len(), "{topics:?}");
+}
+
+#[test]
+fn the_users_own_win_over_shipped_ones() {
+    let user = folder(&[("deep/er/pendulum.toml", GOOD.as_bytes()), ("notes.txt", b"no preset")]);
+    let catalog = Catalog::with_folder(Some(user.path()));
+    assert_eq!(catalog.entries().len(), Catalog::with_folder(None).entries().len());
+    let document = catalog.find("pendulum").unwrap();
+    assert_eq!(document.text, GOOD);
+    let own = catalog.entries().iter().find(|entry| entry.name == "pendulum").unwrap();
+    assert_eq!(own.origin, Origin::User(user.path().join("deep/er/pendulum.toml")));
+    assert_eq!((own.folder.as_str(), own.fault.as_deref()), ("deep/er", None));
+    assert_eq!(own.topic(), "deep/er");
+}
+
+#[test]
+fn a_broken_file_is_listed_with_its_mistake() {
+    let user = folder(&[
+        ("broken.toml", GOOD.replace("k*x", "kk*x").as_bytes()),
+        ("latin.toml", b"title = \"caf\xe9\"\n"),
+        ("empty.toml", b""),
+    ]);
+    let catalog = Catalog::with_folder(Some(user.path()));
+    let fault = |name: &str| {
+        let entry = catalog.entries().iter().find(|entry| entry.name == name).unwrap();
+        let fault = entry.fault.clone().unwrap();
+        (entry.info.title.clone(), fault.rsplit('/').next().unwrap().to_owned())
+    };
+    assert_eq!(
+        fault("broken"),
+        ("Oscillator".to_owned(), "broken.toml:11:23: the name `kk` is not known here".to_owned())
+    );
+    assert_eq!(fault("latin").1, "latin.toml:1:13: the byte 0xE9 here is not UTF-8");
+    assert_eq!(
+        fault("empty"),
+        ("empty".to_owned(), "empty.toml:1:1: the file has no title".to_owned())
+    );
+}
+
+#[test]
+fn a_path_is_a_file_and_a_name_is_a_preset() {
+    let user = folder(&[("mine.toml", GOOD.as_bytes())]);
+    let catalog = Catalog::with_folder(None);
+    let path = user.path().join("mine.toml");
+    let document = catalog.find(path.to_str().unwrap()).unwrap();
+    assert_eq!(document.text, GOOD);
+    for missing in ["./nowhere", "nowhere.toml", "presets/"] {
+        assert!(matches!(catalog.find(missing), Err(NotFound::File { .. })), "{missing}");
+    }
+    let error = catalog.find(user.path().to_str().unwrap()).unwrap_err();
+    assert!(error.to_string().starts_with("cannot read "), "{error}");
+}
+
+#[test]
+fn a_misspelt_name_gets_the_nearest() {
+    let catalog = Catalog::with_folder(None);
+    let error = catalog.find("pendulm").unwrap_err();
+    assert_eq!(error.to_string(), "there is no preset `pendulm`; did you mean `pendulum`?");
+    let error = catalog.find("zzzzzz").unwrap_err();
+    assert_eq!(error.to_string(), "there is no preset `zzzzzz`");
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_no_mistake() {
+    let nowhere = tempfile::tempdir().unwrap().path().join("nowhere");
+    let catalog = Catalog::with_folder(Some(&nowhere));
+    assert_eq!(catalog.entries().len(), Catalog::with_folder(None).entries().len());
+}
+
+/// A link back to its own folder does not lead round and round.
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_are_followed_once() {
+    let user = folder(&[("one/mine.toml", GOOD.as_bytes())]);
+    std::os::unix::fs::symlink(user.path(), user.path().join("one/again")).unwrap();
+    let catalog = Catalog::with_folder(Some(user.path()));
+    assert_eq!(catalog.entries().iter().filter(|e| e.name == "mine").count(), 1);
+}

@@ -1,0 +1,244 @@
+//! A stranger's file can do no harm: whatever the bytes, an answer comes soon and without a panic.
+
+use std::fmt::Write as _;
+
+use phaselab::preset::{Catalog, Document, Mistake, TEXT_LIMIT, read, report};
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+use super::GOOD;
+
+/// Reads bytes and draws whatever is wrong with them; all places lie in the text.
+fn survive(bytes: &[u8]) {
+    let document = Document::from_bytes("hostile.toml", bytes);
+    let mistakes = match document.read() {
+        Ok(checked) => checked.warnings,
+        Err(mistakes) => {
+            assert!(!mistakes.is_empty());
+            mistakes
+        }
+    };
+    for mistake in &mistakes {
+        let place = mistake.place.clone();
+        assert!(document.text.get(place).is_some(), "{mistake:?}");
+    }
+    let drawn = document.report(&mistakes, false);
+    assert_eq!(drawn.matches("hostile.toml:").count(), mistakes.len());
+    document.report(&mistakes, true);
+}
+
+fn shipped() -> Vec<String> {
+    let catalog = Catalog::with_folder(None);
+    catalog.entries().iter().map(|e| e.document().unwrap().text).collect()
+}
+
+/// One change of a text.
+#[derive(Clone, Debug)]
+enum Change {
+    Put(Index, u8),
+    Cut(Index, usize),
+    Copy(Index, Index, usize),
+}
+
+fn change() -> impl Strategy<Value = Change> {
+    let index = any::<Index>;
+    let mark =
+        prop_oneof![any::<u8>(), prop::sample::select(b"\"'[]{}()=,.#\\\n*/^-+0ae_t".to_vec())];
+    prop_oneof![
+        (index(), mark).prop_map(|(at, byte)| Change::Put(at, byte)),
+        (index(), 1..40_usize).prop_map(|(at, length)| Change::Cut(at, length)),
+        (index(), index(), 1..40_usize)
+            .prop_map(|(from, to, length)| Change::Copy(from, to, length)),
+    ]
+}
+
+fn apply(bytes: &mut Vec<u8>, change: &Change) {
+    if bytes.is_empty() {
+        return;
+    }
+    match change {
+        Change::Put(at, byte) => {
+            let at = at.index(bytes.len());
+            bytes[at] = *byte;
+        }
+        Change::Cut(at, length) => {
+            let at = at.index(bytes.len());
+            bytes.drain(at..(at + length).min(bytes.len()));
+        }
+        Change::Copy(from, to, length) => {
+            let from = from.index(bytes.len());
+            let piece = bytes[from..(from + length).min(bytes.len())].to_vec();
+            let to = to.index(bytes.len());
+            bytes.splice(to..to, piece);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_damaged_preset_gives_an_answer(
+        which in any::<Index>(),
+        changes in prop::collection::vec(change(), 1..8),
+    ) {
+        let texts = shipped();
+        let mut bytes = texts[which.index(texts.len())].clone().into_bytes();
+        for change in &changes {
+            apply(&mut bytes, change);
+        }
+        survive(&bytes);
+    }
+
+    #[test]
+    fn any_text_gives_an_answer(text in "\\PC{0,200}") {
+        survive(text.as_bytes());
+        survive(GOOD.replace("1/2*k*x^2", &text.replace(['"', '\\'], "")).as_bytes());
+    }
+}
+
+/// The only mistake of a text.
+fn only(text: &str) -> Mistake {
+    let mistakes = read(text).unwrap_err();
+    assert_eq!(mistakes.len(), 1, "{}", report(text, "test.toml", &mistakes, false));
+    mistakes[0].clone()
+}
+
+/// A file of just 1 MiB whose Lagrangian is made of one piece again and again.
+fn filled(piece: impl Fn(usize) -> String) -> String {
+    let mut law = String::new();
+    for i in 0.. {
+        let next = piece(i);
+        if GOOD.len() + law.len() + next.len() > TEXT_LIMIT {
+            break;
+        }
+        law.push_str(&next);
+    }
+    GOOD.replace("1/2*k*x^2", &law)
+}
+
+#[test]
+fn a_file_beyond_the_limit_is_refused() {
+    let text = format!("{GOOD}{}", "#".repeat(TEXT_LIMIT));
+    assert!(only(&text).message.ends_with("a preset may have 1048576 (1 MiB)"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.toml");
+    std::fs::write(&path, &text).unwrap();
+    let document = Document::open(&path).unwrap();
+    let mistakes = document.read().unwrap_err();
+    assert_eq!(mistakes[0].message, only(&text).message);
+    assert!(document.report(&mistakes, false).contains("long.toml"));
+}
+
+#[test]
+fn a_mebibyte_of_parentheses_is_refused() {
+    let text = filled(|_| "(".to_owned());
+    assert!(text.len() > TEXT_LIMIT - 20);
+    assert_eq!(only(&text).message, "nested deeper than 256");
+    assert!(report(&text, "test.toml", &[only(&text)], false).len() < 1000);
+    for mark in ["[", "{a=", "a.", "\"", "[[", "\0", "\n", "'''"] {
+        survive(mark.repeat(TEXT_LIMIT / mark.len()).as_bytes());
+    }
+}
+
+#[test]
+fn a_mebibyte_of_terms_is_read() {
+    assert!(read(&filled(|_| "x+".to_owned()).replace("+\"", "\"")).is_ok());
+    assert!(read(&filled(|i| format!("sin({i}*x)+")).replace("+\"", "\"")).is_ok());
+    assert!(read(&filled(|i| format!("(x-{i})*")).replace("*\"", "\"")).is_ok());
+}
+
+#[test]
+fn a_mebibyte_of_mistakes_is_told_in_a_hundred() {
+    let text = filled(|i| format!("y{i}+")).replace("+\"", "\"");
+    let mistakes = read(&text).unwrap_err();
+    assert_eq!(mistakes.len(), 100);
+    let keys: String = (0..20_000).fold(String::new(), |mut keys, i| {
+        let _ = writeln!(keys, "key{i} = 1");
+        keys
+    });
+    let mistakes = read(&(keys + GOOD)).unwrap_err();
+    assert_eq!(mistakes.len(), 101);
+    assert_eq!(mistakes[100].message, "19900 more mistakes are not listed");
+}
+
+#[test]
+fn long_names_are_told_shortened() {
+    let text = GOOD.replace('k', &"k".repeat(100_000)).replace("x^2", "x^2*y");
+    assert_eq!(only(&text).message, "the name `y` is not known here");
+    let text = GOOD.replace("k*x", &"k".repeat(100_000));
+    assert!(only(&text).message.len() < 500);
+}
+
+/// A file with so many entries of a table.
+fn many(head: &str, entry: impl Fn(usize) -> String, count: usize) -> String {
+    let mut text = GOOD.replace(&format!("{head}\n"), &format!("{head}\n@"));
+    let entries: String = (0..count).map(entry).collect();
+    if !text.contains('@') {
+        let _ = write!(text, "{head}\n@");
+    }
+    text.replace('@', &entries)
+}
+
+#[test]
+fn each_count_has_its_limit() {
+    let coordinates = |n| many("[coordinates]", |i| format!("q{i} = {{ initial = 0 }}\n"), n);
+    assert!(read(&coordinates(63)).is_ok());
+    assert_eq!(only(&coordinates(64)).message, "there are 65 coordinates; 64 are allowed");
+    let parameters = |n| many("[parameters]", |i| format!("a{i} = 0\n"), n);
+    assert!(read(&parameters(254)).is_ok());
+    assert_eq!(only(&parameters(255)).message, "there are 257 parameters; 256 are allowed");
+    let definitions = |n| many("[definitions]", |i| format!("d{i} = \"x\"\n"), n);
+    assert!(read(&definitions(1024)).is_ok());
+    assert_eq!(only(&definitions(1025)).message, "there are 1025 definitions; 1024 are allowed");
+    let views = GOOD.to_owned() + &"[[views]]\nkind = \"space\"\n".repeat(65);
+    assert_eq!(only(&views).message, "there are 65 views; 64 are allowed");
+}
+
+#[test]
+fn paths_have_a_limit_together() {
+    let shape = "{ path = [\"cos(s*x)\", 0], from = 0, to = 1, samples = 1000 },";
+    let text = |n| format!("{GOOD}[space]\nshapes = [{}]\n", shape.repeat(n));
+    assert!(read(&text(100)).is_ok());
+    let message = only(&text(1000)).message;
+    assert_eq!(message, "with this, the file's paths have more than a million nodes");
+}
+
+/// Definitions on definitions nest as deep as a text may, and no deeper.
+#[test]
+fn opened_definitions_have_a_depth_limit() {
+    let chain = |n: usize| {
+        let tower = |i: usize| match i {
+            0 => "d0 = \"x\"\n".to_owned(),
+            i => format!("d{i} = \"sin(d{})\"\n", i - 1),
+        };
+        many("[definitions]", tower, n).replace("1/2*k*x^2", &format!("k*d{}", n - 1))
+    };
+    assert!(read(&chain(1000)).is_ok());
+    let deeper = chain(1020).replace("sin(", "sin(1 + ");
+    assert!(only(&deeper).message.contains("nested deeper than 1024"));
+    let parentheses = |n: usize| {
+        GOOD.replace("1/2*k*x^2", &format!("{}x{}", "sin(1 + 2*".repeat(n), ")".repeat(n)))
+    };
+    assert!(read(&parentheses(250)).is_ok());
+}
+
+/// Sums of sums of sums: the nodes are counted, and the file refused once, before memory is full.
+#[test]
+fn expressions_may_not_outgrow_their_pool() {
+    let tower = |i: usize| match i {
+        0 => "d0 = \"x\"\n".to_owned(),
+        i => format!("d{i} = \"d{} + {i}*x^{i}*sin({i}*x)\"\n", i - 1),
+    };
+    let text = many("[definitions]", tower, 1024);
+    let shapes: String = (0..1024).fold(String::new(), |mut shapes, i| {
+        let entry = |k: usize| format!("\"d1023 + {k}.{i}\"");
+        let point =
+            |k: usize| format!("[{}, {}, {}]", entry(3 * k), entry(3 * k + 1), entry(3 * k + 2));
+        let _ = write!(shapes, "{{ line = {}, to = {} }},", point(1), point(2));
+        shapes
+    });
+    let text = format!("{text}[space]\nshapes = [{shapes}]\n");
+    let message = "with this, the file's expressions grow beyond a million nodes";
+    assert_eq!(only(&text).message, message);
+}

@@ -1,0 +1,66 @@
+//! The README's tables of keys and methods are those of the code.
+//!
+//! `UPDATE_EXPECT=1 cargo test readme` writes them anew.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use phaselab::app::keymap::{KEYS, Place};
+use phaselab::integrate::{METHODS, Preserves, Stepping};
+
+fn keys() -> String {
+    let mut table = "| where | key | what it does |\n|---|---|---|\n".to_owned();
+    for place in Place::ALL {
+        let mut title = place.title();
+        for row in KEYS.iter().filter(|row| row.place == place) {
+            let keys: Vec<String> = row.keys.iter().map(|key| format!("`{key}`")).collect();
+            writeln!(table, "| {title} | {} | {} |", keys.join(" "), row.help).unwrap();
+            title = "";
+        }
+    }
+    table
+}
+
+fn methods() -> String {
+    let mut table =
+        "| method | order | steps | what it keeps | what it needs |\n|---|---|---|---|---|\n"
+            .to_owned();
+    for method in METHODS {
+        let order = method.order.map_or("by tolerance".to_owned(), |order| order.to_string());
+        let steps = match method.stepping {
+            Stepping::Adaptive => "adaptive",
+            Stepping::Fixed => "fixed",
+        };
+        let keeps = match method.preserves {
+            Preserves::Nothing => "–",
+            Preserves::Symplectic => "the symplectic form",
+        };
+        let needs = if method.needs.is_empty() { "–" } else { method.needs };
+        writeln!(table, "| `{}` | {order} | {steps} | {keeps} | {needs} |", method.name).unwrap();
+    }
+    table
+}
+
+/// Checks (or writes) the part of the README between `<!-- name -->` and `<!-- end -->`.
+fn check(name: &str, table: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let text = std::fs::read_to_string(&path).expect("a README");
+    let open = format!("<!-- {name} -->\n");
+    let start = text.find(&open).expect("the mark before the table") + open.len();
+    let end = start + text[start..].find("<!-- end -->").expect("the mark after the table");
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        let new = format!("{}{table}{}", &text[..start], &text[end..]);
+        std::fs::write(&path, new).expect("writable");
+    } else {
+        assert!(
+            text[start..end] == *table,
+            "the README's {name} are not those of the code; write them with UPDATE_EXPECT=1"
+        );
+    }
+}
+
+#[test]
+fn the_tables_are_those_of_the_code() {
+    check("keys", &keys());
+    check("methods", &methods());
+}

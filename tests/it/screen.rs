@@ -1,0 +1,46 @@
+//! The screen, from snapshots made by hand: text and styles, any size, any terminal.
+
+mod golden;
+mod panes;
+mod purity;
+
+use phaselab::app::{App, Drawn};
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+use phaselab::view::{Look, draw};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+/// A terminal of 24-bit colour that has all characters.
+fn rich() -> Look {
+    Look { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
+}
+
+/// The screen of an application.
+fn screen(app: &App, look: &Look, (width, height): (u16, u16)) -> Buffer {
+    drawn(app, look, (width, height)).0
+}
+
+fn drawn(app: &App, look: &Look, (width, height): (u16, u16)) -> (Buffer, Drawn) {
+    let area = Rect::new(0, 0, width, height);
+    let mut buffer = Buffer::empty(area);
+    let drawn = draw(app, look, area, &mut buffer);
+    (buffer, drawn)
+}
+
+/// The text of each row.
+fn rows(buffer: &Buffer) -> Vec<String> {
+    let row = |y| (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect::<String>();
+    (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()
+}
+
+/// The first place of a text on the screen: column and row.
+fn find(buffer: &Buffer, text: &str) -> Option<(u16, u16)> {
+    (0..buffer.area.height).find_map(|y| {
+        (0..buffer.area.width).find_map(|x| {
+            let rest: String = (x..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect();
+            rest.starts_with(text).then_some((x, y))
+        })
+    })
+}

@@ -1,0 +1,76 @@
+//! Whole screens as they are meant to look, in `tests/screens`: first the text, then the style of every cell as a
+//! letter. `PHASELAB_BLESS=1 cargo test screen::golden` writes them anew; look at what changed before you commit it.
+
+use std::fs;
+use std::path::Path;
+
+use phaselab::view::Look;
+use phaselab::view::theme::Role;
+use ratatui::buffer::{Buffer, Cell};
+
+use super::{rich, rows, screen};
+use crate::hand::{at_picker, in_lab, press};
+
+/// The letter of each role; a dot is plain text, a hash any other style (of a curve or a trail).
+const LETTERS: [(Role, char); 10] = [
+    (Role::Dim, 'd'),
+    (Role::Accent, 'a'),
+    (Role::Title, 't'),
+    (Role::Border, 'b'),
+    (Role::Focus, 'f'),
+    (Role::Good, 'g'),
+    (Role::Warn, 'w'),
+    (Role::Bad, '!'),
+    (Role::Separatrix, 's'),
+    (Role::Level, 'l'),
+];
+
+fn letter(cell: &Cell, look: &Look) -> char {
+    if cell.modifier.contains(ratatui::style::Modifier::REVERSED) {
+        return 'S';
+    }
+    if cell.symbol() == " " || cell.style() == Cell::default().style().patch(look.theme[Role::Text])
+    {
+        return '.';
+    }
+    let is = |role: Role| cell.style() == Cell::default().style().patch(look.theme[role]);
+    LETTERS.into_iter().find(|(role, _)| is(*role)).map_or('#', |(_, letter)| letter)
+}
+
+fn written(buffer: &Buffer, look: &Look) -> String {
+    let mut text = rows(buffer).join("\n");
+    text.push('\n');
+    for y in 0..buffer.area.height {
+        let row: String = (0..buffer.area.width).map(|x| letter(&buffer[(x, y)], look)).collect();
+        text.push_str(row.trim_end_matches('.'));
+        text.push('\n');
+    }
+    text
+}
+
+fn check(name: &str, buffer: &Buffer, look: &Look) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/screens").join(name);
+    let now = written(buffer, look);
+    if std::env::var_os("PHASELAB_BLESS").is_some() {
+        fs::write(&path, &now).unwrap();
+    }
+    let meant = fs::read_to_string(&path).unwrap_or_default();
+    assert!(meant == now, "{name} has changed; it is now\n{now}");
+}
+
+#[test]
+fn the_lab() {
+    check("lab-80x24.txt", &screen(&in_lab(), &rich(), (80, 24)), &rich());
+}
+
+#[test]
+fn the_picker() {
+    check("picker-80x24.txt", &screen(&at_picker(), &rich(), (80, 24)), &rich());
+}
+
+#[test]
+fn the_equations() {
+    let mut app = in_lab();
+    press(&mut app, "2");
+    check("equations-80x24.txt", &screen(&app, &rich(), (80, 24)), &rich());
+}

@@ -1,0 +1,202 @@
+//! What the panes show, and in which style.
+
+use std::sync::Arc;
+
+use phaselab::app::{Event, Lens, Plot};
+use phaselab::experiment::{Growth, Status, Verdict};
+use phaselab::view::theme::Role;
+use ratatui::style::Modifier;
+use unicode_width::UnicodeWidthStr;
+
+use super::{find, rich, rows, screen};
+use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
+
+#[test]
+fn a_small_screen_says_how_large_it_must_be() {
+    for size in [(39, 24), (80, 9), (20, 5)] {
+        let text = rows(&screen(&in_lab(), &rich(), size)).join(" ");
+        assert!(text.contains("40x10"), "{size:?}: {text}");
+    }
+    let buffer = screen(&in_lab(), &rich(), (40, 10));
+    assert!(!rows(&buffer).join(" ").contains("needs"), "40x10 is enough");
+}
+
+#[test]
+fn every_pane_of_a_large_screen_is_there() {
+    let buffer = screen(&in_lab(), &rich(), (120, 40));
+    for name in
+        ["Motion", "Phase", "Time", "Parameters", "Initial values", "Gauges", "Law of motion"]
+    {
+        let (x, y) = find(&buffer, name).unwrap_or_else(|| panic!("{name} is missing"));
+        assert_eq!(buffer[(x, y)].fg, rich().theme[Role::Title].fg.unwrap(), "{name}");
+    }
+    for text in ["1 Lab", "? help", "q quit", "taylor", "fps", "mass of the bob"] {
+        assert!(find(&buffer, text).is_some(), "{text}");
+    }
+}
+
+#[test]
+fn a_standard_screen_is_whole() {
+    let buffer = screen(&in_lab(), &rich(), (80, 24));
+    for text in
+        ["Motion", "Phase", "Parameters", "Initial values", "Gauges", "θ₀", "exact", "quit", "fps"]
+    {
+        let exact = gauge("energy", "E", 1.0, Verdict::Exact(Growth::Level));
+        let mut seen = snapshot(&pendulum(), 2.0);
+        seen.gauges = [exact].into();
+        let mut app = in_lab();
+        app.update(Event::Snapshot(Arc::new(seen)));
+        let buffer = if text == "exact" { screen(&app, &rich(), (80, 24)) } else { buffer.clone() };
+        assert!(find(&buffer, text).is_some(), "{text} in {:#?}", rows(&buffer));
+    }
+}
+
+#[test]
+fn the_selected_value_is_marked_and_its_pane_framed() {
+    let look = rich();
+    let buffer = screen(&in_lab(), &look, (120, 40));
+    let (x, y) = find(&buffer, "Parameters").unwrap();
+    assert_eq!(
+        buffer[(x - 3, y)].fg,
+        look.theme[Role::Focus].fg.unwrap(),
+        "the frame of the focus"
+    );
+    let reversed = |cell: &ratatui::buffer::Cell| cell.modifier.contains(Modifier::REVERSED);
+    let row: Vec<_> = (x..120).map(|x| &buffer[(x, y + 1)]).collect();
+    let marked: String =
+        row.iter().filter(|cell| reversed(cell)).map(|cell| cell.symbol()).collect();
+    assert_eq!(marked.trim(), "1", "the value of m");
+}
+
+#[test]
+fn the_separatrix_of_the_pendulum_is_drawn() {
+    let look = rich();
+    let buffer = screen(&in_lab(), &look, (120, 40));
+    let separatrix = look.theme[Role::Separatrix].fg.unwrap();
+    let cells = buffer.content.iter().filter(|cell| cell.fg == separatrix);
+    assert!(cells.count() > 30, "the curve through the upright position");
+}
+
+#[test]
+fn verdicts_have_their_colours() {
+    let look = rich();
+    for (verdict, word, role) in [
+        (Verdict::Exact(Growth::Root), "exact", Role::Good),
+        (Verdict::Bounded, "bounded", Role::Good),
+        (Verdict::Secular(1e-9), "secular", Role::Bad),
+        (Verdict::Broken("−2F".into()), "broken", Role::Warn),
+    ] {
+        let mut app = in_lab();
+        let mut seen = snapshot(&pendulum(), 2.0);
+        seen.gauges = [gauge("energy", "E", 4.0, verdict)].into();
+        app.update(Event::Snapshot(Arc::new(seen)));
+        for size in [(80, 24), (120, 40)] {
+            let buffer = screen(&app, &look, size);
+            let at = find(&buffer, word).unwrap_or_else(|| panic!("{word} at {size:?}"));
+            assert_eq!(buffer[at].fg, look.theme[role].fg.unwrap(), "{word}");
+        }
+    }
+}
+
+#[test]
+fn a_velocity_takes_one_cell() {
+    let buffer = screen(&in_lab(), &rich(), (120, 40));
+    let (x, y) = find(&buffer, "θ\u{307}").unwrap();
+    assert_eq!(buffer[(x, y)].symbol(), "θ\u{307}");
+    assert_eq!(buffer[(x, y)].symbol().width(), 1);
+}
+
+#[test]
+fn nothing_jumps_while_numbers_change() {
+    let column = |time: f64, text: &str| {
+        let mut app = in_lab();
+        let mut seen = snapshot(&pendulum(), 2.0);
+        seen.time = time;
+        seen.method.step = time / 1e4;
+        app.update(Event::Snapshot(Arc::new(seen)));
+        find(&screen(&app, &rich(), (120, 40)), text).map(|(x, _)| x)
+    };
+    for text in ["speed", "taylor", "steps/s", "fps"] {
+        let still = column(1.25, text);
+        assert!(still.is_some(), "{text}");
+        for time in [0.001_234_5, 12.345, 4_321.987, 54_321.0] {
+            assert_eq!(column(time, text), still, "{text} at t = {time}");
+        }
+    }
+}
+
+#[test]
+fn a_mistake_in_a_field_is_read_beside_it() {
+    let mut app = in_lab();
+    press(&mut app, "Enter Ctrl-u 2 x Enter");
+    let look = rich();
+    let buffer = screen(&app, &look, (120, 40));
+    let at = find(&buffer, "`2x` is no number").unwrap();
+    assert_eq!(buffer[at].fg, look.theme[Role::Bad].fg.unwrap());
+    assert!(find(&buffer, "m = 2x").is_some(), "what was typed is still there");
+}
+
+#[test]
+fn status_and_fault_are_told() {
+    let mut app = in_lab();
+    let mut seen = snapshot(&pendulum(), 2.0);
+    seen.status = Status::Paused;
+    app.update(Event::Snapshot(Arc::new(seen.clone())));
+    assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
+    let message = "the bob left the world".to_owned();
+    seen.status = Status::Faulted(phaselab::experiment::Fault { time: 2.0, message });
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let buffer = screen(&app, &rich(), (120, 40));
+    for text in
+        ["stopped", "The motion cannot go on", "The bob left the world", "r back to the start"]
+    {
+        assert!(find(&buffer, text).is_some(), "{text}");
+    }
+}
+
+#[test]
+fn the_cursor_reads_the_cell_it_stands_on() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab c");
+    let plot = &app.lab.as_ref().unwrap().plots[1];
+    assert!(matches!(plot, Plot::Phase { lens: Lens { cursor: Some([0.5, 0.5]), .. }, .. }));
+    let buffer = screen(&app, &rich(), (120, 40));
+    let (x, y) = find(&buffer, "┼").unwrap();
+    assert!((40..80).contains(&x) && y < 24, "in the phase portrait");
+    // The window is symmetric about (0, 0), whose cell is at most half a cell away.
+    let reading: String = rows(&buffer)[2].chars().skip(40).take(40).collect();
+    let numbers: Vec<f64> = reading
+        .split([' ', ',', '│'])
+        .filter_map(|word| word.replace('−', "-").parse().ok())
+        .collect();
+    assert_eq!(numbers.len(), 2, "{reading}");
+    assert!(numbers[0].abs() < 0.2 && numbers[1].abs() < 0.8, "{numbers:?}");
+}
+
+#[test]
+fn the_picker_shows_what_a_system_is() {
+    let buffer = screen(&at_picker(), &rich(), (120, 40));
+    for text in ["Simple pendulum", "A mass on a light rod", "§4.2", "separatrix", "Enter open"] {
+        assert!(find(&buffer, text).is_some(), "{text}");
+    }
+    let mut app = at_picker();
+    press(&mut app, "/ h e n o n");
+    let buffer = screen(&app, &rich(), (120, 40));
+    assert!(find(&buffer, "1 of ").is_some() && find(&buffer, "Hénon–Heiles").is_some());
+    assert!(find(&buffer, "Damped pendulum").is_none());
+}
+
+#[test]
+fn the_equations_are_written_in_mathematics() {
+    let mut app = in_lab();
+    press(&mut app, "2");
+    let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
+    for line in [
+        "L = ½ m l² θ\u{307}² + m l g cos θ",
+        "p_θ = m l² θ\u{307}",
+        "θ\u{308} = −g sin θ/l",
+        "∂L/∂t = 0",
+    ] {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+}

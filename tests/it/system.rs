@@ -1,0 +1,24 @@
+//! From equations to numbers: the program and its two evaluators, states, conversions, channels.
+
+mod channels;
+mod program;
+mod series;
+mod states;
+
+use phaselab::mechanics::derive;
+use phaselab::model::Model;
+use phaselab::preset;
+use phaselab::system::System;
+
+/// The model and system of a file's text.
+pub(crate) fn compile(text: &str) -> (Model, System) {
+    let checked = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
+    let equations = derive(&checked.model).expect("small enough");
+    let system = System::compile(&checked.model, &equations, &[]).expect("complete");
+    (checked.model, system)
+}
+
+/// The parameters of a model.
+pub(crate) fn parameters(model: &Model) -> Vec<f64> {
+    model.parameter_values()
+}

@@ -1,0 +1,217 @@
+//! What can be seen of a state: names, order, values, conversions of form, level curves.
+
+use phaselab::mechanics::derive;
+use phaselab::model::{self, Model};
+use phaselab::preset;
+use phaselab::system::{ChannelKind, CompileError, Form, State, System};
+
+use super::{compile, parameters};
+
+const TOP: &str = include_str!("../../../presets/rigid-body/heavy-top.toml");
+
+const PENDULUM: &str = r#"
+title = "Pendulum"
+[coordinates]
+theta = { initial = 2.0, velocity = 0.5, period = "2*pi*m" }
+[parameters]
+m = 2.0
+[lagrangian]
+L = "1/2*m*theta'^2 + m*cos(theta)"
+[[observables]]
+name = "pull"
+expression = "theta'' + action"
+[[views]]
+kind = "phase"
+x = "theta"
+y = "p_theta"
+[[views]]
+kind = "time"
+y = "sin(theta)"
+"#;
+
+fn names(system: &System) -> Vec<&str> {
+    system.channels().iter().map(|c| c.name.as_str()).collect()
+}
+
+fn values(system: &System, model: &Model, state: &State) -> Vec<f64> {
+    let mut out = vec![0.0; system.channels().len()];
+    system.observer(&parameters(model)).observe(state, &mut out).expect("regular");
+    out
+}
+
+#[test]
+fn columns_stand_in_the_order_of_the_format() {
+    let (_, system) = compile(TOP);
+    let columns = &names(&system)[..system.columns()];
+    assert_eq!(
+        columns,
+        [
+            "theta",
+            "phi",
+            "psi",
+            "theta'",
+            "phi'",
+            "psi'",
+            "p_theta",
+            "p_phi",
+            "p_psi",
+            "energy",
+            "nutation energy",
+            "spin about the axis"
+        ]
+    );
+    let theta = &system.channels()[0];
+    assert_eq!((theta.shown.as_str(), theta.unit.as_str(), theta.periodic), ("θ", "rad", false));
+    assert_eq!(system.channels()[4].shown, "φ̇");
+    assert!(system.channels()[1].periodic);
+}
+
+#[test]
+fn extra_channels_are_columns_after_the_observables() {
+    let mut model = preset::read(PENDULUM).expect("right").model;
+    let q = model.coordinates[0].position;
+    let expression = model.pool.variable(q);
+    let expression = model.pool.powi(expression, 2);
+    let equations = derive(&model).expect("small");
+    let extra = model::Channel { written: "theta^2".to_owned(), expression };
+    let system = System::compile(&model, &equations, &[extra]).expect("complete");
+    let columns = &names(&system)[..system.columns()];
+    assert_eq!(columns, ["theta", "theta'", "p_theta", "energy", "pull", "theta^2"]);
+    assert_eq!(system.channels()[5].kind, ChannelKind::Extra(0));
+}
+
+#[test]
+fn channels_are_found_by_their_expressions() {
+    let (model, system) = compile(PENDULUM);
+    let view = &model.views[0];
+    let place = |c: &model::Channel| system.channel_of(c.expression);
+    assert_eq!(view.x.as_ref().and_then(place), Some(0));
+    assert_eq!(place(&view.y[0]), Some(2));
+    let sine = place(&model.views[1].y[0]).expect("it is watched");
+    assert_eq!(system.channels()[sine].kind, ChannelKind::Expression);
+    assert!(sine >= system.columns());
+    let state = system.initial(0.0, &parameters(&model), &[]).expect("regular");
+    assert_eq!(values(&system, &model, &state)[sine], 2.0_f64.sin());
+    let conserved = |c: &phaselab::system::Channel| c.kind == ChannelKind::Conserved(0);
+    assert!(system.channels().iter().any(conserved), "the energy is conserved");
+    assert_eq!(system.period(0, &[2.0]), Some(4.0 * std::f64::consts::PI));
+    assert_eq!(system.period(1, &[2.0]), None);
+}
+
+#[test]
+fn values_follow_from_the_state() {
+    let (model, system) = compile(PENDULUM);
+    let mut state = system.initial(0.0, &parameters(&model), &[]).expect("regular");
+    assert_eq!(state.values, [2.0, 0.5, 0.0], "the action is carried along, and begins at zero");
+    state.values[2] = 0.25;
+    let out = values(&system, &model, &state);
+    let pull = -2.0_f64.sin() + 0.25;
+    assert_eq!(out[..5], [2.0, 0.5, 1.0, 0.25 - 2.0 * 2.0_f64.cos(), pull]);
+}
+
+#[test]
+fn accelerations_of_a_hamiltonian_follow_its_flow() {
+    let (model, system) = compile(
+        r#"
+title = "Relativistic charge in a driven field"
+[coordinates]
+x = { initial = 0.3, momentum = 0.8 }
+[hamiltonian]
+H = "sqrt(1 + (p_x - t*x)^2) + 1/2*x^2"
+[[observables]]
+name = "acceleration"
+expression = "x''"
+"#,
+    );
+    let parameters = parameters(&model);
+    let at = |t: f64, x: f64, p: f64| {
+        let state = State::new(t, Form::Momentum, vec![x, p, 0.0]);
+        let out = values(&system, &model, &state);
+        (out[1], out[4])
+    };
+    // the velocity a little later and earlier on the same path, by the equations of motion
+    let (t, x, p, h) = (0.7, 0.3, 0.8, 1e-5);
+    let k = p - t * x;
+    let root = f64::sqrt(1.0 + k * k);
+    let (velocity, force) = (k / root, k * t / root - x);
+    let slope = (at(t + h, x + h * velocity, p + h * force).0
+        - at(t - h, x - h * velocity, p - h * force).0)
+        / (2.0 * h);
+    assert!((at(t, x, p).1 - slope).abs() < 1e-9);
+    assert_eq!(parameters.len(), 0);
+}
+
+#[test]
+fn both_forms_show_the_same() {
+    let (model, system) = compile(TOP);
+    let p = parameters(&model);
+    let state = system.initial(0.0, &p, &[]).expect("regular");
+    let canonical = system.convert(&state, Form::Momentum, &p).expect("regular");
+    assert_eq!(canonical.form, Form::Momentum);
+    let (a, b) = (values(&system, &model, &state), values(&system, &model, &canonical));
+    for (i, (a, b)) in a.iter().zip(&b).enumerate() {
+        let name = &system.channels()[i].name;
+        assert!((a - b).abs() <= 4e-16 * a.abs() + 1e-30, "{name}: {a} and {b}");
+    }
+}
+
+#[test]
+fn the_energy_on_a_grid_is_the_energy() {
+    let (model, system) = compile(PENDULUM);
+    let mut observer = system.observer(&parameters(&model));
+    let (positions, rates) = ([-1.0, 0.0, 2.0], [0.5, 3.0]);
+    let mut grid = [0.0; 6];
+    observer.energy_on_grid(0.0, Form::Velocity, &positions, &rates, &mut grid);
+    assert_eq!(grid[5], 9.0 - 2.0 * 2.0_f64.cos());
+    observer.energy_on_grid(0.0, Form::Momentum, &positions, &rates, &mut grid);
+    assert_eq!(grid[3], 9.0 / 4.0 - 2.0 * (-1.0_f64).cos());
+    assert_eq!(grid[1], 0.25 / 4.0 - 2.0);
+}
+
+#[test]
+fn where_there_is_no_energy_the_grid_has_no_number() {
+    let (model, system) = compile(
+        r#"
+title = "Relativistic particle"
+[coordinates]
+x = { initial = 1.0 }
+[lagrangian]
+L = "-sqrt(1 - x'^2) + sqrt(x)"
+"#,
+    );
+    let mut observer = system.observer(&parameters(&model));
+    let mut grid = [0.0; 4];
+    observer.energy_on_grid(0.0, Form::Velocity, &[1.0, -1.0], &[0.6, 2.0], &mut grid);
+    assert!((grid[0] - 0.25).abs() < 1e-15);
+    assert!(grid[1..].iter().all(|x| x.is_nan()), "{grid:?}");
+    observer.energy_on_grid(0.0, Form::Momentum, &[1.0, -1.0], &[0.75, 20.0], &mut grid);
+    assert!((grid[0] - 0.25).abs() < 1e-15);
+    // the energy of a speed of 0.99875 changes 8000 times as fast as the speed
+    assert!((grid[2] - (401.0_f64.sqrt() - 1.0)).abs() < 1e-11, "{grid:?}");
+}
+
+#[test]
+fn the_ledger_stands_where_energy_is_not_conserved() {
+    let (_, system) = compile(PENDULUM);
+    assert!(system.channels().iter().all(|c| c.kind != ChannelKind::Ledger));
+    let (model, system) = compile(include_str!("../../../presets/pendulums/damped-pendulum.toml"));
+    let ledger = system.channels().iter().position(|c| c.kind == ChannelKind::Ledger);
+    let ledger = ledger.expect("friction does work");
+    let mut state = system.initial(0.0, &parameters(&model), &[]).expect("regular");
+    let before = values(&system, &model, &state);
+    let last = state.values.len() - 1;
+    state.values[last] = -1.5;
+    let after = values(&system, &model, &state);
+    assert_eq!(before[3], before[ledger]);
+    assert!((after[ledger] - before[ledger] - 1.5).abs() < 1e-14);
+}
+
+#[test]
+fn what_has_no_value_is_refused() {
+    let mut model = preset::read(PENDULUM).expect("right").model;
+    let stray = model.pool.named("stray");
+    model.observables[0].expression = stray;
+    let equations = derive(&model).expect("small");
+    let outcome = System::compile(&model, &equations, &[]);
+    assert_eq!(outcome.err(), Some(CompileError::Unknown("stray".to_owned())));
+}

@@ -1,0 +1,148 @@
+//! Kinks, against closed forms put together piece by piece.
+
+use super::{Run, near};
+use phaselab::system::FaultKind;
+
+/// One coordinate: initial value, velocity, Lagrangian, dissipation, force.
+fn one(initial: &str, velocity: &str, l: &str, dissipation: &str, force: &str) -> Run {
+    Run::new(&format!(
+        "title = \"Kinks\"\n[coordinates]\nx = {{ initial = {initial}, velocity = {velocity} }}\n[parameters]\nn = 2\n[lagrangian]\nL = \"{l}\"\ndissipation = \"{dissipation}\"\nforces = {{ x = \"{force}\" }}\n"
+    ))
+}
+
+#[test]
+fn dry_friction_brings_an_oscillator_to_rest_and_holds_it() {
+    // amplitudes fall by 2F a half period: 1, −0.4, 0.2 − and there the spring is weaker than F
+    let mut run = one("1.0", "0.0", "1/2*x'^2 - 1/2*x^2", "0.3*abs(x')", "0");
+    let pi = std::f64::consts::PI;
+    near(&run.to(1.0), &[0.3 + 0.7 * 1.0_f64.cos(), -0.7 * 1.0_f64.sin()], 1.2e-16);
+    near(&run.to(pi), &[-0.4, 0.0], 2e-16);
+    near(&run.to(5.0), &[-0.3 - 0.1 * (5.0 - pi).cos(), 0.1 * (5.0 - pi).sin()], 2e-16);
+    near(&run.to(50.0), &[-0.2, 0.0], 1.2e-16);
+    assert!(run.steps < 16, "{} steps", run.steps);
+}
+
+#[test]
+fn friction_holds_from_the_start_until_the_pull_is_strong_enough() {
+    // pulled with force t/2 against friction 1: it lets go at t = 2, then x'' = t/2 − 1
+    let mut run = one("0.5", "0.0", "1/2*x'^2", "abs(x')", "t/2");
+    assert_eq!(run.to(1.9)[..2], [0.5, 0.0]);
+    let (t, rest) = (5.0_f64, 2.0);
+    let s = t - rest;
+    near(&run.to(t), &[0.5 + s.powi(3) / 12.0, s * s / 4.0], 4e-16);
+}
+
+#[test]
+fn a_block_on_a_belt_sticks_and_slips() {
+    // carried by the belt until the spring has the strength of the friction, x = 1
+    let mut run = one("0.0", "0.5", "1/2*x'^2 - 1/2*x^2", "0", "-sign(x' - 1/2)");
+    near(&run.to(1.5), &[0.75, 0.5], 1.2e-16);
+    // released at t = 2: x = 1 + ½ sin(t − 2) until its speed is ½ again, a whole period later
+    near(&run.to(4.0), &[1.0 + 0.5 * 2.0_f64.sin(), 0.5 * 2.0_f64.cos()], 1e-15);
+}
+
+#[test]
+fn two_contacts_hold_and_let_go_each_by_itself() {
+    let mut run = Run::new(
+        r#"
+title = "Two blocks, one on the other"
+[coordinates]
+x = { initial = 0.0, velocity = 0.0 }
+y = { initial = 0.0, velocity = 0.0 }
+[lagrangian]
+L = "1/2*x'^2 + 1/2*y'^2"
+dissipation = "1/2*abs(x') + 1/4*abs(y' - x')"
+forces = { y = "t/4" }
+"#,
+    );
+    // the upper contact gives way first, at t = 1, where the lower one still holds ¼ < ½
+    assert_eq!(run.to(1.0)[..4], [0.0; 4]);
+    let s = 2.0_f64;
+    near(&run.to(3.0), &[0.0, s.powi(3) / 24.0, 0.0, s * s / 8.0], 2e-16);
+}
+
+#[test]
+fn quadratic_drag_up_and_down() {
+    // m = 1, g, drag k v|v|: up v = √(g/k) tan(c − √(gk) t), down v = −√(g/k) tanh(√(gk)(t − t₁))
+    let mut run = one("0.0", "20.0", "1/2*x'^2 - 9.81*x", "0", "-0.02*x'*abs(x')");
+    let (w, rate) = ((9.81_f64 / 0.02).sqrt(), (9.81_f64 * 0.02).sqrt());
+    let top = (20.0 / w).atan() / rate;
+    let height = (1.0 + 400.0 / (w * w)).ln() / 0.04;
+    let at = |t: f64| {
+        let s = rate * (t - top);
+        if t < top {
+            [height + s.cos().ln() / 0.02, -w * s.tan()]
+        } else {
+            [height - s.cosh().ln() / 0.02, -w * s.tanh()]
+        }
+    };
+    for t in [0.5, 1.5, 2.0, 5.0] {
+        near(&run.to(t), &at(t), 3e-14);
+    }
+}
+
+#[test]
+fn a_one_sided_spring_throws_back() {
+    // falls from 1 with g = 1, meets a spring of strength 100 at 0
+    let mut run = one("1.0", "0.0", "1/2*x'^2 - x - 50*max(0, -x)^2", "0", "0");
+    let (v, w) = (2.0_f64.sqrt(), 10.0_f64);
+    // in contact x = −1/w² + A cos(w s + φ), leaves with the speed it came with
+    let (shift, speed) = (1.0 / (w * w), v / w);
+    let contact = (std::f64::consts::PI + 2.0 * (shift / speed).atan()) / w;
+    let period = 2.0 * v + contact;
+    near(&run.to(period), &[1.0, 0.0], 2e-15);
+    let s = 0.03_f64;
+    let inside = [
+        -shift + shift * (w * s).cos() - speed * (w * s).sin(),
+        -shift * w * (w * s).sin() - v * (w * s).cos(),
+    ];
+    near(&run.to(period + v + s), &inside, 3e-15);
+}
+
+#[test]
+fn a_wedge_and_its_square_root_disguise_are_the_same() {
+    for potential in ["abs(x)", "sqrt(x^2)", "max(x, -x)"] {
+        let mut run = one("0.5", "0.0", &format!("1/2*x'^2 - {potential}"), "0", "0");
+        // from x₀ to the kink in √(2 x₀) = 1, and so on
+        near(&run.to(1.0), &[0.0, -1.0], 1e-16);
+        near(&run.to(2.0), &[-0.5, 0.0], 1e-16);
+        near(&run.to(4.0), &[0.5, 0.0], 1e-16);
+        near(&run.to(40.5), &[0.375, -0.5], 5e-16);
+    }
+}
+
+#[test]
+fn a_square_wave_switches_with_the_clock() {
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "sign(sin(pi*t))");
+    near(&run.to(1.0), &[0.5, 1.0], 1e-16);
+    near(&run.to(2.0), &[1.0, 0.0], 2e-16);
+    near(&run.to(21.0), &[10.5, 1.0], 2e-15);
+}
+
+#[test]
+fn a_live_exponent_makes_no_kink_where_it_is_an_integer() {
+    // V = x^n/2 with n = 2 known only at run time: the oscillator, through x = 0
+    let mut run = one("1.0", "0.0", "1/2*x'^2 - x^n/2", "0", "0");
+    near(&run.to(10.0), &[10.0_f64.cos(), -10.0_f64.sin()], 1.2e-16);
+}
+
+#[test]
+fn backwards_through_a_kink() {
+    let mut run = one("0.5", "0.0", "1/2*x'^2 - abs(x)", "0", "0");
+    run.to(7.25);
+    near(&run.to(0.0), &[0.5, 0.0], 1e-16);
+}
+
+#[test]
+fn at_rest_on_the_ridge_of_a_roof_it_falls_and_in_the_valley_it_sticks() {
+    let mut run = one("0.0", "0.0", "1/2*x'^2 + abs(x)", "0", "0");
+    near(&run.to(2.0), &[2.0, 2.0], 0.0);
+    // at the bottom of the wedge both sides push back, and no velocity can be chosen to stay
+    let mut run = one("0.0", "0.0", "1/2*x'^2 - abs(x)", "0", "0");
+    let fault = run.try_to(1.0).expect_err("both sides push back");
+    assert_eq!(fault.kind, FaultKind::Sticks);
+    assert_eq!(
+        fault.to_string(),
+        "the motion sticks at t = 0, x = 0: both sides of a kink push towards it"
+    );
+}

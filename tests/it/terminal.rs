@@ -1,0 +1,5 @@
+//! The program on a pseudo-terminal: what it leaves behind on every way out, and what it takes in and sends.
+
+mod lab;
+mod page;
+mod session;

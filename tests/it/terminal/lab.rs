@@ -1,0 +1,221 @@
+//! The laboratory itself, as a person meets it.
+
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use rustix::process::Signal;
+
+use super::session::{Session, Setup};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
+
+fn lab(arguments: &[&str]) -> Setup {
+    Setup::new(PROGRAM, arguments).size(120, 40)
+}
+
+/// The pendulum in motion.
+fn pendulum() -> Session {
+    let mut lab = lab(&["pendulum"]).start();
+    lab.shows("running");
+    lab.shows("fps");
+    lab
+}
+
+#[track_caller]
+fn quits(mut lab: Session) {
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
+}
+
+#[test]
+fn the_picker_answers_and_opens_a_system() {
+    let mut lab = lab(&[]).start();
+    lab.shows("Systems");
+    lab.shows("Simple pendulum");
+    lab.press("henon");
+    lab.until("the search leaves one", |lab| {
+        lab.text().contains("Hénon") && !lab.text().contains("Simple pendulum")
+    });
+    assert!(lab.screen().bracketed_paste(), "text is typed, so pastes come in brackets");
+    lab.press("\r");
+    lab.shows("running");
+    lab.press(" ");
+    lab.shows("paused");
+    quits(lab);
+}
+
+#[test]
+fn q_leaves_every_page() {
+    for (keys, shown) in [
+        ("", "Gauges"),
+        ("2", "Equations"),
+        ("3", "Notes"),
+        ("4", "Numbers"),
+        ("?", "Keys"),
+        ("\x1b", "Systems"),
+    ] {
+        let mut lab = pendulum();
+        lab.press(keys);
+        lab.shows(shown);
+        quits(lab);
+    }
+    let mut tiny = lab(&[]).size(20, 4).start();
+    tiny.shows("needs");
+    quits(tiny);
+}
+
+#[test]
+fn a_paused_lab_sends_nothing() {
+    let mut lab = pendulum();
+    lab.press(" ");
+    lab.shows("paused");
+    lab.quiet(Duration::from_millis(300));
+    assert_eq!(lab.bytes_in(Duration::from_secs(2)), 0);
+    quits(lab);
+}
+
+#[test]
+fn a_far_terminal_gets_fewer_frames() {
+    let mut lab = lab(&["pendulum"]).variable("SSH_TTY", "/dev/pts/0").start();
+    lab.shows("running");
+    let before = lab.sent.len();
+    lab.bytes_in(Duration::from_secs(2));
+    let frames = String::from_utf8_lossy(&lab.sent[before..]).matches("\x1b[?2026h").count();
+    assert!(frames <= 31, "{frames} frames in two seconds");
+    quits(lab);
+}
+
+/// All numbers of the `CSI … m` sequences in what was sent.
+fn attributes(sent: &str) -> Vec<Vec<u16>> {
+    let sequences = sent.split("\x1b[").skip(1).filter_map(|rest| {
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != ';')?;
+        rest[end..].starts_with('m').then(|| &rest[..end])
+    });
+    sequences.map(|numbers| numbers.split(';').flat_map(str::parse).collect()).collect()
+}
+
+#[test]
+fn no_color_means_no_colour_and_still_a_selection() {
+    let mut lab = lab(&[]).variable("NO_COLOR", "1").start();
+    lab.shows("Simple pendulum");
+    lab.press("pendulum\r");
+    lab.shows("running");
+    lab.press("?");
+    lab.shows("Keys");
+    let attributes = attributes(&lab.sent());
+    assert!(attributes.iter().all(|numbers| !numbers.is_empty()), "a bare CSI m ends everything");
+    let coloured = |number: &u16| (30..=49).contains(number) || (90..=107).contains(number);
+    assert!(!attributes.iter().flatten().any(coloured), "{attributes:?}");
+    assert!(attributes.iter().flatten().any(|number| *number == 7), "nothing is selected");
+    quits(lab);
+}
+
+#[test]
+fn a_plain_locale_gets_ascii() {
+    let mut lab = lab(&[]).variable("LANG", "C").start();
+    lab.shows("Simple pendulum");
+    lab.press("pendulum\r");
+    lab.shows("running");
+    for page in ["2", "3", "4", "?"] {
+        lab.press(page);
+        lab.bytes_in(Duration::from_millis(100));
+    }
+    lab.shows("Keys");
+    let beyond: String = lab.sent().chars().filter(|c| !c.is_ascii()).collect();
+    assert_eq!(beyond, "");
+    quits(lab);
+}
+
+#[test]
+fn a_file_with_mistakes_is_shown_with_its_mistakes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("wrong.toml");
+    let text = "title = \"Wrong\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"y\"\n";
+    fs::write(&path, text).expect("a file");
+    let mut lab = Setup::new(PROGRAM, &[]).size(120, 40).argument(&path).start();
+    lab.shows("mistakes");
+    lab.shows("L = \"y\"");
+    lab.shows("^");
+    quits(lab);
+}
+
+#[test]
+fn a_name_that_is_not_there_opens_nothing() {
+    let mut lab = lab(&["pendulm"]).start();
+    assert_eq!(lab.ends().0, 2);
+    assert!(lab.text().contains("`pendulum`"), "{}", lab.text());
+    assert!(!lab.sent().contains("\x1b["));
+}
+
+#[test]
+fn signals_end_a_moving_lab() {
+    for (signal, status) in [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130)] {
+        let mut lab = pendulum();
+        lab.signal(signal);
+        assert_eq!(lab.ends().0, status);
+        lab.assert_restored();
+    }
+}
+
+#[test]
+fn ctrl_z_stops_a_moving_lab_and_it_comes_back() {
+    let mut lab = pendulum();
+    lab.press("\x1a");
+    lab.stops();
+    lab.assert_restored();
+    lab.signal(Signal::CONT);
+    lab.until("it is on the screen again", |lab| lab.screen().alternate_screen());
+    lab.shows("running");
+    quits(lab);
+}
+
+#[test]
+fn a_flood_of_keys_does_not_hold_a_moving_lab() {
+    for key in ["z", " "] {
+        let mut lab = pendulum();
+        lab.press(&(key.repeat(100_000) + "q"));
+        let (status, took) = lab.ends();
+        assert_eq!(status, 0);
+        assert!(took < Duration::from_secs(2), "{took:?}");
+    }
+}
+
+#[test]
+fn a_storm_of_sizes_ends_in_the_picture_of_the_last() {
+    let mut lab = pendulum();
+    lab.press(" ");
+    lab.shows("paused");
+    for step in 0_u16..200 {
+        lab.resize(step * 37 % 301, step * 53 % 97);
+    }
+    lab.resize(80, 24);
+    lab.until("the last size is painted", |lab| {
+        let sent = lab.sent();
+        let last = sent.rfind("\x1b[2J").map_or("", |at| &sent[at..]);
+        let mut screen = vt100::Parser::new(24, 80, 0);
+        screen.process(last.as_bytes());
+        let lines: Vec<_> = screen.screen().rows(0, 80).collect();
+        lines[0].contains("Simple pendulum") && lines[23].contains("q quit")
+    });
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+}
+
+#[test]
+fn without_a_terminal_it_says_what_to_do() {
+    let output = Command::new(PROGRAM)
+        .env("TERM", "xterm")
+        .stdin(Stdio::null())
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let message = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(message.contains("phaselab run"), "{message}");
+    let mut dumb = lab(&[]).variable("TERM", "dumb").start();
+    assert_eq!(dumb.ends().0, 2);
+    assert!(dumb.text().contains("phaselab run"), "{}", dumb.text());
+}

@@ -1,0 +1,302 @@
+//! A program on a pseudo-terminal: typed at, signalled, resized, and its screen read.
+//!
+//! Nothing here sleeps for a result: conditions are waited for, up to a deadline far beyond what they should take.
+
+use std::ffi::OsString;
+use std::io::{Read, Write};
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, OnceLock};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use rustix::process::{Pid, Signal, WaitOptions, kill_process, waitpid};
+
+/// How long anything may take before it counts as never.
+const NEVER: Duration = Duration::from_secs(20);
+
+/// What is started, and where.
+pub(super) struct Setup {
+    command: Vec<OsString>,
+    size: (u16, u16),
+    environment: Vec<(&'static str, &'static str)>,
+}
+
+impl Setup {
+    /// A program with its arguments, on a terminal of 80 columns and 24 rows in a UTF-8 locale.
+    pub(super) fn new(program: impl Into<OsString>, arguments: &[&str]) -> Self {
+        let mut command = vec![program.into()];
+        command.extend(arguments.iter().map(OsString::from));
+        let environment = vec![("TERM", "xterm-256color"), ("LANG", "C.UTF-8")];
+        Self { command, size: (80, 24), environment }
+    }
+
+    /// The page of `examples/page.rs`.
+    pub(super) fn page() -> Self {
+        Self::new(page(), &[])
+    }
+
+    /// A shell's command line in which `$0` is the page.
+    pub(super) fn page_under(line: &str) -> Self {
+        let mut setup = Self::new("sh", &["-c", line]);
+        setup.command.push(page().into());
+        setup
+    }
+
+    /// Another size: columns, rows.
+    pub(super) fn size(mut self, columns: u16, rows: u16) -> Self {
+        self.size = (columns, rows);
+        self
+    }
+
+    /// One more argument.
+    pub(super) fn argument(mut self, argument: impl Into<OsString>) -> Self {
+        self.command.push(argument.into());
+        self
+    }
+
+    /// One more environment variable; the last of a name counts.
+    pub(super) fn variable(mut self, name: &'static str, value: &'static str) -> Self {
+        self.environment.push((name, value));
+        self
+    }
+
+    /// Starts it.
+    pub(super) fn start(self) -> Session {
+        Session::start(self)
+    }
+}
+
+/// The example's program, built as this test is.
+fn page() -> PathBuf {
+    static PAGE: OnceLock<PathBuf> = OnceLock::new();
+    let build = || {
+        let test = std::env::current_exe().expect("this test");
+        let folder = test.parent().and_then(|deps| deps.parent()).expect("target/debug/deps");
+        let target = folder.parent().expect("target");
+        let mut cargo = Command::new(std::env::var_os("CARGO").expect("tests are run by cargo"));
+        cargo.args(["build", "--quiet", "--example", "page", "--target-dir"]).arg(target);
+        if folder.ends_with("release") {
+            cargo.arg("--release");
+        }
+        assert!(cargo.status().expect("cargo").success(), "the example does not build");
+        folder.join("examples/page")
+    };
+    PAGE.get_or_init(build).clone()
+}
+
+/// A program that runs on a pseudo-terminal.
+pub(super) struct Session {
+    master: Box<dyn MasterPty + Send>,
+    keyboard: Box<dyn Write + Send>,
+    child: Box<dyn Child + Send + Sync>,
+    output: Receiver<Vec<u8>>,
+    /// Whoever holds this keeps the terminal from taking output.
+    gate: Arc<Mutex<()>>,
+    /// All that the program has sent so far.
+    pub(super) sent: Vec<u8>,
+    screen: vt100::Parser,
+    /// The terminal's settings before the program started.
+    before: String,
+}
+
+impl Session {
+    fn start(setup: Setup) -> Self {
+        let (cols, rows) = setup.size;
+        let pair = native_pty_system().openpty(pty_size(cols, rows)).expect("a pseudo-terminal");
+        let mut command = CommandBuilder::from_argv(setup.command);
+        command.env_clear();
+        command.env("PATH", std::env::var_os("PATH").unwrap_or_default());
+        command.env("HOME", "/nonexistent");
+        setup.environment.iter().for_each(|(name, value)| command.env(name, value));
+        command.cwd(env!("CARGO_MANIFEST_DIR"));
+
+        let before = settings(&*pair.master);
+        let mut reader = pair.master.try_clone_reader().expect("a reader");
+        let keyboard = pair.master.take_writer().expect("a writer");
+        let child = pair.slave.spawn_command(command).expect("the program starts");
+        let (sender, output) = channel();
+        let gate = Arc::new(Mutex::new(()));
+        let gated = Arc::clone(&gate);
+        thread::spawn(move || {
+            let mut buffer = [0; 4096];
+            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+                drop(gated.lock());
+            }
+        });
+        // Without a size of its own it is taken for the usual one.
+        let (rows, cols) = if cols == 0 { (24, 80) } else { (rows, cols) };
+        let screen = vt100::Parser::new(rows, cols, 0);
+        let master = pair.master;
+        Self { master, keyboard, child, output, gate, sent: Vec::new(), screen, before }
+    }
+
+    /// Types.
+    pub(super) fn press(&mut self, keys: &str) {
+        self.keyboard.write_all(keys.as_bytes()).expect("the terminal takes input");
+    }
+
+    /// Sends a signal to the program.
+    pub(super) fn signal(&self, signal: Signal) {
+        kill_process(self.pid(), signal).expect("the program is there");
+    }
+
+    /// Changes the window's size.
+    pub(super) fn resize(&mut self, columns: u16, rows: u16) {
+        self.master.resize(pty_size(columns, rows)).expect("the terminal can be resized");
+    }
+
+    /// Runs while the terminal takes no output.
+    pub(super) fn stalled<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
+        let gate = Arc::clone(&self.gate);
+        let closed = gate.lock();
+        let result = run(self);
+        drop(closed);
+        result
+    }
+
+    /// Waits until the screen shows a text.
+    pub(super) fn shows(&mut self, text: &str) {
+        self.until(&format!("the screen shows {text:?}"), |session| session.text().contains(text));
+    }
+
+    /// Waits until something holds.
+    pub(super) fn until(&mut self, what: &str, holds: impl Fn(&Self) -> bool) {
+        let end = Instant::now() + NEVER;
+        while !holds(self) {
+            assert!(Instant::now() < end, "never: {what}; the screen:\n{}", self.text());
+            self.listen(Duration::from_millis(20));
+        }
+    }
+
+    /// How many bytes come in so much time.
+    pub(super) fn bytes_in(&mut self, time: Duration) -> usize {
+        let (before, end) = (self.sent.len(), Instant::now() + time);
+        while Instant::now() < end {
+            self.listen(end.saturating_duration_since(Instant::now()));
+        }
+        self.sent.len() - before
+    }
+
+    /// Waits until nothing was sent for so long.
+    pub(super) fn quiet(&mut self, time: Duration) {
+        let end = Instant::now() + NEVER;
+        while self.bytes_in(time) > 0 {
+            assert!(Instant::now() < end, "never quiet");
+        }
+    }
+
+    /// Waits for the end and all output; the exit status, and how long it took.
+    pub(super) fn ends(&mut self) -> (u32, Duration) {
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().expect("a child of ours") {
+                assert_eq!(status.signal(), None, "killed by a signal");
+                let took = start.elapsed();
+                while self.listen(Duration::from_millis(200)) {}
+                return (status.exit_code(), took);
+            }
+            assert!(start.elapsed() < NEVER, "it does not end; the screen:\n{}", self.text());
+            self.listen(Duration::from_millis(5));
+        }
+    }
+
+    /// Presses a key now and then until the program ends; the exit status.
+    pub(super) fn press_until_it_ends(&mut self, key: &str) -> u32 {
+        let end = Instant::now() + NEVER;
+        while self.child.try_wait().expect("a child of ours").is_none() {
+            assert!(Instant::now() < end, "it does not end");
+            self.press(key);
+            self.listen(Duration::from_millis(100));
+        }
+        self.ends().0
+    }
+
+    /// Waits until the program is stopped, as a shell would see it.
+    pub(super) fn stops(&mut self) {
+        let end = Instant::now() + NEVER;
+        let options = WaitOptions::UNTRACED | WaitOptions::NOHANG;
+        loop {
+            let status = waitpid(Some(self.pid()), options).expect("a child of ours");
+            match status {
+                Some((_, status)) if status.stopped() => break,
+                Some((_, status)) => panic!("it ended with {status:?}"),
+                None => assert!(Instant::now() < end, "it does not stop"),
+            }
+            self.listen(Duration::from_millis(5));
+        }
+        self.listen(Duration::from_millis(20));
+    }
+
+    /// Closes the terminal, as when a line goes dead.
+    pub(super) fn hang_up(self) -> Box<dyn Child + Send + Sync> {
+        self.child
+    }
+
+    /// The text on the screen.
+    pub(super) fn text(&self) -> String {
+        self.screen.screen().contents()
+    }
+
+    /// The screen.
+    pub(super) fn screen(&self) -> &vt100::Screen {
+        self.screen.screen()
+    }
+
+    /// Whether the terminal's settings are as before the start.
+    pub(super) fn is_cooked(&self) -> bool {
+        settings(&*self.master) == self.before
+    }
+
+    /// Asserts that the terminal is as it was: settings, screen, cursor, modes.
+    #[track_caller]
+    pub(super) fn assert_restored(&self) {
+        assert!(self.is_cooked(), "the terminal's settings have changed");
+        let screen = self.screen();
+        assert!(!screen.alternate_screen(), "still on the alternate screen");
+        assert!(!screen.hide_cursor(), "the cursor is hidden");
+        assert!(!screen.bracketed_paste(), "pastes are still bracketed");
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+    }
+
+    /// What was sent, as text.
+    pub(super) fn sent(&self) -> String {
+        String::from_utf8_lossy(&self.sent).into_owned()
+    }
+
+    /// Takes in what the program sends, for at most so long; `false` if nothing came.
+    fn listen(&mut self, time: Duration) -> bool {
+        match self.output.recv_timeout(time) {
+            Ok(bytes) => {
+                self.screen.process(&bytes);
+                self.sent.extend(bytes);
+                true
+            }
+            Err(RecvTimeoutError::Timeout) => false,
+            Err(RecvTimeoutError::Disconnected) => {
+                // The end will be noticed by whoever waits for it.
+                thread::sleep(Duration::from_millis(1));
+                false
+            }
+        }
+    }
+
+    fn pid(&self) -> Pid {
+        let id = self.child.process_id().expect("it has started");
+        Pid::from_raw(id as i32).expect("not zero")
+    }
+}
+
+fn pty_size(cols: u16, rows: u16) -> PtySize {
+    PtySize { rows, cols, pixel_width: 0, pixel_height: 0 }
+}
+
+/// The terminal's settings, in a form that can be compared.
+fn settings(master: &dyn MasterPty) -> String {
+    format!("{:?}", master.get_termios().expect("a terminal has settings"))
+}
