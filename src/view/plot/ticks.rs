@@ -87,6 +87,15 @@ impl Step {
         }
     }
 
+    /// The next smaller one.
+    fn previous(self) -> Self {
+        match self.digit {
+            5 => Self { digit: 2, ..self },
+            2 => Self { digit: 1, ..self },
+            _ => Self { digit: 5, exponent: self.exponent - 1 },
+        }
+    }
+
     fn value(self) -> f64 {
         self.times(1)
     }
@@ -114,6 +123,15 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     while last - first + 1.0 > most as f64 {
         step = step.next();
         (first, last) = span(step);
+    }
+    // Between two marks of a coarse step there may lie a whole range: then one mark of a finer step says where it is.
+    while first > last && first.abs() < 1e15 {
+        step = step.previous();
+        (first, last) = span(step);
+    }
+    if last - first + 1.0 > most as f64 {
+        first = ((first + last) / 2.0).floor();
+        last = first;
     }
     // A range far from zero in very small steps would need more digits than a number has.
     if first.abs().max(last.abs()) > 1e15 {
