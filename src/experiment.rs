@@ -201,7 +201,7 @@ impl Experiment {
     fn show_initial(&mut self, state: Option<&State>) {
         let system = self.system();
         self.initial = match state {
-            Some(state) => state.values[..2 * system.degrees()].into(),
+            Some(state) => state.values[..system.moving()].into(),
             None => system.initial_values(&self.setup.parameters).into(),
         };
     }

@@ -10,6 +10,7 @@ mod lagrange;
 mod legendre;
 mod linear;
 mod observe;
+mod poisson;
 mod symmetry;
 
 use crate::expr::NODE_LIMIT;
@@ -34,6 +35,9 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
         Mechanics::Hamiltonian { hamiltonian, forces } => {
             hamilton::equations(&mut pool, model, *hamiltonian, forces)
         }
+        Mechanics::Poisson { hamiltonian, brackets, forces, .. } => {
+            poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
+        }
     };
     equations.pool = pool;
     invariants::find(&mut equations, model);
@@ -48,6 +52,7 @@ fn longest(equations: &Equations) -> u64 {
     let (first, second) = match &equations.flow {
         Flow::Lagrange { mass, force, .. } => (mass.concat(), force),
         Flow::Hamilton { velocities, momentum_rates } => (velocities.clone(), momentum_rates),
+        Flow::Poisson { rates } => (Vec::new(), rates),
     };
     let others = [equations.energy, equations.energy_rate, equations.action_rate];
     let all = first.iter().chain(second).chain(&equations.momenta).chain(&others);

@@ -3,16 +3,24 @@
 //! In: what `preset` read and checked. Out: one [`Model`], the input of `mechanics`. Its
 //! expressions live in its own [`Pool`]. Never here: files, spans of TOML, equations of motion.
 
+mod body;
 mod claim;
+mod constraint;
 mod coordinate;
+mod occurrence;
 mod parameter;
 mod picture;
 mod scope;
 
 use crate::expr::{Expr, Pool, Symbol};
 
-pub use claim::{Expect, ExpectedValue, Observable, Place};
+pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
+pub use claim::{
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, Place,
+};
+pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
+pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, Scale};
 pub use picture::{Channel, Point, Shape, View, ViewKind};
 pub use scope::{Allowed, Scope};
@@ -34,6 +42,20 @@ pub struct Model {
     pub definitions: Vec<(String, Expr)>,
     /// What makes it move.
     pub mechanics: Mechanics,
+    /// What the motion is held to; beside a Lagrangian only.
+    pub constraints: Vec<Constraint>,
+    /// Blows.
+    pub impulses: Vec<Impulse>,
+    /// Crossings to be located.
+    pub events: Vec<Event>,
+    /// A body put together from pieces.
+    pub body: Option<Body>,
+    /// How a body stands.
+    pub attitude: Option<Attitude>,
+    /// The wrong mechanics beside the right.
+    pub comparison: Option<Comparison>,
+    /// Frames a picture may be seen from.
+    pub frames: Vec<Frame>,
     /// What the file wants to be watched.
     pub observables: Vec<Observable>,
     /// What the file claims of itself.
@@ -93,6 +115,48 @@ pub enum Mechanics {
         /// What is added to each ṗ; zero where there is none.
         forces: Vec<Expr>,
     },
+    /// ẋ = {x, H} + force. The variables are the model's coordinates; they have no momenta.
+    Poisson {
+        /// H(x, t).
+        hamiltonian: Expr,
+        /// {x_i, x_j}, antisymmetric, of (x, t).
+        brackets: Vec<Vec<Expr>>,
+        /// Name, expression and place of each Casimir.
+        casimirs: Vec<(String, Expr, Place)>,
+        /// What is added to each ẋ; zero where there is none.
+        forces: Vec<Expr>,
+        /// Where the brackets stand in the file.
+        place: Place,
+    },
+}
+
+impl Mechanics {
+    /// `L` or `H`, and the function.
+    pub fn function(&self) -> (&'static str, Expr) {
+        match self {
+            Mechanics::Lagrangian { lagrangian, .. } => ("L", *lagrangian),
+            Mechanics::Hamiltonian { hamiltonian, .. } | Mechanics::Poisson { hamiltonian, .. } => {
+                ("H", *hamiltonian)
+            }
+        }
+    }
+
+    /// Rayleigh's function, zero where there is none.
+    pub fn dissipation(&self) -> Expr {
+        match self {
+            Mechanics::Lagrangian { dissipation, .. } => *dissipation,
+            Mechanics::Hamiltonian { .. } | Mechanics::Poisson { .. } => Expr::ZERO,
+        }
+    }
+
+    /// What acts beside it on each coordinate or variable.
+    pub fn forces(&self) -> &[Expr] {
+        match self {
+            Mechanics::Lagrangian { forces, .. }
+            | Mechanics::Hamiltonian { forces, .. }
+            | Mechanics::Poisson { forces, .. } => forces,
+        }
+    }
 }
 
 /// How a system is run where nobody says otherwise.
@@ -150,6 +214,13 @@ impl Model {
                 dissipation: Expr::ZERO,
                 forces: Vec::new(),
             },
+            constraints: Vec::new(),
+            impulses: Vec::new(),
+            events: Vec::new(),
+            body: None,
+            attitude: None,
+            comparison: None,
+            frames: Vec::new(),
             observables: Vec::new(),
             expect: Expect::default(),
             views: Vec::new(),
@@ -161,6 +232,16 @@ impl Model {
     /// Whether the file gives a Lagrangian (and so velocities at the start).
     pub fn is_lagrangian(&self) -> bool {
         matches!(self.mechanics, Mechanics::Lagrangian { .. })
+    }
+
+    /// Whether the file gives brackets of variables that are no coordinates and momenta.
+    pub fn is_poisson(&self) -> bool {
+        matches!(self.mechanics, Mechanics::Poisson { .. })
+    }
+
+    /// How many numbers say where a motion is: two of each coordinate, one of each variable.
+    pub fn moving(&self) -> usize {
+        if self.is_poisson() { self.coordinates.len() } else { 2 * self.coordinates.len() }
     }
 
     /// The coordinate of a name.

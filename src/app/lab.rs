@@ -158,7 +158,7 @@ impl Lab {
         let gauges = self.snapshot.as_ref().map_or(0, |s| s.gauges.len());
         let (count, place) = match self.focus {
             Pane::Parameters => (self.count(Target::Parameter), &mut self.selection.parameter),
-            Pane::Initial => (2 * self.loaded.model.coordinates.len(), &mut self.selection.initial),
+            Pane::Initial => (self.loaded.model.moving(), &mut self.selection.initial),
             Pane::Gauges => (gauges, &mut self.selection.gauge),
             Pane::Plot(_) => return,
         };

@@ -35,7 +35,7 @@ impl Lab {
     pub fn count(&self, kind: fn(usize) -> Target) -> usize {
         match kind(0) {
             Target::Parameter(_) => self.loaded.model.parameters.len(),
-            Target::Initial(_) => 2 * self.loaded.model.coordinates.len(),
+            Target::Initial(_) => self.loaded.model.moving(),
         }
     }
 

@@ -27,7 +27,8 @@ impl EnergyLaw {
                 (*dissipation != Expr::ZERO, "friction", "− q̇·∂F/∂q̇"),
                 (any(forces), "forces", "+ q̇·Q"),
             ],
-            Mechanics::Hamiltonian { hamiltonian, forces } => [
+            Mechanics::Hamiltonian { hamiltonian, forces }
+            | Mechanics::Poisson { hamiltonian, forces, .. } => [
                 (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
                 (any(forces), "forces", "+ q̇·Q"),
                 (false, "", ""),

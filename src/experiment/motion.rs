@@ -141,7 +141,7 @@ impl Motion {
             time: self.state.time,
             steps: self.steps,
             values: &self.values,
-            action: self.state.values.get(2 * self.system.degrees()).copied().unwrap_or(f64::NAN),
+            action: self.state.values.get(self.system.moving()).copied().unwrap_or(f64::NAN),
             parameter,
         }
     }

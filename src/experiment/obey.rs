@@ -109,9 +109,9 @@ impl Experiment {
         let given = match (index < n, system.form()) {
             (true, _) => Given::Position(index, value),
             (false, Form::Velocity) => Given::Velocity(index - n, value),
-            (false, Form::Momentum) => Given::Momentum(index - n, value),
+            (false, Form::Momentum | Form::Variables) => Given::Momentum(index - n, value),
         };
-        if index >= 2 * n || !value.is_finite() {
+        if index >= system.moving() || !value.is_finite() {
             return self.tell(format!("an initial value cannot be {value}"));
         }
         let is_rate = |g: &Given| matches!(g, Given::Velocity(i, _) | Given::Momentum(i, _) if i + n == index);

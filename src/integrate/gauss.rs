@@ -41,7 +41,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     preserves: Preserves::Symplectic,
     needs: "",
     about: "Collocation at two points, solved by iteration: symplectic for any system that has \
-            momenta, whatever its H. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
+            momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
     fits: |_| Ok(()),
     make: |system, settings| {
@@ -58,7 +58,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     preserves: Preserves::Symplectic,
     needs: "",
     about: "Collocation at three points, solved by iteration: symplectic for any system that has \
-            momenta, whatever its H. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
+            momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
     fits: |_| Ok(()),
     make: |system, settings| {
@@ -192,7 +192,7 @@ impl Gauss {
 
 impl Scheme for Gauss {
     fn form(&self) -> Form {
-        Form::Momentum
+        self.rates.form()
     }
 
     fn begin(&mut self, parameters: &[f64]) {

@@ -134,7 +134,8 @@ impl Taylor {
     fn not_finite(&self) -> Fault {
         let names = self.system.channels();
         let n = self.system.degrees();
-        let culprit = (0..2 * n).find(|&i| !self.series.coefficient(i, 1).is_finite());
+        let culprit =
+            (0..self.system.moving()).find(|&i| !self.series.coefficient(i, 1).is_finite());
         let name = match culprit {
             Some(i) if i < n => format!("the velocity of {}", names[i].shown),
             Some(i) => format!("the force on {}", names[i - n].shown),

@@ -14,7 +14,7 @@ pub struct Equations {
     pub coordinates: Vec<CoordinateSymbols>,
     /// Time, `energy` and `action`.
     pub symbols: CommonSymbols,
-    /// p_i: ∂L/∂q̇_i for a Lagrangian, the symbol p_i itself for a Hamiltonian.
+    /// p_i: ∂L/∂q̇_i for a Lagrangian, the symbol p_i itself for a Hamiltonian; none for brackets.
     pub momenta: Vec<Expr>,
     /// The equations of motion in the form they are integrated in.
     pub flow: Flow,
@@ -73,6 +73,11 @@ pub enum Flow {
         velocities: Vec<Expr>,
         /// ṗ.
         momentum_rates: Vec<Expr>,
+    },
+    /// ẋ = {x, H} + force.
+    Poisson {
+        /// ẋ.
+        rates: Vec<Expr>,
     },
 }
 

@@ -6,7 +6,7 @@
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::model::{Mechanics, Model, Observable};
+use crate::model::{Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
@@ -14,6 +14,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. } => {
             momentum_rates.clone()
         }
+        Flow::Poisson { .. } => Vec::new(),
     };
     for (i, (&rate, coordinate)) in rates.iter().zip(&model.coordinates).enumerate() {
         let reason = match equations.pool.is_zero(rate) {
@@ -45,7 +46,9 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         }
         Zero::No => {}
     }
-    symmetry::find(equations, model, &rates);
+    if !model.is_poisson() {
+        symmetry::find(equations, model, &rates);
+    }
     for observable in &model.observables {
         name_observable(equations, observable);
     }
@@ -78,8 +81,7 @@ fn name_observable(equations: &mut Equations, observable: &Observable) {
 
 /// Whether the i-th coordinate does not appear in L (or H).
 fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
-    let (Mechanics::Lagrangian { lagrangian: f, .. }
-    | Mechanics::Hamiltonian { hamiltonian: f, .. }) = model.mechanics;
+    let (_, f) = model.mechanics.function();
     let slope = equations.pool.derivative(f, model.coordinates[i].position);
     equations.pool.is_zero(slope) == Zero::Proved
 }
@@ -102,17 +104,12 @@ impl Equations {
         {
             return None;
         }
-        let n = self.coordinates.len();
-        let mut seeds = vec![(self.symbols.time, Expr::ONE)];
-        for i in 0..n {
-            let c = self.coordinates[i];
-            if self.is_lagrangian() {
+        let mut seeds = self.along_the_flow();
+        if self.is_lagrangian() {
+            for (c, &acceleration) in self.coordinates.clone().iter().zip(&solved) {
                 let velocity = self.pool.variable(c.velocity);
                 seeds.push((c.position, velocity));
-                seeds.push((c.velocity, solved[i]));
-            } else {
-                seeds.push((c.position, solved[i]));
-                seeds.push((c.momentum, solved[n + i]));
+                seeds.push((c.velocity, acceleration));
             }
         }
         Some(self.pool.derivation(g, &seeds))

@@ -7,6 +7,25 @@ use super::equations::{Equations, Flow};
 use crate::expr::{Expr, Symbol};
 
 impl Equations {
+    /// What time, coordinates and momenta (or variables) change by, for a flow that is of first
+    /// order in time.
+    pub fn along_the_flow(&self) -> Vec<(Symbol, Expr)> {
+        let mut seeds = vec![(self.symbols.time, Expr::ONE)];
+        match &self.flow {
+            Flow::Lagrange { .. } => {}
+            Flow::Hamilton { velocities, momentum_rates } => {
+                for (i, c) in self.coordinates.iter().enumerate() {
+                    seeds.push((c.position, velocities[i]));
+                    seeds.push((c.momentum, momentum_rates[i]));
+                }
+            }
+            Flow::Poisson { rates } => {
+                seeds.extend(self.coordinates.iter().zip(rates).map(|(c, &x)| (c.position, x)));
+            }
+        }
+        seeds
+    }
+
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a
     /// Lagrangian system, of (q, p, t) for a Hamiltonian one. The symbol `action` stays.
     pub fn open(&mut self, observable: Expr) -> Expr {
@@ -19,13 +38,9 @@ impl Equations {
                     replacements.insert(c.momentum, p);
                 }
             }
-            Flow::Hamilton { velocities, momentum_rates } => {
+            Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {
                 // q̈ = d/dt ∂H/∂p along the flow
-                let mut seeds = vec![(self.symbols.time, Expr::ONE)];
-                for (i, c) in self.coordinates.iter().enumerate() {
-                    seeds.push((c.position, velocities[i]));
-                    seeds.push((c.momentum, momentum_rates[i]));
-                }
+                let seeds = self.along_the_flow();
                 for (i, c) in self.coordinates.iter().enumerate() {
                     replacements.insert(c.velocity, velocities[i]);
                     if self.pool.depends(e, c.acceleration) {

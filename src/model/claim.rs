@@ -26,6 +26,61 @@ pub struct Expect {
     pub conserves: Vec<(String, Expr, Place)>,
     /// Values the motion is to have.
     pub values: Vec<ExpectedValue>,
+    /// When events and blows are to happen.
+    pub events: Vec<ExpectedEvent>,
+    /// How often they are to happen.
+    pub counts: Vec<ExpectedCount>,
+    /// What brackets are to be.
+    pub brackets: Vec<ExpectedBracket>,
+}
+
+/// A moment at which something is to happen.
+#[derive(Clone, Debug)]
+pub struct ExpectedEvent {
+    /// The name of the event or impulse.
+    pub name: String,
+    /// Which time it is; the first is 1.
+    pub nth: usize,
+    /// When.
+    pub at: f64,
+    /// The absolute tolerance of the time; 1e-10 where the file gives none.
+    pub within: f64,
+    /// Where the number comes from.
+    pub source: String,
+    /// Where the claim stands.
+    pub place: Place,
+}
+
+/// How often something is to have happened.
+#[derive(Clone, Debug)]
+pub struct ExpectedCount {
+    /// The name of the event or impulse.
+    pub name: String,
+    /// Until this time.
+    pub until: f64,
+    /// So often.
+    pub is: usize,
+    /// Where the number comes from.
+    pub source: String,
+    /// Where the claim stands.
+    pub place: Place,
+}
+
+/// \[f, g\] = is.
+#[derive(Clone, Debug)]
+pub struct ExpectedBracket {
+    /// As in an observable.
+    pub f: Expr,
+    /// As in an observable.
+    pub g: Expr,
+    /// As in an observable.
+    pub is: Expr,
+    /// As the file writes f and g.
+    pub written: String,
+    /// Where it comes from.
+    pub source: String,
+    /// Where the claim stands.
+    pub place: Place,
 }
 
 /// A number the motion is to give.

@@ -24,6 +24,8 @@ pub struct Coordinate {
     /// The initial velocity (Lagrangian) or momentum (Hamiltonian), in parameters; zero where the
     /// file leaves it out.
     pub initial_rate: Expr,
+    /// Whether the file gives that rate; under constraints a velocity left out is solved for.
+    pub rate_given: bool,
     /// After what the coordinate repeats, in parameters; for drawing only.
     pub period: Option<Expr>,
 }
@@ -68,6 +70,7 @@ impl Coordinate {
             momentum,
             initial: Expr::ZERO,
             initial_rate: Expr::ZERO,
+            rate_given: false,
             period: None,
         }
     }

@@ -29,6 +29,8 @@ pub enum ChannelKind {
     Momentum(usize),
     /// Jacobi's h, or H.
     Energy,
+    /// The Casimir of this index.
+    Casimir(usize),
     /// The declared observable of this index.
     Observable(usize),
     /// The extra channel of this index, as given to [`System::compile`](super::System::compile).

@@ -23,6 +23,8 @@ pub struct System {
 #[derive(Debug)]
 struct Shared {
     native: Form,
+    /// How many coordinates or variables there are.
+    degrees: usize,
     quadratures: Quadratures,
     motion: Motion,
     watch: Watch,
@@ -107,6 +109,7 @@ impl System {
         let energy = lowering.finish(outputs)?;
         Ok(Shared {
             native: writer.native(),
+            degrees: coordinates.len(),
             quadratures: writer.quadratures,
             motion,
             legendre: legendre::program(writer)?,
@@ -116,14 +119,20 @@ impl System {
         })
     }
 
-    /// The number of degrees of freedom.
+    /// The number of coordinates, or of the variables of a Poisson system.
     pub fn degrees(&self) -> usize {
-        self.shared.legendre.inputs() / 2
+        self.shared.degrees
     }
 
-    /// How many numbers a state has: coordinates, rates, and the integrals carried along.
+    /// How many numbers of a state say where the motion is: coordinates and as many rates, or the
+    /// variables of a Poisson system.
+    pub fn moving(&self) -> usize {
+        if self.form() == Form::Variables { self.degrees() } else { 2 * self.degrees() }
+    }
+
+    /// How many numbers a state has: those that say where it is, and the integrals carried along.
     pub fn state_len(&self) -> usize {
-        2 * self.degrees() + self.shared.quadratures.count()
+        self.moving() + self.shared.quadratures.count()
     }
 
     /// The form its states have where no method asks for another: velocities for a Lagrangian,
@@ -163,7 +172,7 @@ impl System {
     /// parameters.
     pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {
         let values = self.initial_program(&written(parameters));
-        (0..2 * self.degrees()).map(|i| values.output(i).high).collect()
+        (0..self.moving()).map(|i| values.output(i).high).collect()
     }
 
     fn initial_program(&self, parameters: &[Double]) -> Values<Double> {
@@ -177,7 +186,7 @@ impl System {
         let n = self.degrees();
         let parameters = written(parameters);
         let values = self.initial_program(&parameters);
-        let mut state: Vec<Double> = (0..2 * n).map(|i| values.output(i)).collect();
+        let mut state: Vec<Double> = (0..self.moving()).map(|i| values.output(i)).collect();
         let mut targets = vec![None; n];
         for &given in given {
             match (given, self.form()) {
@@ -240,7 +249,7 @@ impl System {
         let time = state.exact_time();
         let mut result = state.clone();
         result.form = form;
-        let mut numbers: Vec<Double> = (0..2 * n).map(|i| state.exact(i)).collect();
+        let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let outcome = if form == legendre.native() {
             let targets: Vec<_> = numbers[n..].iter().copied().map(Some).collect();
             for i in n..2 * n {
@@ -321,7 +330,11 @@ impl System {
             Form::Momentum if i >= n => i + n,
             _ => i,
         };
-        if i < 2 * n { self.channels()[channel].shown.clone() } else { "an integral".to_owned() }
+        if i < self.moving() {
+            self.channels()[channel].shown.clone()
+        } else {
+            "an integral".to_owned()
+        }
     }
 
     /// A fault at a state, told with its coordinates.

@@ -23,6 +23,7 @@ pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
         Flow::Lagrange { mass, .. } => {
             (equations.momenta.clone(), mass.iter().flatten().copied().collect())
         }
+        Flow::Poisson { .. } => (Vec::new(), Vec::new()),
         Flow::Hamilton { velocities, .. } => {
             let mut matrix = Vec::new();
             for &v in velocities {

@@ -47,7 +47,11 @@ impl Writer<'_> {
 
     /// The form the equations are given in.
     pub(super) fn native(&self) -> Form {
-        if self.equations.is_lagrangian() { Form::Velocity } else { Form::Momentum }
+        match self.equations.flow {
+            Flow::Lagrange { .. } => Form::Velocity,
+            Flow::Hamilton { .. } => Form::Momentum,
+            Flow::Poisson { .. } => Form::Variables,
+        }
     }
 
     /// A program whose inputs are a state in the native form.
@@ -75,6 +79,7 @@ impl Writer<'_> {
                 outputs.extend(lowering.lower_all(momentum_rates));
                 outputs
             }
+            Flow::Poisson { rates } => lowering.lower_all(rates),
         };
         outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
         lowering.finish(outputs)
@@ -191,7 +196,8 @@ fn bind_state(
         let register = lowering.input();
         lowering.bind(c.position, register);
     }
-    let rates = coordinates.iter().map(|c| {
+    let with_rates = if form == Form::Variables { &[] } else { coordinates };
+    let rates = with_rates.iter().map(|c| {
         let register = lowering.input();
         let symbol = if form == Form::Velocity { c.velocity } else { c.momentum };
         lowering.bind(symbol, register);

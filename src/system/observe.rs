@@ -23,7 +23,7 @@ pub struct Observer {
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = 2 * system.degrees() + 2;
+        let inputs = system.moving() + 2;
         let mut observer = Observer {
             precise: Values::new(Arc::clone(&watch.precise)),
             drawn: Values::new(Arc::clone(&watch.drawn)),
@@ -100,21 +100,21 @@ impl Observer {
 
     /// The inputs of the programs: the state in the native form, then action and work.
     fn take_in(&mut self, state: &State) -> Result<(), Fault> {
-        let n = self.system.degrees();
+        let moving = self.system.moving();
         if state.form == self.system.form() {
-            for i in 0..2 * n {
+            for i in 0..moving {
                 self.inputs[i] = state.exact(i);
             }
         } else {
             let native =
                 self.system.convert_by(&mut self.legendre, state, self.system.form(), None)?;
-            for i in 0..2 * n {
+            for i in 0..moving {
                 self.inputs[i] = native.exact(i);
             }
         }
         let quadratures = self.system.quadratures();
-        let mut next = 2 * n;
-        for (carried, place) in [(quadratures.action, 2 * n), (quadratures.work, 2 * n + 1)] {
+        let mut next = moving;
+        for (carried, place) in [(quadratures.action, moving), (quadratures.work, moving + 1)] {
             self.inputs[place] = Double::ZERO;
             if carried {
                 self.inputs[place] = state.exact(next);

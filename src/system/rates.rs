@@ -40,10 +40,11 @@ impl System {
     }
 
     /// Rates of change of states (q, p): q̇ = ∂H/∂p, ṗ = −∂H/∂q + forces, where need be through
-    /// p = ∂L/∂q̇.
+    /// p = ∂L/∂q̇. A Poisson system has its variables only.
     pub fn canonical_rates(&self) -> Rates {
         let (program, direct) = &self.motion().canonical;
-        let mut rates = Rates::new(self, Form::Momentum, 0, program);
+        let form = if self.form() == Form::Variables { Form::Variables } else { Form::Momentum };
+        let mut rates = Rates::new(self, form, 0, program);
         if !direct {
             let n = self.degrees();
             rates.solver = Some(Solver {
@@ -110,8 +111,7 @@ impl Rates {
     /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
     /// numbers that do not move are left alone.
     pub fn evaluate(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
-        let n = self.system.degrees();
-        let numbers = &numbers[..2 * n];
+        let numbers = &numbers[..self.system.moving()];
         let inputs = match &mut self.solver {
             None => numbers,
             Some(solver) => {

@@ -9,6 +9,8 @@ pub enum Form {
     Velocity,
     /// (q, p): what a Hamiltonian is a function of.
     Momentum,
+    /// x alone: variables that are given by their brackets.
+    Variables,
 }
 
 /// Where a motion is. Every number of it is a sum of two: `values[i] + carry[i]`, the second one

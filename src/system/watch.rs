@@ -10,7 +10,7 @@ use super::motion::Writer;
 use super::program::{Program, Register};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::{self, Model, Shape};
+use crate::model::{self, Mechanics, Model, Shape};
 
 /// Everything watched of one system.
 #[derive(Clone, Debug)]
@@ -84,7 +84,8 @@ impl List {
                 channel.periodic = c.period.is_some();
             }
         }
-        let symbols: Vec<_> = model.coordinates.iter().map(|c| (c.velocity, c.momentum)).collect();
+        let moving = if model.is_poisson() { &[] } else { &model.coordinates[..] };
+        let symbols: Vec<_> = moving.iter().map(|c| (c.velocity, c.momentum)).collect();
         for (i, &(velocity, _)) in symbols.iter().enumerate() {
             self.add_symbol(ChannelKind::Velocity(i), equations, velocity);
         }
@@ -95,6 +96,11 @@ impl List {
         let energy = equations.pool.variable(equations.symbols.energy);
         self.add(ChannelKind::Energy, "energy", "E", energy);
         self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
+        if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
+            for (i, (name, e, _)) in casimirs.iter().enumerate() {
+                self.add(ChannelKind::Casimir(i), name, name, *e);
+            }
+        }
     }
 
     fn add_symbol(&mut self, kind: ChannelKind, equations: &mut Equations, symbol: Symbol) {
@@ -161,13 +167,9 @@ fn program(
 ) -> Result<Arc<Program>, Symbol> {
     let equations = writer.equations;
     let accelerations = match &equations.flow {
-        Flow::Hamilton { velocities, momentum_rates } if accelerated => {
+        Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } if accelerated => {
             // q̈ = d/dt ∂H/∂p along the motion
-            let mut seeds = vec![(equations.symbols.time, Expr::ONE)];
-            for (i, c) in equations.coordinates.iter().enumerate() {
-                seeds.push((c.position, velocities[i]));
-                seeds.push((c.momentum, momentum_rates[i]));
-            }
+            let seeds = equations.along_the_flow();
             velocities.iter().map(|&v| writer.pool.derivation(v, &seeds)).collect()
         }
         _ => Vec::new(),
@@ -207,7 +209,7 @@ fn bind_derived(
                 }
             }
         }
-        Flow::Hamilton { velocities, .. } => {
+        Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {
             let velocities = lowering.lower_all(velocities);
             for (c, v) in equations.coordinates.iter().zip(velocities) {
                 lowering.bind(c.velocity, v);

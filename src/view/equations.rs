@@ -29,10 +29,8 @@ pub(super) fn document(lab: &Lab, look: &Look) -> Document {
 pub(super) fn law(lab: &Lab, look: &Look) -> Document {
     let writer = Writer { equations: &lab.loaded.equations, model: &lab.loaded.model, look };
     let mut page = Document::default();
-    match &writer.model.mechanics {
-        Mechanics::Lagrangian { lagrangian, .. } => writer.put(&mut page, "L", *lagrangian),
-        Mechanics::Hamiltonian { hamiltonian, .. } => writer.put(&mut page, "H", *hamiltonian),
-    }
+    let (name, law) = writer.model.mechanics.function();
+    writer.put(&mut page, name, law);
     page.gap();
     writer.solved(&mut page);
     for paragraph in writer.model.info.notes.split("\n\n").map(str::trim) {
@@ -83,7 +81,8 @@ impl Writer<'_> {
                 }
                 self.forces(page, forces);
             }
-            Mechanics::Hamiltonian { hamiltonian, forces } => {
+            Mechanics::Hamiltonian { hamiltonian, forces }
+            | Mechanics::Poisson { hamiltonian, forces, .. } => {
                 page.heading("Hamiltonian");
                 self.put(page, "H", *hamiltonian);
                 self.forces(page, forces);

@@ -31,6 +31,7 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         Flow::Hamilton { velocities, momentum_rates } => {
             (Value::Null, list(&[velocities.as_slice(), momentum_rates].concat()))
         }
+        Flow::Poisson { rates } => (Value::Null, list(rates)),
     };
     let hamiltonian = match &equations.hamiltonian {
         Ok(h) => text(h),

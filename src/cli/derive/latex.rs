@@ -2,24 +2,19 @@
 
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::{Mechanics, Model};
+use crate::model::Model;
 
 pub(super) fn write(model: &Model, equations: &Equations) -> String {
     let pool = &equations.pool;
     let symbol = |s: Symbol| pool.symbol_info(s).latex.clone();
     let mut lines: Vec<String> = Vec::new();
-    let (name, law) = match &model.mechanics {
-        Mechanics::Lagrangian { lagrangian, .. } => ("L", *lagrangian),
-        Mechanics::Hamiltonian { hamiltonian, .. } => ("H", *hamiltonian),
-    };
+    let (name, law) = model.mechanics.function();
     lines.push(format!("{name} &= {}", pool.latex(law)));
-    if let Mechanics::Lagrangian { dissipation, .. } = &model.mechanics
-        && *dissipation != Expr::ZERO
-    {
-        lines.push(format!("F &= {}", pool.latex(*dissipation)));
+    let dissipation = model.mechanics.dissipation();
+    if dissipation != Expr::ZERO {
+        lines.push(format!("F &= {}", pool.latex(dissipation)));
     }
-    let (Mechanics::Lagrangian { forces, .. } | Mechanics::Hamiltonian { forces, .. }) =
-        &model.mechanics;
+    let forces = model.mechanics.forces();
     let forces = model.coordinates.iter().zip(forces).filter(|(_, force)| **force != Expr::ZERO);
     lines.extend(
         forces.map(|(c, &force)| format!("Q_{{{}}} &= {}", symbol(c.position), pool.latex(force))),
@@ -41,7 +36,7 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
             lines.push(format!("{} {} &= {}", matrix(&mass), matrix(&rates), matrix(&row(force))));
         }
         // q̇ and ṗ are solved for as they stand
-        (Err(_), Flow::Hamilton { .. }) => {}
+        (Err(_), Flow::Hamilton { .. } | Flow::Poisson { .. }) => {}
     }
     if model.is_lagrangian() {
         lines.extend(equations.hamiltonian.iter().map(|&h| format!("H &= {}", pool.latex(h))));

@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow, WhyNot};
-use crate::model::{Mechanics, Model};
+use crate::model::Model;
 use crate::view::glyphs::Glyphs;
 
 /// What the reader's terminal can show.
@@ -58,19 +58,14 @@ impl Page<'_> {
     }
 
     fn law(&mut self, model: &Model) {
-        let (title, name, law) = match &model.mechanics {
-            Mechanics::Lagrangian { lagrangian, .. } => ("Lagrangian", "L", *lagrangian),
-            Mechanics::Hamiltonian { hamiltonian, .. } => ("Hamiltonian", "H", *hamiltonian),
-        };
+        let (name, law) = model.mechanics.function();
+        let title = if model.is_lagrangian() { "Lagrangian" } else { "Hamiltonian" };
         let mut rows = vec![(name.to_owned(), self.math(law))];
-        if let Mechanics::Lagrangian { dissipation, .. } = &model.mechanics
-            && *dissipation != Expr::ZERO
-        {
-            rows.push(("F".to_owned(), self.math(*dissipation)));
+        let dissipation = model.mechanics.dissipation();
+        if dissipation != Expr::ZERO {
+            rows.push(("F".to_owned(), self.math(dissipation)));
         }
-        let (Mechanics::Lagrangian { forces, .. } | Mechanics::Hamiltonian { forces, .. }) =
-            &model.mechanics;
-        for (c, &force) in model.coordinates.iter().zip(forces) {
+        for (c, &force) in model.coordinates.iter().zip(model.mechanics.forces()) {
             if force != Expr::ZERO {
                 rows.push((format!("Q_{}", self.symbol(c.position)), self.math(force)));
             }

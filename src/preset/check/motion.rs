@@ -89,6 +89,7 @@ impl Check<'_> {
             }
             let coordinate = &mut self.model.coordinates[index];
             coordinate.initial = initial.unwrap_or(Expr::ZERO);
+            coordinate.rate_given = written.velocity.is_some() || written.momentum.is_some();
             coordinate.initial_rate = velocity.or(momentum).unwrap_or(Expr::ZERO);
             coordinate.period = period;
         }
