@@ -248,6 +248,7 @@ fn spelling(character: char) -> &'static str {
         '∇' => "grad",
         '∈' => " in ",
         '⊥' | '⟂' => "perp",
+        '∥' => "par",
         '‖' => "||",
         '●' | '•' | 'ó' | 'ò' | 'ô' | 'ø' => "o",
         '✓' => "ok",
