@@ -130,7 +130,7 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
         (first, last) = span(step);
     }
     if last - first + 1.0 > most as f64 {
-        first = ((first + last) / 2.0).floor();
+        first = f64::midpoint(first, last).floor();
         last = first;
     }
     // A range far from zero in very small steps would need more digits than a number has.
