@@ -3,6 +3,7 @@
 //! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
 //! of its change, what is conserved and why. Never here: numbers in motion.
 
+mod constrain;
 mod equations;
 mod hamilton;
 mod invariants;
@@ -16,7 +17,10 @@ mod symmetry;
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
-pub use equations::{Conserved, CoordinateSymbols, Equations, Flow, Reason, Separable, WhyNot};
+pub use constrain::augmented;
+pub use equations::{
+    Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason, Separable, WhyNot,
+};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 
 /// The most pieces a solved or transformed expression may have and still be worth writing down.

@@ -7,10 +7,15 @@
 //! gives the steppers of `integrate` their equations of motion. Never here: steps in time, files,
 //! symbols after compiling.
 
+mod beginning;
 mod channel;
 mod compiled;
+mod conditions;
+mod constrained;
 mod fault;
+mod hold;
 mod jet;
+mod kept;
 mod legendre;
 mod lower;
 mod motion;
@@ -25,6 +30,7 @@ mod watch;
 
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
+pub use constrained::Keeper;
 pub use fault::{Fault, FaultKind};
 pub use jet::{Jet, Side};
 pub use observe::Observer;

@@ -7,7 +7,7 @@
 use super::gauges::Present;
 use crate::expr::Symbol;
 use crate::integrate::{Method, Refusal, Settings, Stepper};
-use crate::system::{Fault, Observer, State, System};
+use crate::system::{Fault, Keeper, Observer, State, System};
 
 /// A motion under way.
 pub(super) struct Motion {
@@ -16,6 +16,8 @@ pub(super) struct Motion {
     settings: Settings,
     stepper: Box<dyn Stepper>,
     observer: Observer,
+    /// Puts states back on the constraints, where there are any.
+    keeper: Option<Keeper>,
     state: State,
     values: Vec<f64>,
     steps: u64,
@@ -33,8 +35,9 @@ impl Motion {
         let state = State::new(0.0, system.form(), Vec::new());
         let values = vec![f64::NAN; system.channels().len()];
         let observer = system.observer(parameters);
+        let keeper = system.keeper(parameters);
         let system = system.clone();
-        Ok(Motion { system, method, settings, stepper, observer, state, values, steps: 0 })
+        Ok(Motion { system, method, settings, stepper, observer, keeper, state, values, steps: 0 })
     }
 
     /// Takes another method or other settings; the motion has then to [begin](Motion::begin) anew
@@ -54,6 +57,9 @@ impl Motion {
     pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.state = state.clone();
         self.observer.set_parameters(parameters);
+        if let Some(keeper) = &mut self.keeper {
+            keeper.set_parameters(parameters);
+        }
         self.observer.observe(&self.state, &mut self.values)?;
         self.stepper.start(state, parameters)
     }
@@ -69,6 +75,11 @@ impl Motion {
             *budget -= 1;
             self.stepper.step(limit)?;
             self.steps += 1;
+            if let Some(keeper) = &mut self.keeper {
+                self.state.copy_from(self.stepper.state());
+                keeper.project(&mut self.state)?;
+                self.stepper.settle(&self.state);
+            }
         }
         self.look(time)?;
         Ok(true)
@@ -85,6 +96,9 @@ impl Motion {
             self.state.copy_from(self.stepper.state());
         } else {
             self.stepper.at(time, &mut self.state)?;
+            if let Some(keeper) = &mut self.keeper {
+                keeper.project(&mut self.state)?;
+            }
         }
         self.observer.observe(&self.state, &mut self.values)
     }

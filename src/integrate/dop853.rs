@@ -229,6 +229,10 @@ impl Stepper for DormandPrince {
         Ok(())
     }
 
+    fn settle(&mut self, state: &State) {
+        self.state.copy_from(state);
+    }
+
     fn state(&self) -> &State {
         &self.state
     }

@@ -117,6 +117,10 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
+    fn settle(&mut self, state: &State) {
+        self.state.copy_from(state);
+    }
+
     fn state(&self) -> &State {
         &self.state
     }

@@ -17,7 +17,7 @@ mod tableau;
 
 use self::tableau::Tableau;
 use super::fixed::{FixedStep, Scheme};
-use super::method::{Method, Preserves, Stepping};
+use super::method::{Method, Preserves, Refusal, Stepping};
 use super::rounding;
 use crate::expr::Double;
 use crate::system::{Fault, FaultKind, Form, Rates, State, System};
@@ -43,8 +43,9 @@ pub(super) const FOURTH_ORDER: Method = Method {
     about: "Collocation at two points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
-    fits: |_| Ok(()),
+    fits: |system| fits(&FOURTH_ORDER, system),
     make: |system, settings| {
+        fits(&FOURTH_ORDER, system)?;
         let scheme = Gauss::new(system, tableau::of_two_stages());
         Ok(Box::new(FixedStep::new(FOURTH_ORDER.name, system, settings, scheme)?))
     },
@@ -60,12 +61,22 @@ pub(super) const SIXTH_ORDER: Method = Method {
     about: "Collocation at three points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
-    fits: |_| Ok(()),
+    fits: |system| fits(&SIXTH_ORDER, system),
     make: |system, settings| {
+        fits(&SIXTH_ORDER, system)?;
         let scheme = Gauss::new(system, tableau::of_three_stages());
         Ok(Box::new(FixedStep::new(SIXTH_ORDER.name, system, settings, scheme)?))
     },
 };
+
+/// Whether the method keeps what it is chosen for.
+fn fits(method: &Method, system: &System) -> Result<(), Refusal> {
+    if system.constraints() > 0 {
+        let reason = "the motion is held to constraints, and would no longer be symplectic";
+        return Err(Refusal { method: method.name, reason: reason.to_owned() });
+    }
+    Ok(())
+}
 
 #[derive(Clone)]
 struct Gauss {

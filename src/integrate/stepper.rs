@@ -14,6 +14,10 @@ pub trait Stepper: Send {
     /// Does nothing where the present time has reached the limit.
     fn step(&mut self, limit: f64) -> Result<(), Fault>;
 
+    /// Goes on from a state that differs from the one at the end of the last step by rounding only,
+    /// as one put back on its constraints does. The last step stays as it was.
+    fn settle(&mut self, state: &State);
+
     /// The state at the end of the last step, in the form the method works in.
     fn state(&self) -> &State;
 

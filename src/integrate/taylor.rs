@@ -151,7 +151,7 @@ impl Stepper for Taylor {
         self.begin = self.state.time;
         self.scaled = false;
         self.taken = None;
-        let parameters: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
+        let parameters = self.system.inputs(parameters);
         self.series.set_parameters(&parameters);
         self.series.set_scale(1.0);
         self.kinks.begin(&mut self.series, &self.state)
@@ -190,6 +190,10 @@ impl Stepper for Taylor {
             return Err(self.system.fault(FaultKind::Sticks, time.high, &self.state.values));
         }
         self.system.check_finite(&self.state)
+    }
+
+    fn settle(&mut self, state: &State) {
+        self.state.copy_from(state);
     }
 
     fn state(&self) -> &State {

@@ -27,13 +27,17 @@ pub struct Equations {
     pub velocities: Result<Vec<Expr>, WhyNot>,
     /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, or H.
     pub energy: Expr,
-    /// dh/dt by its law: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q, or ∂H/∂t + Σ force ∂H/∂p. Exactly zero where
+    /// dh/dt by its law: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, or ∂H/∂t + Σ force ∂H/∂p. Exactly zero where
     /// energy is conserved; its integral is the energy ledger's other side.
     pub energy_rate: Expr,
     /// d(action)/dt = L (for a Hamiltonian system Σ p ∂H/∂p − H).
     pub action_rate: Expr,
     /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian); q̇ then ṗ (Hamiltonian).
     pub solved: Result<Vec<Expr>, WhyNot>,
+    /// What the motion is held to.
+    pub constraints: Vec<ConstraintRow>,
+    /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
+    pub multipliers: Result<Vec<Expr>, WhyNot>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// What is conserved, and why.
@@ -55,16 +59,33 @@ pub struct CoordinateSymbols {
     pub momentum: Symbol,
 }
 
+/// One constraint Σ A_α q̇_α + A = 0 as the equations of motion need it.
+#[derive(Clone, Debug)]
+pub struct ConstraintRow {
+    /// Its name in the file.
+    pub name: String,
+    /// λ; the force on each coordinate is λ A_α.
+    pub multiplier: Symbol,
+    /// A_α(q, t): ∂f/∂q_α of a holonomic constraint.
+    pub row: Vec<Expr>,
+    /// A(q, t): ∂f/∂t of a holonomic constraint.
+    pub rate: Expr,
+    /// γ(q, q̇, t) of A q̈ = γ, which follows by d/dt.
+    pub bias: Expr,
+    /// f(q, t), where the constraint is holonomic.
+    pub position: Option<Expr>,
+}
+
 /// The equations of motion as they are integrated.
 #[derive(Clone, Debug)]
 pub enum Flow {
-    /// M q̈ = f.
+    /// M q̈ = f + Aᵀλ.
     Lagrange {
         /// M_ij = ∂²L/∂q̇_i ∂q̇_j, symmetric.
         mass: Vec<Vec<Expr>>,
         /// f = ∂L/∂q − (∂²L/∂q̇∂q) q̇ − ∂²L/∂q̇∂t − ∂F/∂q̇ + Q.
         force: Vec<Expr>,
-        /// ṗ as a function of (q, q̇, t): ∂L/∂q − ∂F/∂q̇ + Q.
+        /// ṗ as a function of (q, q̇, t) and the multipliers' symbols: ∂L/∂q − ∂F/∂q̇ + Q + Aᵀλ.
         momentum_rates: Vec<Expr>,
     },
     /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.

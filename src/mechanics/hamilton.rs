@@ -42,8 +42,8 @@ pub(super) fn equations(
     let action_rate = pool.simplify_terms(action_rate);
     let lagrangian = legendre::hamiltonian_to_lagrangian(pool, &coordinates, hamiltonian);
     let solved = velocities.iter().chain(&momentum_rates).copied().collect();
-    let free = forces.iter().all(|&f| f == Expr::ZERO);
-    let separable = separate(pool, &coordinates, time, Ok(&hamiltonian), free);
+    let others = forces.iter().any(|&f| f != Expr::ZERO).then_some(FORCED);
+    let separable = separate(pool, &coordinates, time, Ok(&hamiltonian), others);
     Equations {
         pool: Pool::new(),
         coordinates,
@@ -57,23 +57,28 @@ pub(super) fn equations(
         energy_rate,
         action_rate,
         solved: Ok(solved),
+        constraints: Vec::new(),
+        multipliers: Ok(Vec::new()),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
     }
 }
 
-/// H = T(p) + V(q, t), where it splits so and nothing else acts.
+/// Why a motion with forces does not follow from H alone.
+pub(super) const FORCED: &str = "a force acts that does not come from H";
+
+/// H = T(p) + V(q, t), where it splits so and nothing else acts; `others` says what does.
 pub(super) fn separate(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
     time: Symbol,
     hamiltonian: Result<&Expr, &WhyNot>,
-    free: bool,
+    others: Option<&str>,
 ) -> Result<Separable, WhyNot> {
     let h = *hamiltonian.map_err(|why| WhyNot(format!("there is no H in closed form: {why}")))?;
-    if !free {
-        return Err(WhyNot("a force acts that does not come from H".to_owned()));
+    if let Some(why) = others {
+        return Err(WhyNot(why.to_owned()));
     }
     let positions: Vec<Symbol> = coordinates.iter().map(|c| c.position).collect();
     let momenta: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();

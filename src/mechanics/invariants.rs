@@ -99,9 +99,11 @@ impl Equations {
     pub fn rate_of(&mut self, observable: Expr) -> Option<Expr> {
         let g = self.open(observable);
         let solved = self.solved.clone().ok()?;
-        let accelerations: Vec<Symbol> = self.coordinates.iter().map(|c| c.acceleration).collect();
-        if self.pool.depends(g, self.symbols.action) || self.pool.depends_on_any(g, &accelerations)
-        {
+        let accelerations = self.coordinates.iter().map(|c| c.acceleration);
+        let multipliers = self.constraints.iter().map(|c| c.multiplier);
+        let unknown: Vec<Symbol> =
+            accelerations.chain(multipliers).chain([self.symbols.action]).collect();
+        if self.pool.depends_on_any(g, &unknown) {
             return None;
         }
         let mut seeds = self.along_the_flow();

@@ -1,8 +1,9 @@
-//! Lagrange's equations, complete: d/dt(∂L/∂q̇) − ∂L/∂q + ∂F/∂q̇ = Q, expanded to M q̈ = f.
+//! Lagrange's equations, complete: d/dt(∂L/∂q̇) − ∂L/∂q + ∂F/∂q̇ = Q + Aᵀλ, expanded to
+//! M q̈ = f + Aᵀλ.
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
 use super::equations::{CoordinateSymbols, Equations, Flow};
-use super::{hamilton, legendre, linear};
+use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Number, Pool, Symbol, Zero};
 use crate::model::Model;
 
@@ -37,6 +38,7 @@ pub(super) fn equations(
         .map(|(c, &v)| (c.position, v))
         .chain([(time, Expr::ONE)])
         .collect();
+    let constraints = constrain::rows(pool, model);
     let mut momentum_rates = Vec::new();
     let mut force = Vec::new();
     let mut power = Vec::new();
@@ -51,26 +53,43 @@ pub(super) fn equations(
         let rate = pool.add(slope, applied);
         let carried = pool.derivation(momenta[i], &drift);
         let acting = pool.sub(rate, carried);
+        let held = constrain::force(pool, &constraints, i);
+        let rate = pool.add(rate, held);
         momentum_rates.push(pool.simplify(rate));
         force.push(pool.simplify(acting));
         power.push(pool.mul(velocities[i], applied));
     }
 
-    // dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q
+    // dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β
     let explicit = tidy_derivative(pool, lagrangian, time);
     power.push(pool.neg(explicit));
+    power.push(constrain::power(pool, &constraints));
     let energy_rate = pool.sum(&power);
     let energy_rate = zero_if_proved(pool, energy_rate);
     let energy = energy_function(pool, &coordinates, lagrangian);
 
-    let solved = linear::solve(pool, &mass, &force).and_then(|solution| solution.x);
+    let (solved, multipliers) = if constraints.is_empty() {
+        let solved = linear::solve(pool, &mass, &force).and_then(|solution| solution.x);
+        (solved, Ok(Vec::new()))
+    } else {
+        match constrain::solve(pool, &mass, &force, &constraints) {
+            Ok((solved, multipliers)) => (Ok(solved), Ok(multipliers)),
+            Err(why) => (Err(why.clone()), Err(why)),
+        }
+    };
     let transformed = legendre::lagrangian_to_hamiltonian(pool, &coordinates, lagrangian);
     let (hamiltonian, found) = match transformed {
         Ok((h, v)) => (Ok(h), v),
         Err(why) => (Err(why.clone()), Err(why)),
     };
-    let free = dissipation == Expr::ZERO && forces.iter().all(|&f| f == Expr::ZERO);
-    let separable = hamilton::separate(pool, &coordinates, time, hamiltonian.as_ref(), free);
+    let others = if !constraints.is_empty() {
+        Some("the motion is held to constraints")
+    } else if dissipation != Expr::ZERO || forces.iter().any(|&f| f != Expr::ZERO) {
+        Some(hamilton::FORCED)
+    } else {
+        None
+    };
+    let separable = hamilton::separate(pool, &coordinates, time, hamiltonian.as_ref(), others);
     Equations {
         pool: Pool::new(),
         coordinates,
@@ -84,6 +103,8 @@ pub(super) fn equations(
         energy_rate,
         action_rate: lagrangian,
         solved,
+        constraints,
+        multipliers,
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,

@@ -37,6 +37,10 @@ impl Equations {
                 for (c, &p) in self.coordinates.iter().zip(&self.momenta) {
                     replacements.insert(c.momentum, p);
                 }
+                if let Ok(multipliers) = &self.multipliers {
+                    let symbols = self.constraints.iter().map(|c| c.multiplier);
+                    replacements.extend(symbols.zip(multipliers.iter().copied()));
+                }
             }
             Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {
                 // q̈ = d/dt ∂H/∂p along the flow

@@ -47,6 +47,8 @@ pub(super) fn equations(
         energy_rate,
         action_rate: Expr::ZERO,
         solved: Ok(rates),
+        constraints: Vec::new(),
+        multipliers: Ok(Vec::new()),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),

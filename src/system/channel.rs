@@ -27,6 +27,8 @@ pub enum ChannelKind {
     Velocity(usize),
     /// A coordinate's momentum.
     Momentum(usize),
+    /// λ of the constraint of this index.
+    Multiplier(usize),
     /// Jacobi's h, or H.
     Energy,
     /// The Casimir of this index.

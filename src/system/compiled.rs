@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use super::beginning::Known;
+use super::constrained::{Constrained, Holding};
 use super::fault::{Fault, FaultKind};
+use super::hold::Hold;
 use super::legendre::{self, Legendre, Unsolved};
 use super::motion::{Quadratures, Split, Writer};
 use super::program::{Program, Singular};
@@ -18,6 +21,7 @@ use crate::model::{self, Model};
 #[derive(Clone, Debug)]
 pub struct System {
     shared: Arc<Shared>,
+    holding: Holding,
 }
 
 #[derive(Debug)]
@@ -31,6 +35,9 @@ struct Shared {
     legendre: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
     initial: Arc<Program>,
+    constraints: Option<Constrained>,
+    /// Which rates the file gives at the start.
+    known: Vec<Known>,
     /// Of one degree of freedom: the energy of (q, native rate).
     energy: Arc<Program>,
 }
@@ -44,6 +51,11 @@ pub(super) struct Motion {
     pub(super) canonical: (Arc<Program>, bool),
     /// The two halves of a separable system, or why it is none.
     pub(super) split: Result<Split, String>,
+}
+
+/// What the file says of a rate at the start.
+fn known(coordinate: &model::Coordinate) -> Known {
+    if coordinate.rate_given { Known::Given } else { Known::LeftOut }
 }
 
 /// Why a model cannot be compiled.
@@ -76,17 +88,26 @@ impl System {
             parameters: model.parameters.iter().map(|p| p.symbol).collect(),
             equations: &equations,
             quadratures,
+            hold: Hold::default(),
         };
-        let shared = Self::write(model, &mut writer, list).map_err(|symbol| {
-            CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone())
-        })?;
+        let unknown =
+            |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
+        let constraints = Constrained::of(model, &mut writer).map_err(unknown)?;
+        let (constraints, holding) = constraints.unzip();
+        let shared = Self::write(model, &mut writer, list, constraints).map_err(unknown)?;
         if writer.pool.is_full() {
             return Err(CompileError::TooLarge);
         }
-        Ok(System { shared: Arc::new(shared) })
+        let holding = holding.unwrap_or_default();
+        Ok(System { shared: Arc::new(shared), holding })
     }
 
-    fn write(model: &Model, writer: &mut Writer<'_>, list: List) -> Result<Shared, Symbol> {
+    fn write(
+        model: &Model,
+        writer: &mut Writer<'_>,
+        list: List,
+        constraints: Option<Constrained>,
+    ) -> Result<Shared, Symbol> {
         let split = match writer.split() {
             Some(split) => Ok(split?),
             None => Err(match (&writer.equations.hamiltonian, &writer.equations.separable) {
@@ -114,6 +135,8 @@ impl System {
             motion,
             legendre: legendre::program(writer)?,
             initial,
+            constraints,
+            known: coordinates.iter().map(known).collect(),
             energy,
             watch: list.compile(writer)?,
         })
@@ -164,14 +187,14 @@ impl System {
             return None;
         }
         let period =
-            self.initial_program(&written(parameters)).output(2 * self.degrees() + channel);
+            self.initial_program(&self.inputs(parameters)).output(2 * self.degrees() + channel);
         (period.high > 0.0 && period.is_finite()).then_some(period.high)
     }
 
     /// The initial coordinates, then velocities or momenta, as the file gives them at these
     /// parameters.
     pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {
-        let values = self.initial_program(&written(parameters));
+        let values = self.initial_program(&self.inputs(parameters));
         (0..self.moving()).map(|i| values.output(i).high).collect()
     }
 
@@ -184,25 +207,33 @@ impl System {
     /// The initial state at these parameters; `given` values take the place of the file's.
     pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
         let n = self.degrees();
-        let parameters = written(parameters);
-        let values = self.initial_program(&parameters);
+        let inputs = self.inputs(parameters);
+        let values = self.initial_program(&inputs);
         let mut state: Vec<Double> = (0..self.moving()).map(|i| values.output(i)).collect();
         let mut targets = vec![None; n];
+        let mut known = self.shared.known.clone();
         for &given in given {
             match (given, self.form()) {
                 (Given::Position(i, x), _) => state[i] = Double::written(x),
                 (Given::Velocity(i, x), Form::Velocity)
                 | (Given::Momentum(i, x), Form::Momentum) => {
                     (state[n + i], targets[i]) = (Double::written(x), None);
+                    known[i] = Known::Given;
                 }
                 (Given::Velocity(i, x) | Given::Momentum(i, x), _) => {
                     targets[i] = Some(Double::written(x));
+                    known[i] = Known::Momentum(Double::written(x));
                 }
             }
         }
         let time = Double::written(start);
+        if self.constraints() > 0 {
+            let state = self.state_of(time, self.form(), &state);
+            self.check_finite(&state)?;
+            return self.begin_held(state, &known, parameters);
+        }
         if targets.iter().any(Option::is_some) {
-            let mut legendre = self.legendre(&parameters);
+            let mut legendre = self.legendre(&inputs);
             legendre
                 .solve(time, &mut state, &targets)
                 .map_err(|why| self.unsolved(why, time.high, &state))?;
@@ -214,23 +245,32 @@ impl System {
 
     /// The same state in another form.
     pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
-        let mut legendre = self.legendre(&written(parameters));
+        let mut legendre = self.legendre(&self.inputs(parameters));
         self.convert_by(&mut legendre, state, form, None)
     }
 
     /// Carries a state through a jump of the parameters: q and p are kept, and so q̇ may change.
+    /// Where the constraints change with them, q is moved by the least amount that keeps them, and
+    /// p by their reactions.
     pub fn change_parameters(
         &self,
         state: &State,
         old: &[f64],
         new: &[f64],
     ) -> Result<State, Fault> {
-        if state.form == Form::Momentum {
+        if state.form != Form::Velocity {
             return Ok(state.clone());
         }
-        let mut legendre = self.legendre(&written(old));
+        let mut legendre = self.legendre(&self.inputs(old));
         let canonical = self.convert_by(&mut legendre, state, Form::Momentum, None)?;
-        legendre.set_parameters(&written(new));
+        if let Some(mut keeper) = self.keeper(new) {
+            let n = self.degrees();
+            let target: Vec<Double> = (n..2 * n).map(|i| canonical.exact(i)).collect();
+            let mut after = state.clone();
+            keeper.project(&mut after)?;
+            return Ok(self.strike(&after, &target, new)?.0);
+        }
+        legendre.set_parameters(&self.inputs(new));
         self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
     }
 
@@ -275,6 +315,29 @@ impl System {
         Observer::new(self.clone(), parameters)
     }
 
+    pub(super) fn constrained(&self) -> Option<&Constrained> {
+        self.shared.constraints.as_ref()
+    }
+
+    pub(super) fn holding(&self) -> &Holding {
+        &self.holding
+    }
+
+    /// The same system with other constraints held.
+    pub(super) fn with_holding(&self, holding: Holding) -> System {
+        System { shared: Arc::clone(&self.shared), holding }
+    }
+
+    /// What programs are given for parameters: their values as the decimals they are written as,
+    /// and what follows from them.
+    pub fn inputs(&self, parameters: &[f64]) -> Vec<Double> {
+        let mut inputs: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
+        if let Some(constraints) = self.constrained().filter(|c| c.switched) {
+            inputs.extend(self.holding.switches(constraints.names.len()));
+        }
+        inputs
+    }
+
     pub(super) fn watch(&self) -> &Watch {
         &self.shared.watch
     }
@@ -285,6 +348,10 @@ impl System {
 
     pub(super) fn quadratures(&self) -> Quadratures {
         self.shared.quadratures
+    }
+
+    pub(super) fn legendre_program(&self) -> Arc<Program> {
+        Arc::clone(&self.shared.legendre)
     }
 
     pub(super) fn energy_program(&self) -> Arc<Program> {
@@ -366,9 +433,4 @@ impl System {
         let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
         self.fault(kind, time, &values)
     }
-}
-
-/// Parameters as the decimals they are written as.
-pub(super) fn written(parameters: &[f64]) -> Vec<Double> {
-    parameters.iter().map(|&x| Double::written(x)).collect()
 }

@@ -18,6 +18,14 @@ pub struct Fault {
 pub enum FaultKind {
     /// A pivot of the mass matrix vanishes.
     SingularMass,
+    /// The constraints and the mass matrix together are singular.
+    SingularConstraints,
+    /// No state nearby keeps this constraint.
+    ConstraintLost(String),
+    /// The values at the start miss this constraint, by this part of the size of its terms.
+    ConstraintMissed(String, f64),
+    /// The constraints leave these velocities at the start free.
+    FreeVelocities(Vec<String>),
     /// A number of the state or of its rate of change is not finite; the name says which.
     NotFinite(String),
     /// The velocities that belong to given momenta (or the reverse) were not found.
@@ -35,6 +43,21 @@ impl fmt::Display for Fault {
         let time = self.time;
         match &self.kind {
             FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
+            FaultKind::SingularConstraints => {
+                write!(f, "the constraints say the same thing twice at t = {time}")?;
+            }
+            FaultKind::ConstraintLost(name) => {
+                write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
+            }
+            FaultKind::ConstraintMissed(name, part) => write!(
+                f,
+                "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
+            )?,
+            FaultKind::FreeVelocities(names) => write!(
+                f,
+                "the constraints do not say with which velocities the motion starts: give {}",
+                names.join(", ")
+            )?,
             FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
             FaultKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
@@ -52,6 +75,11 @@ impl fmt::Display for Fault {
         }
         f.write_str(match self.kind {
             FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            FaultKind::SingularConstraints => {
+                ": a configuration in which their directions coincide, or one has none"
+            }
+            FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
+            FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => "",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
             FaultKind::NoConvergence(_) => ": try a smaller step",

@@ -91,6 +91,22 @@ impl<'a> Lowering<'a> {
         self.linear(Number::ZERO, &[(Number::ONE, a), (Number::MINUS_ONE, b)])
     }
 
+    /// Σ row_i · x_i.
+    pub(super) fn inner_product(&mut self, row: &[Expr], x: &[Register]) -> Register {
+        let mut terms = Vec::new();
+        for (&a, &x) in row.iter().zip(x) {
+            match a {
+                Expr::ZERO => {}
+                Expr::ONE => terms.push((Number::ONE, x)),
+                _ => {
+                    let a = self.lower(a);
+                    terms.push((Number::ONE, self.multiply(a, x)));
+                }
+            }
+        }
+        self.linear(Number::ZERO, &terms)
+    }
+
     /// The registers of the solution of `matrix · x = right`. Unknowns that no chain of entries
     /// connects are solved for apart.
     pub(super) fn solve(&mut self, matrix: &[Vec<Expr>], right: &[Register]) -> Vec<Register> {

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::hold::Hold;
 use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::state::Form;
@@ -38,6 +39,7 @@ pub(super) struct Writer<'a> {
     pub(super) equations: &'a Equations,
     pub(super) parameters: Vec<Symbol>,
     pub(super) quadratures: Quadratures,
+    pub(super) hold: Hold,
 }
 
 impl Writer<'_> {
@@ -65,11 +67,11 @@ impl Writer<'_> {
     /// Rates of change of a state in the native form.
     pub(super) fn native_rates(&mut self) -> Result<Arc<Program>, Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
+        let hold = self.hold.clone();
         let mut lowering = self.on_native_state();
         let mut outputs = match &equations.flow {
-            Flow::Lagrange { mass, force, .. } => {
-                let right = lowering.lower_all(force);
-                let accelerations = lowering.solve(mass, &right);
+            Flow::Lagrange { force, .. } => {
+                let accelerations = hold.bind(&mut lowering, equations, force);
                 let mut outputs = velocities(&mut lowering, &equations.coordinates);
                 outputs.extend(accelerations);
                 outputs
@@ -138,7 +140,13 @@ impl Writer<'_> {
         let Flow::Lagrange { momentum_rates, .. } = &equations.flow else {
             return Ok((self.native_rates()?, true));
         };
+        let hold = self.hold.clone();
         let finish = |mut lowering: Lowering<'_>| {
+            if let (false, Flow::Lagrange { force, .. }) =
+                (equations.constraints.is_empty(), &equations.flow)
+            {
+                hold.bind(&mut lowering, equations, force);
+            }
             let mut outputs = velocities(&mut lowering, &equations.coordinates);
             outputs.extend(lowering.lower_all(momentum_rates));
             outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));

@@ -1,6 +1,5 @@
 //! Looking at a state: every channel's value.
 
-use super::compiled::written;
 use super::legendre::Legendre;
 use super::value::Values;
 use super::{Fault, Form, State, System};
@@ -28,7 +27,7 @@ impl Observer {
             precise: Values::new(Arc::clone(&watch.precise)),
             drawn: Values::new(Arc::clone(&watch.drawn)),
             energy: Values::new(system.energy_program()),
-            legendre: system.legendre(&written(parameters)),
+            legendre: system.legendre(&system.inputs(parameters)),
             parameters: Vec::new(),
             inputs: vec![Double::ZERO; inputs],
             rounded: vec![0.0; inputs],
@@ -42,7 +41,7 @@ impl Observer {
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
-        let parameters = written(parameters);
+        let parameters = self.system.inputs(parameters);
         self.precise.set_parameters(&parameters);
         self.drawn.set_parameters(&parameters);
         self.energy.set_parameters(&parameters);

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::compiled::written;
 use super::legendre::{Legendre, Unsolved};
 use super::program::Program;
 use super::value::Values;
@@ -90,7 +89,7 @@ impl Rates {
 
     /// Sets the parameters; to be called once at least.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
-        let parameters = written(parameters);
+        let parameters = self.system.inputs(parameters);
         self.values.set_parameters(&parameters);
         if let Some(solver) = &mut self.solver {
             solver.legendre.set_parameters(&parameters);

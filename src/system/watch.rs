@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::channel::{Channel, ChannelKind};
+use super::hold::Hold;
 use super::lower::Lowering;
 use super::motion::Writer;
 use super::program::{Program, Register};
@@ -93,6 +94,12 @@ impl List {
             self.add_symbol(ChannelKind::Momentum(i), equations, momentum);
             self.index.entry(equations.momenta[i]).or_insert(self.channels.len() - 1);
         }
+        for (i, row) in equations.constraints.clone().iter().enumerate() {
+            self.add_symbol(ChannelKind::Multiplier(i), equations, row.multiplier);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&model.constraints[i].unit);
+            }
+        }
         let energy = equations.pool.variable(equations.symbols.energy);
         self.add(ChannelKind::Energy, "energy", "E", energy);
         self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
@@ -139,8 +146,9 @@ impl List {
         let (precise, drawn) = self.expressions.split_at(self.precise);
         let accelerated: Vec<Expr> = self.expressions.iter().flatten().copied().collect();
         let accelerated = {
-            let symbols: Vec<Symbol> =
-                writer.equations.coordinates.iter().map(|c| c.acceleration).collect();
+            let accelerations = writer.equations.coordinates.iter().map(|c| c.acceleration);
+            let multipliers = writer.equations.constraints.iter().map(|c| c.multiplier);
+            let symbols: Vec<Symbol> = accelerations.chain(multipliers).collect();
             let reached = writer.pool.reachable(&accelerated);
             reached
                 .into_iter()
@@ -174,10 +182,11 @@ fn program(
         }
         _ => Vec::new(),
     };
+    let hold = writer.hold.clone();
     let mut lowering = writer.on_native_state();
     let (action, work) = (lowering.input(), lowering.input());
     lowering.bind(equations.symbols.action, action);
-    bind_derived(&mut lowering, equations, accelerated, &accelerations);
+    bind_derived(&mut lowering, equations, &hold, accelerated, &accelerations);
     let energy = lowering.variable(equations.symbols.energy);
     let outputs: Vec<Register> = channels
         .iter()
@@ -192,21 +201,18 @@ fn program(
 fn bind_derived(
     lowering: &mut Lowering<'_>,
     equations: &Equations,
+    hold: &Hold,
     accelerated: bool,
     accelerations: &[Expr],
 ) {
     match &equations.flow {
-        Flow::Lagrange { mass, force, .. } => {
+        Flow::Lagrange { force, .. } => {
             let momenta = lowering.lower_all(&equations.momenta);
             for (c, p) in equations.coordinates.iter().zip(momenta) {
                 lowering.bind(c.momentum, p);
             }
             if accelerated {
-                let right = lowering.lower_all(force);
-                let solution = lowering.solve(mass, &right);
-                for (c, a) in equations.coordinates.iter().zip(solution) {
-                    lowering.bind(c.acceleration, a);
-                }
+                hold.bind(lowering, equations, force);
             }
         }
         Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {

@@ -1,7 +1,7 @@
 //! Small models built in a line, for tests of what stands below the file format.
 
 use phaselab::expr::{Expr, Symbol, SyntaxError};
-use phaselab::model::{Allowed, Coordinate, Mechanics, Model, Parameter, Scale, Scope};
+use phaselab::model::{Allowed, Constraint, Coordinate, Mechanics, Model, Parameter, Scale, Scope};
 
 /// Names of coordinates and parameters, no law yet.
 pub(crate) fn names(coordinates: &[&str], parameters: &[&str]) -> Model {
@@ -77,5 +77,15 @@ pub(crate) fn sample(seed: u64) -> impl Fn(Symbol) -> f64 {
         x = x.wrapping_mul(0xFF51_AFD7_ED55_8CCD);
         x ^= x >> 29;
         0.2 + (x >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Adds constraints, by name and expression.
+pub(crate) fn constrain(model: &mut Model, constraints: &[(&str, &str)]) {
+    for (name, text) in constraints {
+        let e = read(model, text);
+        let only = constraints.len() == 1;
+        let constraint = Constraint::new(&mut model.pool, name, e, only);
+        model.constraints.push(constraint);
     }
 }

@@ -1,0 +1,145 @@
+//! Constraints as numbers: how far a state is from keeping them, and which of them are independent.
+//!
+//! In: a state (q, q̇). Out: residuals of f(q, t) and A q̇ + A₀, each beside the size of its
+//! terms. Never here: what is done about them; that is in `kept`.
+
+use std::sync::Arc;
+
+use super::motion::Writer;
+use super::program::Program;
+use super::value::Values;
+use crate::expr::{Double, Expr, FunctionId, Number, Symbol};
+
+/// A row whose part independent of the rows before it is smaller than this, measured by the row,
+/// says nothing new.
+const INDEPENDENT: f64 = 1e-9;
+
+/// The program of (q, t): of each constraint A, A₀, f and the size of f's terms.
+pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
+    let mut outputs = Vec::new();
+    for row in &writer.equations.constraints {
+        outputs.extend_from_slice(&row.row);
+        outputs.push(row.rate);
+        let f = row.position.unwrap_or(Expr::ZERO);
+        outputs.push(f);
+        let pool = &mut writer.pool;
+        let terms: Vec<(Number, Expr)> = pool.summands(f);
+        let sizes: Vec<(Number, Expr)> = terms
+            .into_iter()
+            .map(|(c, term)| (c.abs(), pool.call(FunctionId::Abs, &[term])))
+            .collect();
+        outputs.push(pool.linear(Number::ZERO, &sizes));
+    }
+    let equations = writer.equations;
+    let mut lowering = writer.lowering();
+    for c in &equations.coordinates {
+        let register = lowering.input();
+        lowering.bind(c.position, register);
+    }
+    let outputs = lowering.lower_all(&outputs);
+    lowering.finish(outputs)
+}
+
+/// A residual, and the size of the terms it is the sum of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residual {
+    pub(super) value: Double,
+    pub(super) size: f64,
+}
+
+impl Residual {
+    /// The residual measured by its terms; zero where there are none.
+    pub(super) fn relative(self) -> f64 {
+        if self.value.high == 0.0 { 0.0 } else { (self.value.high / self.size).abs() }
+    }
+}
+
+/// The constraints of one system at one set of parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Conditions {
+    values: Values<Double>,
+    degrees: usize,
+    count: usize,
+}
+
+impl Conditions {
+    pub(super) fn new(program: Arc<Program>, count: usize) -> Conditions {
+        let degrees = program.inputs();
+        Conditions { values: Values::new(program), degrees, count }
+    }
+
+    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+        self.values.set_parameters(parameters);
+    }
+
+    /// How many coordinates there are.
+    pub(super) fn degrees(&self) -> usize {
+        self.degrees
+    }
+
+    /// How many constraints there are.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Looks at a time and coordinates; all else is told of these.
+    pub(super) fn look(&mut self, time: Double, positions: &[Double]) {
+        // the program holds no equations to be solved, so it cannot meet a singular matrix
+        let _regular = self.values.evaluate(time, &positions[..self.degrees]);
+    }
+
+    fn output(&self, constraint: usize, place: usize) -> Double {
+        self.values.output(constraint * (self.degrees + 3) + place)
+    }
+
+    /// A of one constraint and one coordinate.
+    pub(super) fn entry(&self, constraint: usize, coordinate: usize) -> Double {
+        self.output(constraint, coordinate)
+    }
+
+    /// f of a holonomic constraint, zero of others.
+    pub(super) fn position(&self, constraint: usize) -> Residual {
+        let value = self.output(constraint, self.degrees + 1);
+        Residual { value, size: self.output(constraint, self.degrees + 2).high }
+    }
+
+    /// A q̇ + A₀.
+    pub(super) fn velocity(&self, constraint: usize, velocities: &[Double]) -> Residual {
+        let mut value = self.output(constraint, self.degrees);
+        let mut size = value.high.abs();
+        for (i, &v) in velocities.iter().enumerate() {
+            let term = self.entry(constraint, i) * v;
+            value = value + term;
+            size += term.high.abs();
+        }
+        Residual { value, size }
+    }
+
+    /// Which of the `active` constraints are independent of those before them, by Gram and
+    /// Schmidt's construction.
+    pub(super) fn independent(&self, active: &[bool]) -> Vec<bool> {
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let mut chosen = vec![false; self.count];
+        for k in (0..self.count).filter(|&k| active[k]) {
+            let row: Vec<f64> = (0..self.degrees).map(|i| self.entry(k, i).high).collect();
+            let size = norm(&row);
+            let mut rest = row;
+            // twice is enough (Golub & Van Loan, Matrix Computations, 5.2.9)
+            for other in basis.iter().chain(&basis) {
+                let part: f64 = rest.iter().zip(other).map(|(x, y)| x * y).sum();
+                rest.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
+            }
+            let left = norm(&rest);
+            // a row of zeros is a singular place, not a repetition
+            chosen[k] = size == 0.0 || left > INDEPENDENT * size || !size.is_finite();
+            if left > 0.0 && chosen[k] {
+                basis.push(rest.iter().map(|x| x / left).collect());
+            }
+        }
+        chosen
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

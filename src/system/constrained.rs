@@ -1,0 +1,298 @@
+//! The constraints of a compiled system: which are held, and states that keep them.
+//!
+//! In: states, blows, the wish to let a constraint go. Out: states on the constraints, reactions,
+//! residuals. Never here: the forces of constraint along the motion; these are outputs of the
+//! programs.
+
+use std::sync::Arc;
+
+use super::beginning::{self, Known, NoBeginning};
+use super::conditions::{self, Conditions};
+use super::fault::{Fault, FaultKind};
+use super::hold::Hold;
+use super::kept::{Failure, Kept};
+use super::motion::Writer;
+use super::program::Program;
+use super::value::Values;
+use super::{Form, State, System};
+use crate::expr::{Double, Symbol};
+use crate::model::{Action, Model};
+
+/// What is known of the constraints before any state.
+#[derive(Clone, Debug)]
+pub(super) struct Constrained {
+    program: Arc<Program>,
+    pub(super) names: Vec<String>,
+    /// Whether the programs take two switches for each constraint.
+    pub(super) switched: bool,
+}
+
+/// Which constraints are held.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(super) struct Holding {
+    /// Those that were not released.
+    active: Vec<bool>,
+    /// Those of them whose multipliers are solved for; the others repeat what these say.
+    held: Vec<bool>,
+}
+
+impl Holding {
+    /// The switches of the programs: held and active, of each constraint.
+    pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = Double> {
+        let number = |on: bool| if on { Double::ONE } else { Double::ZERO };
+        (0..count).flat_map(move |k| [number(self.held[k]), number(self.active[k])])
+    }
+}
+
+impl Constrained {
+    /// Looks at the constraints where the file starts the motion, and has `writer` write their
+    /// multipliers accordingly.
+    pub(super) fn of(
+        model: &Model,
+        writer: &mut Writer<'_>,
+    ) -> Result<Option<(Constrained, Holding)>, Symbol> {
+        let rows = &writer.equations.constraints;
+        if rows.is_empty() {
+            // the mass matrix alone
+            writer.hold = Hold::of(&mut writer.pool, writer.equations, false, false);
+            return Ok(None);
+        }
+        let program = conditions::program(writer)?;
+        let held = independent_at_start(model, writer, &program)?;
+        let redundant = held.contains(&false);
+        let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
+        let switched = redundant || released;
+        let hold = Hold::of(&mut writer.pool, writer.equations, switched, redundant);
+        writer.parameters.extend(hold.switches.iter().flat_map(|s| [s.held, s.active]));
+        writer.hold = hold;
+        let constrained = Constrained {
+            program,
+            names: rows.iter().map(|row| row.name.clone()).collect(),
+            switched,
+        };
+        let active = vec![true; rows.len()];
+        Ok(Some((constrained, Holding { active, held })))
+    }
+}
+
+/// Which constraints are independent of those before them where the file starts the motion.
+fn independent_at_start(
+    model: &Model,
+    writer: &mut Writer<'_>,
+    program: &Arc<Program>,
+) -> Result<Vec<bool>, Symbol> {
+    let count = writer.equations.constraints.len();
+    let mut lowering = writer.lowering();
+    let outputs = model.coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
+    let start = lowering.finish(outputs)?;
+    let parameters: Vec<Double> =
+        model.parameters.iter().map(|p| Double::written(p.value)).collect();
+    let mut values: Values<Double> = Values::new(start);
+    values.set_parameters(&parameters);
+    let positions: Vec<Double> = (0..model.coordinates.len()).map(|i| values.output(i)).collect();
+    let mut conditions = Conditions::new(Arc::clone(program), count);
+    conditions.set_parameters(&parameters);
+    conditions.look(Double::written(model.run.start), &positions);
+    Ok(conditions.independent(&vec![true; count]))
+}
+
+/// Keeps the states of one system on its constraints, at one set of parameters; holds its own
+/// registers.
+#[derive(Clone, Debug)]
+pub struct Keeper {
+    system: System,
+    kept: Kept,
+    numbers: Vec<Double>,
+}
+
+impl Keeper {
+    /// Takes these parameters from now on.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        self.kept.set_parameters(&self.system.inputs(parameters));
+    }
+
+    fn load(&mut self, state: &State) {
+        for (i, x) in self.numbers.iter_mut().enumerate() {
+            *x = state.exact(i);
+        }
+    }
+
+    /// Moves a state (q, q̇) back on the constraints by the least amount, measured by the mass
+    /// matrix.
+    ///
+    /// # Errors
+    /// Where no state nearby keeps them, or their directions coincide.
+    pub fn project(&mut self, state: &mut State) -> Result<(), Fault> {
+        self.load(state);
+        let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
+        outcome.map_err(|why| self.system.lost(why, state))?;
+        // one that repeated the others where the motion began may have come to contradict them
+        let Holding { active, held } = self.system.holding();
+        let conditions = self.kept.conditions();
+        let velocities = &self.numbers[self.system.degrees()..];
+        for k in (0..active.len()).filter(|&k| active[k] && !held[k]) {
+            let off = conditions.position(k).relative();
+            let off = off.max(conditions.velocity(k, velocities).relative());
+            if off.is_nan() || off > beginning::GIVEN_WITHIN {
+                return Err(self.system.lost(Failure::Lost(k), state));
+            }
+        }
+        for (i, &x) in self.numbers.iter().enumerate() {
+            state.set(i, x);
+        }
+        Ok(())
+    }
+
+    /// How far a state (q, q̇) is from keeping each constraint, measured by the size of its terms:
+    /// of f(q, t) where it is holonomic (else zero), and of A q̇ + A₀. Released ones count zero.
+    pub fn residuals(&mut self, state: &State) -> Vec<[f64; 2]> {
+        self.load(state);
+        let n = self.system.degrees();
+        let active = self.system.holding().active.clone();
+        let conditions = self.kept.conditions();
+        conditions.look(state.exact_time(), &self.numbers);
+        let residual = |k: usize| {
+            if active[k] {
+                let position = conditions.position(k).relative();
+                [position, conditions.velocity(k, &self.numbers[n..2 * n]).relative()]
+            } else {
+                [0.0; 2]
+            }
+        };
+        (0..active.len()).map(residual).collect()
+    }
+}
+
+impl System {
+    /// How many constraints there are.
+    pub fn constraints(&self) -> usize {
+        self.constrained().map_or(0, |c| c.names.len())
+    }
+
+    /// The names of the constraints that repeat what those before them say, where the file starts
+    /// the motion. Their multipliers are those of least norm.
+    pub fn redundant(&self) -> Vec<&str> {
+        let Some(constrained) = self.constrained() else { return Vec::new() };
+        let Holding { active, held } = self.holding();
+        let names = constrained.names.iter().enumerate();
+        names.filter(|&(k, _)| active[k] && !held[k]).map(|(_, name)| name.as_str()).collect()
+    }
+
+    /// Whether a constraint has been let go.
+    pub fn is_released(&self, constraint: usize) -> bool {
+        self.holding().active.get(constraint).is_some_and(|active| !active)
+    }
+
+    /// The same system without one of its constraints, from this state on.
+    #[must_use]
+    pub fn release(&self, constraint: usize, state: &State, parameters: &[f64]) -> System {
+        let mut active = self.holding().active.clone();
+        let Some(place) = active.get_mut(constraint) else { return self.clone() };
+        *place = false;
+        self.holding_only(active, state, parameters)
+    }
+
+    /// The same system with all its constraints.
+    #[must_use]
+    pub fn hold_all(&self, state: &State, parameters: &[f64]) -> System {
+        self.holding_only(vec![true; self.constraints()], state, parameters)
+    }
+
+    fn holding_only(&self, active: Vec<bool>, state: &State, parameters: &[f64]) -> System {
+        let Some(conditions) = self.conditions(parameters, state) else { return self.clone() };
+        let held = conditions.independent(&active);
+        self.with_holding(Holding { active, held })
+    }
+
+    fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
+        let constrained = self.constrained()?;
+        let mut conditions = Conditions::new(Arc::clone(&constrained.program), self.constraints());
+        conditions.set_parameters(&self.inputs(parameters));
+        let positions: Vec<Double> = (0..self.degrees()).map(|i| state.exact(i)).collect();
+        conditions.look(state.exact_time(), &positions);
+        Some(conditions)
+    }
+
+    /// What keeps states on the constraints; `None` where there are none.
+    pub fn keeper(&self, parameters: &[f64]) -> Option<Keeper> {
+        let program = Arc::clone(&self.constrained()?.program);
+        let conditions = Conditions::new(program, self.constraints());
+        let momenta = Values::new(self.legendre_program());
+        let kept = Kept::new(conditions, momenta, &self.holding().held);
+        let numbers = vec![Double::ZERO; self.moving()];
+        let mut keeper = Keeper { system: self.clone(), kept, numbers };
+        keeper.set_parameters(parameters);
+        Some(keeper)
+    }
+
+    /// The state that momenta `target` and the constraints give, with q kept and q̇ of `state` as
+    /// the first guess, and the reactions Λ of the constraints (none where there are none).
+    pub(super) fn strike(
+        &self,
+        state: &State,
+        target: &[Double],
+        parameters: &[f64],
+    ) -> Result<(State, Vec<f64>), Fault> {
+        let Some(mut keeper) = self.keeper(parameters) else { return Ok((state.clone(), vec![])) };
+        keeper.load(state);
+        let outcome = keeper.kept.strike(state.exact_time(), &mut keeper.numbers, target);
+        let reactions = outcome.map_err(|why| self.unsolved(why, state.time, &keeper.numbers))?;
+        let mut after = state.clone();
+        after.form = Form::Velocity;
+        for (i, &x) in keeper.numbers.iter().enumerate() {
+            after.set(i, x);
+        }
+        Ok((after, reactions.iter().map(|x| x.high).collect()))
+    }
+
+    /// The velocities of a state that begins under constraints, by what is known of them.
+    pub(super) fn begin_held(
+        &self,
+        mut state: State,
+        known: &[Known],
+        parameters: &[f64],
+    ) -> Result<State, Fault> {
+        let Some(constrained) = self.constrained() else { return Ok(state) };
+        let Some(conditions) = self.conditions(parameters, &state) else { return Ok(state) };
+        let missed = |k: usize, part: f64| {
+            let kind = FaultKind::ConstraintMissed(constrained.names[k].clone(), part);
+            self.fault(kind, state.time, &state.values)
+        };
+        for k in 0..self.constraints() {
+            let part = conditions.position(k).relative();
+            if part.is_nan() || part > beginning::GIVEN_WITHIN {
+                return Err(missed(k, part));
+            }
+        }
+        let mut momenta = Values::new(self.legendre_program());
+        momenta.set_parameters(&self.inputs(parameters));
+        let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let time = state.exact_time();
+        let found = beginning::begin(&conditions, &mut momenta, time, &mut numbers, known);
+        found.map_err(|why| match why {
+            NoBeginning::Missed(k, part) => missed(k, part),
+            NoBeginning::Free(free) => {
+                let n = self.degrees();
+                let names = free.iter().map(|i| self.channels()[n + i].name.clone()).collect();
+                let kind = FaultKind::FreeVelocities(names);
+                Fault { time: state.time, kind, place: Vec::new() }
+            }
+            NoBeginning::Unsolved(why) => self.unsolved(why, state.time, &numbers),
+        })?;
+        for (i, &x) in numbers.iter().enumerate() {
+            state.set(i, x);
+        }
+        if let Some(mut keeper) = self.keeper(parameters) {
+            keeper.project(&mut state)?;
+        }
+        Ok(state)
+    }
+
+    fn lost(&self, why: Failure, state: &State) -> Fault {
+        let kind = match (why, self.constrained()) {
+            (Failure::Lost(k), Some(c)) => FaultKind::ConstraintLost(c.names[k].clone()),
+            (Failure::Singular, _) | (_, None) => FaultKind::SingularConstraints,
+        };
+        self.fault(kind, state.time, &state.values)
+    }
+}

@@ -1,0 +1,269 @@
+//! Constraints with multipliers: derived, solved, kept.
+
+use std::sync::Arc;
+
+use phaselab::experiment::{Experiment, Progress, Setup, Status, choose_method};
+use phaselab::expr::{Expr, Zero};
+use phaselab::mechanics::{self, Equations};
+use phaselab::model::Model;
+use phaselab::system::{Fault, FaultKind, Given, System};
+
+use crate::build::{constrain, lagrangian, read};
+
+/// Checks solved expressions against hand-written ones.
+fn check(mut model: Model, accelerations: &[&str], multipliers: &[&str]) -> Equations {
+    let by_hand: Vec<Expr> =
+        accelerations.iter().chain(multipliers).map(|text| read(&mut model, text)).collect();
+    let mut equations = mechanics::derive(&model).expect("it derives");
+    let solved = equations.solved.clone().expect("accelerations");
+    let forces = equations.multipliers.clone().expect("multipliers");
+    for (found, right) in solved.into_iter().chain(forces).zip(by_hand) {
+        let difference = equations.pool.sub(found, right);
+        let text = equations.pool.text(found);
+        assert_eq!(equations.pool.is_zero(difference), Zero::Proved, "{text}");
+    }
+    equations
+}
+
+const HOOP: &str = "m/2*x'^2 + m*r^2/2*theta'^2 + m*g*x*sin(phi)";
+
+#[test]
+fn a_hoop_rolls_down_at_half_the_acceleration() {
+    // The Principles of Dynamics, § 1.3.2
+    let mut model = lagrangian(&["x", "theta"], &["m", "g", "r", "phi"], HOOP);
+    constrain(&mut model, &[("no slip", "r*theta' - x'")]);
+    let half = "1/2*g*sin(phi)";
+    let equations = check(model, &[half, "g*sin(phi)/(2*r)"], &["1/2*m*g*sin(phi)"]);
+    assert!(equations.conserved.iter().any(|c| c.name == "energy"));
+    assert!(equations.separable.is_err(), "not a motion under H alone");
+}
+
+#[test]
+fn the_tension_has_the_sign_of_the_constraint_as_written() {
+    let law = "m1/2*x1'^2 + m2/2*x2'^2 + m1*g*x1 + m2*g*x2";
+    let fall = "(m1 - m2)*g/(m1 + m2)";
+    let rise = "(m2 - m1)*g/(m1 + m2)";
+    let pull = "2*m1*m2*g/(m1 + m2)";
+    for (string, tension) in
+        [("l - x1 - x2", pull.to_owned()), ("x1 + x2 - l", format!("-({pull})"))]
+    {
+        let mut model = lagrangian(&["x1", "x2"], &["m1", "m2", "g", "l"], law);
+        constrain(&mut model, &[("string", string)]);
+        check(model, &[fall, rise], &[&tension]);
+    }
+}
+
+#[test]
+fn a_wire_that_turns_does_work() {
+    // y cos wt − x sin wt = 0; r'' = w² r along the wire
+    let mut model = lagrangian(&["x", "y"], &["m", "w"], "m/2*(x'^2 + y'^2)");
+    constrain(&mut model, &[("wire", "y*cos(w*t) - x*sin(w*t)")]);
+    // dh/dt = −λ ∂f/∂t
+    let rate = read(&mut model, "w*(y*sin(w*t) + x*cos(w*t))");
+    let mut equations = mechanics::derive(&model).expect("it derives");
+    let lambda = equations.pool.variable(equations.constraints[0].multiplier);
+    let expected = equations.pool.mul(lambda, rate);
+    let rest = equations.pool.sub(equations.energy_rate, expected);
+    assert_eq!(equations.pool.is_zero(rest), Zero::Proved);
+    assert!(equations.conserved.is_empty());
+}
+
+#[test]
+fn a_rod_keeps_the_total_momentum_and_not_each() {
+    let mut model =
+        lagrangian(&["x1", "y1", "x2", "y2"], &["m", "l"], "m/2*(x1'^2 + y1'^2 + x2'^2 + y2'^2)");
+    constrain(&mut model, &[("rod", "(x1 - x2)^2 + (y1 - y2)^2 - l^2")]);
+    let equations = mechanics::derive(&model).expect("it derives");
+    assert!(equations.cyclic.is_empty(), "the rod pulls on each");
+    let names: Vec<_> = equations.conserved.iter().map(|c| c.reason.to_string()).collect();
+    assert!(names.iter().any(|name| name.starts_with("translation of x₁")), "{names:?}");
+    assert!(names.iter().any(|name| name.starts_with("rotation")), "{names:?}");
+}
+
+/// Sets the start of a model: coordinates, and velocities where they are given.
+fn start(model: &mut Model, values: &[(&str, Option<&str>)]) {
+    for (i, (position, rate)) in values.iter().enumerate() {
+        let initial = read(model, position);
+        let rate = rate.map(|text| read(model, text));
+        let coordinate = &mut model.coordinates[i];
+        coordinate.initial = initial;
+        coordinate.rate_given = rate.is_some();
+        coordinate.initial_rate = rate.unwrap_or(Expr::ZERO);
+    }
+}
+
+fn system(model: &Model) -> System {
+    let equations = mechanics::derive(model).expect("it derives");
+    System::compile(model, &equations, &[]).expect("it compiles")
+}
+
+fn experiment(model: &Model, change: impl FnOnce(&mut Setup)) -> Experiment {
+    let equations = Arc::new(mechanics::derive(model).expect("it derives"));
+    let system = System::compile(model, &equations, &[]).expect("it compiles");
+    let mut setup = Setup::of(model);
+    change(&mut setup);
+    Experiment::new(&Arc::new(model.clone()), &equations, &system, setup).expect("a method")
+}
+
+fn run(experiment: &mut Experiment, time: f64) {
+    let progress = experiment.advance(time, 10_000_000);
+    assert_eq!(progress, Progress::Arrived, "{:?}", experiment.status());
+}
+
+fn value(experiment: &Experiment, name: &str) -> f64 {
+    let place = experiment.system().channels().iter().position(|c| c.name == name);
+    experiment.values()[place.unwrap_or_else(|| panic!("no channel {name}"))]
+}
+
+/// A pendulum in x, y (down is −y), held by a rod.
+fn pendulum() -> Model {
+    let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");
+    constrain(&mut model, &[("rod", "x^2 + y^2 - 1")]);
+    start(&mut model, &[("sin(2)", Some("0")), ("-cos(2)", None)]);
+    model
+}
+
+#[test]
+fn a_pendulum_held_by_a_rod_is_the_pendulum_in_its_angle() {
+    let mut angle = lagrangian(&["theta"], &["g"], "1/2*theta'^2 + g*cos(theta)");
+    start(&mut angle, &[("2", Some("0"))]);
+    for method in ["taylor", "dop853"] {
+        let mut held = experiment(&pendulum(), |setup| method.clone_into(&mut setup.method));
+        let mut free = experiment(&angle, |_| ());
+        for time in [1.0, 10.0, 60.0] {
+            run(&mut held, time);
+            run(&mut free, time);
+            let (theta, rate) = (value(&free, "theta"), value(&free, "theta'"));
+            let within = if method == "taylor" { 2e-14 } else { 2e-11 };
+            assert!((value(&held, "x") - theta.sin()).abs() < within, "{method} at {time}");
+            assert!((value(&held, "y") + theta.cos()).abs() < within, "{method} at {time}");
+            assert!((value(&held, "x'") - rate * theta.cos()).abs() < 10.0 * within);
+            // m (θ'² + g cos θ) = −2 λ l
+            let tension = rate * rate + theta.cos();
+            assert!((value(&held, "lambda_rod") + tension / 2.0).abs() < 10.0 * within);
+        }
+    }
+}
+
+#[test]
+fn constraints_are_kept_to_rounding_by_every_method_that_takes_them() {
+    for (method, step) in [("taylor", None), ("dop853", None), ("rk4", Some(0.02))] {
+        let mut held = experiment(&pendulum(), |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut held, 100.0);
+        let (x, y) = (value(&held, "x"), value(&held, "y"));
+        let (u, v) = (value(&held, "x'"), value(&held, "y'"));
+        assert!((x * x + y * y - 1.0).abs() < 4e-16, "{method}");
+        assert!((x * u + y * v).abs() < 1e-15, "{method}");
+    }
+}
+
+#[test]
+fn methods_that_would_lose_what_they_are_chosen_for_refuse() {
+    let system = system(&pendulum());
+    for method in ["leapfrog", "yoshida4", "gauss4", "gauss6"] {
+        let refused = choose_method(&system, method).map(|m| m.name).unwrap_err().to_string();
+        assert!(refused.contains("held to constraints"), "{method}: {refused}");
+    }
+}
+
+#[test]
+fn a_knife_edge_on_a_slope_draws_a_cycloid() {
+    // Neimark & Fufaev, Dynamics of Nonholonomic Systems, I.§6: from rest, turning at ω,
+    // x = (g/2ω²) sin² ωt, y = (g/2ω²)(ωt − ½ sin 2ωt), g along the slope
+    let mut model = lagrangian(&["x", "y", "phi"], &["g"], "1/2*(x'^2 + y'^2) + 1/2*phi'^2 + g*x");
+    constrain(&mut model, &[("edge", "x'*sin(phi) - y'*cos(phi)")]);
+    start(&mut model, &[("0", Some("0")), ("0", None), ("0", Some("2"))]);
+    let mut sleigh = experiment(&model, |_| ());
+    let omega = 2.0_f64;
+    for time in [0.3, 1.7, 9.0, 40.0] {
+        run(&mut sleigh, time);
+        let size = 1.0 / (2.0 * omega * omega);
+        let x = size * (omega * time).sin().powi(2);
+        let y = size * (omega * time - 0.5 * (2.0 * omega * time).sin());
+        assert!((value(&sleigh, "x") - x).abs() < 1e-14, "x at {time}");
+        assert!((value(&sleigh, "y") - y).abs() < 4e-15 * (1.0 + y), "y at {time}");
+    }
+}
+
+#[test]
+fn what_is_said_twice_is_told_and_shared_evenly() {
+    let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");
+    constrain(&mut model, &[("rod", "x^2 + y^2 - 1"), ("twin", "2*x^2 + 2*y^2 - 2")]);
+    start(&mut model, &[("sin(2)", Some("0")), ("-cos(2)", None)]);
+    let mut twice = experiment(&model, |_| ());
+    assert_eq!(twice.system().redundant(), ["twin"]);
+    let mut once = experiment(&pendulum(), |_| ());
+    run(&mut twice, 20.0);
+    run(&mut once, 20.0);
+    assert!((value(&twice, "x") - value(&once, "x")).abs() < 1e-14);
+    // λ₁ + 2 λ₂ = λ with the least λ₁² + λ₂²: λ/5 and 2λ/5
+    let lambda = value(&once, "lambda_rod");
+    assert!((value(&twice, "lambda_rod") - lambda / 5.0).abs() < 1e-14);
+    assert!((value(&twice, "lambda_twin") - 2.0 * lambda / 5.0).abs() < 1e-14);
+    assert!(system(&pendulum()).redundant().is_empty());
+}
+
+#[test]
+fn a_mass_matrix_that_is_singular_alone_is_solved_with_its_constraint() {
+    // s has no mass of its own: it is tied to x
+    let mut model = lagrangian(&["x", "s"], &["k"], "1/2*x'^2 - 1/2*k*s^2");
+    constrain(&mut model, &[("tie", "x - s")]);
+    start(&mut model, &[("1", Some("0")), ("1", None)]);
+    let mut tied = experiment(&model, |_| ());
+    run(&mut tied, 7.0);
+    assert!((value(&tied, "x") - 7.0_f64.cos()).abs() < 2e-15);
+    assert!((value(&tied, "s'") + 7.0_f64.sin()).abs() < 2e-15);
+}
+
+fn initial(model: &Model, given: &[Given]) -> Result<Vec<f64>, FaultKind> {
+    let parameters = model.parameter_values();
+    let state = system(model).initial(0.0, &parameters, given);
+    state.map(|state| state.values).map_err(|fault: Fault| fault.kind)
+}
+
+#[test]
+fn velocities_left_out_follow_from_the_constraints() {
+    let mut model = lagrangian(&["x", "theta"], &["m", "g", "r", "phi"], HOOP);
+    constrain(&mut model, &[("no slip", "r*theta' - x'")]);
+    start(&mut model, &[("0", Some("3")), ("0", None)]);
+    assert_eq!(initial(&model, &[]), Ok(vec![0.0, 0.0, 3.0, 3.0]));
+    assert_eq!(initial(&model, &[Given::Velocity(0, 5.0)]), Ok(vec![0.0, 0.0, 5.0, 5.0]));
+    // p_x = m x'
+    assert_eq!(initial(&model, &[Given::Momentum(0, 4.0)]), Ok(vec![0.0, 0.0, 4.0, 4.0]));
+    // both given, and apart
+    let apart = initial(&model, &[Given::Velocity(1, 2.0)]).unwrap_err();
+    assert!(
+        matches!(&apart, FaultKind::ConstraintMissed(name, _) if name == "no slip"),
+        "{apart:?}"
+    );
+    start(&mut model, &[("0", None), ("0", None)]);
+    let free = initial(&model, &[]).unwrap_err();
+    assert!(matches!(&free, FaultKind::FreeVelocities(names) if names.len() == 1), "{free:?}");
+}
+
+#[test]
+fn a_start_off_the_constraint_is_refused_and_one_by_rounding_is_put_right() {
+    let mut model = pendulum();
+    start(&mut model, &[("1", Some("0")), ("1e-3", None)]);
+    let off = initial(&model, &[]).unwrap_err();
+    assert!(matches!(&off, FaultKind::ConstraintMissed(name, _) if name == "rod"), "{off:?}");
+    start(&mut model, &[("0.6", Some("0.8")), ("0.8 + 1e-11", None)]);
+    let state = initial(&model, &[]).expect("it is put right");
+    assert!((state[0].hypot(state[1]) - 1.0).abs() < 2e-16, "{state:?}");
+    assert!((state[0] * state[2] + state[1] * state[3]).abs() < 2e-16, "{state:?}");
+}
+
+#[test]
+fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
+    // where they touch they say the same, and just beside it they leave no room at all
+    let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*x");
+    constrain(&mut model, &[("line", "y"), ("parabola", "y - x^2")]);
+    start(&mut model, &[("0", Some("1")), ("0", None)]);
+    let mut stuck = experiment(&model, |_| ());
+    stuck.advance(1.0, 1000);
+    let Status::Faulted(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
+    assert!(fault.message.contains("`parabola` cannot be kept"), "{}", fault.message);
+}
