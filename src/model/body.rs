@@ -27,6 +27,14 @@ pub struct BodyNames {
     pub centre: [Symbol; 3],
 }
 
+impl BodyNames {
+    /// All of them.
+    pub fn all(&self) -> Vec<Symbol> {
+        let single = [self.mass];
+        [&self.inertia[..], &self.principal, &single, &self.centre].concat()
+    }
+}
+
 /// One piece: a solid, placed and turned.
 #[derive(Clone, Debug)]
 pub struct Piece {

@@ -1,12 +1,18 @@
 //! Which names an expression may use, by where it stands; and the clear sentence for each that it
 //! may not.
 
+mod allowed;
+
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::Model;
+use super::{Mechanics, Model, multiplier_name};
 use crate::expr::{
     Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, nearest, parse,
 };
+
+pub use allowed::Allowed;
+
+use allowed::Kind;
 
 /// How deep an expression may go once its definitions are opened: the 256 parentheses a text may
 /// nest, with a call, a sum, a product and a power in each.
@@ -14,19 +20,6 @@ const DEPTH_LIMIT: usize = 4 * 256;
 
 /// More mistakes than these in one place are not told.
 const MOST_MISTAKES: usize = 100;
-
-/// What may be used where.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Allowed {
-    /// Parameters only: initial values, periods.
-    Parameters,
-    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, forces beside a Lagrangian.
-    Lagrangian,
-    /// q, p, t, parameters: a Hamiltonian and forces beside it.
-    Hamiltonian,
-    /// All of it and q̈, `energy`, `action`: observables, views, shapes, expectations.
-    Observable,
-}
 
 /// The names of a model as one place of use sees them, and the mistakes met there.
 #[derive(Clone, Debug)]
@@ -38,6 +31,8 @@ pub struct Scope {
     offenders: HashMap<Expr, Option<Symbol>>,
     /// How many mistakes were met, those beyond the first hundred included.
     complaints: usize,
+    /// Whether the coordinates are variables of brackets, which have no momenta.
+    poisson: bool,
     /// The mistakes found so far, to be taken out by whoever tells them.
     pub mistakes: Vec<SyntaxError>,
     /// The names used, so that unused ones can be told.
@@ -50,20 +45,11 @@ enum Meaning {
     Symbol(Symbol),
     /// A coordinate: q, q̇ and q̈.
     Position([Symbol; 3]),
+    /// A coordinate of the other motion of a comparison, and its velocity.
+    Other([Symbol; 2]),
     Defined(Expr),
     /// Something that is defined, but not above the place of use.
     Later,
-}
-
-/// What a symbol is to mechanics. Parameters, and whatever else is constant, are not listed.
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Time,
-    Position,
-    Velocity,
-    Acceleration,
-    Momentum,
-    Whole,
 }
 
 impl Scope {
@@ -73,26 +59,49 @@ impl Scope {
         let mut names = BTreeMap::new();
         let mut kinds = HashMap::new();
         let common = model.symbols;
-        let whole = [("t", common.time, Kind::Time), ("energy", common.energy, Kind::Whole)];
-        for (name, symbol, kind) in
-            whole.into_iter().chain([("action", common.action, Kind::Whole)])
-        {
+        let mut constant = |name: &str, symbol, kind: Option<Kind>| {
             names.insert(name.to_owned(), Meaning::Symbol(symbol));
-            kinds.insert(symbol, kind);
-        }
+            kinds.extend(kind.map(|kind| (symbol, kind)));
+        };
+        constant("t", common.time, Some(Kind::Time));
+        constant("energy", common.energy, Some(Kind::Energy));
+        constant("action", common.action, Some(Kind::Action));
         for p in &model.parameters {
-            names.insert(p.name.clone(), Meaning::Symbol(p.symbol));
+            constant(&p.name, p.symbol, None);
+        }
+        for symbol in model.body.iter().flat_map(|body| body.names.all()) {
+            constant(&model.pool.symbol_info(symbol).name, symbol, Some(Kind::Inertia));
+        }
+        for constraint in &model.constraints {
+            let name = multiplier_name(&constraint.name);
+            constant(&name, constraint.multiplier, Some(Kind::Multiplier));
+        }
+        for symbol in model.attitude.iter().flat_map(|a| a.matrix.concat()) {
+            constant(&model.pool.symbol_info(symbol).name, symbol, Some(Kind::Attitude));
+        }
+        if !model.is_poisson() {
+            for c in &model.coordinates {
+                constant(&format!("p_{}", c.name), c.momentum, Some(Kind::Momentum));
+            }
         }
         for c in &model.coordinates {
             let symbols = [c.position, c.velocity, c.acceleration];
             names.insert(c.name.clone(), Meaning::Position(symbols));
-            names.insert(format!("p_{}", c.name), Meaning::Symbol(c.momentum));
-            kinds.insert(c.momentum, Kind::Momentum);
             let rates = [Kind::Position, Kind::Velocity, Kind::Acceleration];
             kinds.extend(symbols.into_iter().zip(rates));
         }
+        for &(position, velocity) in model.comparison.iter().flat_map(|c| &c.symbols) {
+            let name = model.pool.symbol_info(position).name.clone();
+            names.insert(name, Meaning::Other([position, velocity]));
+            kinds.extend([(position, Kind::Other), (velocity, Kind::Other)]);
+        }
         for (name, e) in &model.definitions {
             names.insert(name.clone(), Meaning::Defined(*e));
+        }
+        if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
+            for (name, e, _) in casimirs {
+                names.entry(name.clone()).or_insert(Meaning::Defined(*e));
+            }
         }
         for o in &model.observables {
             names.entry(o.name.clone()).or_insert(Meaning::Defined(o.expression));
@@ -104,6 +113,7 @@ impl Scope {
             kinds,
             offenders: HashMap::new(),
             complaints: 0,
+            poisson: model.is_poisson(),
             mistakes: Vec::new(),
             used: BTreeSet::new(),
         }
@@ -170,19 +180,7 @@ impl Scope {
 
     /// Why this place may not use a symbol of some kind, if it may not.
     fn refusal(&self, kind: Kind) -> Option<String> {
-        use Allowed::{Hamiltonian, Lagrangian, Observable, Parameters};
-        let place = &self.place;
-        Some(match (self.allowed, kind) {
-            (Observable, _)
-            | (Lagrangian, Kind::Time | Kind::Position | Kind::Velocity)
-            | (Hamiltonian, Kind::Time | Kind::Position | Kind::Momentum) => return None,
-            (Parameters, _) => format!("{place} is made of parameters only"),
-            (_, Kind::Whole) => {
-                format!("{place} stands before energy and action, which follow from it")
-            }
-            (Hamiltonian, _) => format!("{place} is a function of q, p and t"),
-            (Lagrangian, _) => format!("{place} is a function of q, q' and t"),
-        })
+        self.allowed.refusal(kind, &self.place)
     }
 
     /// The first symbol in an expression that may not be used here.
@@ -208,12 +206,20 @@ impl Scope {
         if self.mistakes.len() >= MOST_MISTAKES {
             return error;
         }
+        let bare = name.strip_prefix("p_").filter(|_| self.poisson && primes == 0);
+        if let Some(bare) = bare
+            && let Some(Meaning::Position(_)) = self.names.get(bare)
+        {
+            let help = format!("variables given by their brackets have no momenta: write `{bare}`");
+            return error.with_help(help);
+        }
         let usable = |(known, meaning): (&String, &Meaning)| {
             let word = known.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-            let moves = primes == 0 || matches!(meaning, Meaning::Position(_));
+            let moves = primes == 0 || matches!(meaning, Meaning::Position(_) | Meaning::Other(_));
             let open = match meaning {
                 Meaning::Symbol(s) => self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none()),
                 Meaning::Position(_) => self.refusal(Kind::Position).is_none(),
+                Meaning::Other(_) => self.refusal(Kind::Other).is_none(),
                 Meaning::Defined(_) => true,
                 Meaning::Later => false,
             };
@@ -229,12 +235,28 @@ impl Scope {
         match nearest(name, known) {
             Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
             None if primes > 0 => error.with_help("only coordinates have velocities"),
+            None if name.starts_with("lambda_") => error.with_help(self.multipliers()),
             None if self.allowed == Allowed::Parameters => {
                 error.with_help("give it a value in [parameters]")
             }
             None => {
                 error.with_help("give it a value in [parameters], or define it in [definitions]")
             }
+        }
+    }
+
+    /// What could be meant by a name that begins as a multiplier's does.
+    fn multipliers(&self) -> String {
+        let multiplies = |meaning: &Meaning| match meaning {
+            Meaning::Symbol(s) => self.kinds.get(s) == Some(&Kind::Multiplier),
+            _ => false,
+        };
+        let known: Vec<&str> =
+            self.names.iter().filter(|(_, m)| multiplies(m)).map(|(n, _)| n.as_str()).collect();
+        if known.is_empty() {
+            "the file has no [[constraints]], and so no multipliers".to_owned()
+        } else {
+            format!("the multipliers are {}", known.join(", "))
         }
     }
 
@@ -253,6 +275,13 @@ impl Scope {
                 Some(&symbol) => pool.variable(symbol),
                 None => {
                     return Err(SyntaxError::new(span, "there is no name for a third derivative"));
+                }
+            },
+            Meaning::Other(symbols) => match symbols.get(primes) {
+                Some(&symbol) => pool.variable(symbol),
+                None => {
+                    let message = format!("the other motion has no name for `{name}''`");
+                    return Err(SyntaxError::new(span, message));
                 }
             },
             _ if primes > 0 => return Err(self.at_rest(name, span)),
@@ -281,6 +310,9 @@ impl Scope {
                 (Allowed::Hamiltonian, Some(Kind::Velocity)) => {
                     error.with_help("write it in momenta, or give the law in [lagrangian]")
                 }
+                (_, Some(Kind::Multiplier)) => {
+                    error.with_help("what a constraint needs follows from the law of motion")
+                }
                 _ => error,
             });
         }
@@ -292,7 +324,8 @@ impl Scope {
     fn at_rest(&self, name: &str, span: Span) -> SyntaxError {
         let message = format!("`{name}` is not a coordinate and has no velocity");
         let error = SyntaxError::new(span, message);
-        let moving = self.names.iter().filter(|(_, m)| matches!(m, Meaning::Position(_)));
+        let moves = |m: &Meaning| matches!(m, Meaning::Position(_) | Meaning::Other(_));
+        let moving = self.names.iter().filter(|(_, m)| moves(m));
         match nearest(name, moving.map(|(n, _)| n.as_str())) {
             Some(near) => error.with_help(format!("did you mean `{near}'`?")),
             None => error,

@@ -6,8 +6,10 @@
 //! the file claims of itself is true.
 
 mod claims;
+mod constraint;
 mod motion;
 mod names;
+mod occurrence;
 mod parameters;
 mod picture;
 mod place;
@@ -40,11 +42,16 @@ pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Optio
     for written in &draft.parameters {
         check.parameter(written);
     }
+    check.run(&draft.run);
+    check.multipliers(draft);
+    check.occurrences_named_once(draft);
     check.definitions(draft);
     let law = check.law(&draft.mechanics);
     check.initial_values(draft, law);
+    check.constraints(&draft.constraints);
+    check.impulses(&draft.impulses);
     check.observables(&draft.observables, &mut names);
-    check.run(&draft.run);
+    check.events(&draft.events);
     check.expect(&draft.expect);
     check.views(&draft.views);
     check.shapes(&draft.shapes);
@@ -118,6 +125,10 @@ impl Check<'_> {
             .iter()
             .filter_map(|o| o.name.as_ref().map(toml::Spanned::span))
             .collect();
+        let constraints = draft.constraints.iter().map(|c| c.place.clone()).collect();
+        let impulses = draft.impulses.iter().map(|i| i.place.clone()).collect();
+        let times = draft.impulses.iter().flat_map(|i| i.at.iter().map(toml::Spanned::span));
+        let events = draft.events.iter().map(|e| e.place.clone()).collect();
         let values = draft.expect.values.iter().map(|v| v.place.clone()).collect();
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
@@ -127,6 +138,10 @@ impl Check<'_> {
             named(parameters, 256, "parameters"),
             named(definitions, 1024, "definitions"),
             named(observables, 1024, "observables"),
+            named(constraints, 128, "constraints"),
+            named(impulses, 256, "impulses"),
+            named(times.collect(), 10_000, "times of impulses"),
+            named(events, 256, "events"),
             named(values, 1024, "expected values"),
             named(conserved, 1024, "conserved quantities"),
             named(views, 64, "views"),

@@ -6,6 +6,8 @@
 //! Never here: expressions, what names mean, whether numbers make sense.
 
 mod claims;
+mod constraint;
+mod occurrence;
 mod picture;
 mod run;
 mod system;
@@ -21,6 +23,8 @@ use crate::model::{Info, Place};
 use table::Table;
 
 pub(super) use claims::{DraftExpect, DraftObservable, DraftValue};
+pub(super) use constraint::DraftConstraint;
+pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formulas};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMechanics, DraftParameter, Law, NamedFormula};
@@ -41,6 +45,12 @@ pub(super) struct Draft {
     pub(super) definitions: Vec<NamedFormula>,
     /// Every law of motion given; one is right.
     pub(super) mechanics: Vec<DraftMechanics>,
+    /// What the motion is held to.
+    pub(super) constraints: Vec<DraftConstraint>,
+    /// Blows.
+    pub(super) impulses: Vec<DraftImpulse>,
+    /// Crossings to be located.
+    pub(super) events: Vec<DraftEvent>,
     /// What is to be watched.
     pub(super) observables: Vec<DraftObservable>,
     /// What the file claims.
@@ -54,17 +64,8 @@ pub(super) struct Draft {
 }
 
 /// What the format has and this version does not.
-const NOT_YET: [&str; 9] = [
-    "poisson",
-    "variables",
-    "constraints",
-    "impulses",
-    "events",
-    "transformations",
-    "generators",
-    "hamilton_jacobi",
-    "body",
-];
+const NOT_YET: [&str; 6] =
+    ["poisson", "variables", "transformations", "generators", "hamilton_jacobi", "body"];
 
 /// The keys of the file's first level: where a stray key may have been meant to stand.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
@@ -85,6 +86,9 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draf
         parameters: system::parameters(&mut top, mistakes),
         definitions: system::definitions(&mut top, mistakes),
         mechanics: system::mechanics(&mut top, mistakes),
+        constraints: constraint::constraints(&mut top, mistakes),
+        impulses: occurrence::impulses(&mut top, mistakes),
+        events: occurrence::events(&mut top, mistakes),
         observables: claims::observables(&mut top, mistakes),
         expect: claims::expect(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),

@@ -5,6 +5,7 @@ mod catalog;
 mod good;
 mod hostile;
 mod scope;
+mod tables;
 
 /// A small system that is right, in the parts of its file.
 const GOOD: &str = r#"title = "Oscillator"

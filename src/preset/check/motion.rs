@@ -109,22 +109,24 @@ impl Check<'_> {
     }
 
     fn positive_period(&mut self, e: Expr, name: &str, written: &DraftCoordinate) -> bool {
-        let positive = self.at_start(e) > 0.0;
+        let period = self.at_start(e);
+        let positive = period > 0.0 || period.is_nan();
         if let (false, Some(formula)) = (positive, &written.period) {
             self.error(formula.span(), format!("the period of `{name}` must be positive"));
         }
         positive
     }
 
-    /// The value of an expression in parameters, with the values the file gives them.
-    fn at_start(&self, e: Expr) -> f64 {
+    /// The value of an expression in parameters, with the values the file gives them; NaN where it
+    /// uses what only follows from them, such as the moments of a body.
+    pub(super) fn at_start(&self, e: Expr) -> f64 {
         let value = |symbol| {
             self.model.parameters.iter().find(|p| p.symbol == symbol).map_or(f64::NAN, |p| p.value)
         };
         self.model.pool.evaluate(e, &value)
     }
 
-    fn finite(&mut self, e: Expr, what: &str, formula: &Formula) -> bool {
+    pub(super) fn finite(&mut self, e: Expr, what: &str, formula: &Formula) -> bool {
         let symbols = self.model.pool.symbols_of(e);
         let known = symbols.iter().all(|s| self.model.parameters.iter().any(|p| p.symbol == *s));
         let value = self.at_start(e);
@@ -132,6 +134,6 @@ impl Check<'_> {
             let comes = if value.is_nan() { "is not a real number" } else { "is infinite" };
             self.error(formula.span(), format!("with the parameters' values {what} {comes}"));
         }
-        value.is_finite()
+        !known || value.is_finite()
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use crate::expr::{FUNCTIONS, latex_of_unicode};
-use crate::model::Place;
+use crate::model::{Place, multiplier_name};
 use crate::preset::Mistakes;
 use crate::preset::draft::Draft;
 use crate::preset::mistake::Mistake;
@@ -14,13 +14,19 @@ use crate::preset::mistake::Mistake;
 pub(super) struct Names {
     taken: BTreeMap<String, (&'static str, Place)>,
     coordinates: Vec<String>,
+    /// Constraints and how their multipliers are written.
+    multipliers: Vec<(String, String)>,
 }
 
 impl Names {
     /// The names of coordinates, parameters and definitions, after they have been checked.
     pub(super) fn of(draft: &Draft, mistakes: &mut Mistakes) -> Names {
         let coordinates = draft.coordinates.iter().map(|c| c.name.get_ref().clone()).collect();
-        let mut names = Names { taken: BTreeMap::new(), coordinates };
+        let constraints = draft.constraints.iter().filter_map(|c| c.name.as_ref());
+        let multipliers = constraints
+            .map(|name| (name.get_ref().clone(), multiplier_name(name.get_ref())))
+            .collect();
+        let mut names = Names { taken: BTreeMap::new(), coordinates, multipliers };
         for coordinate in &draft.coordinates {
             names.word(&coordinate.name, "a coordinate", mistakes);
         }
@@ -64,11 +70,7 @@ impl Names {
             let message = format!("`{written}` cannot name {kind}: it is {meaning}");
             mistakes.push(Mistake::error(name.span(), message).with_help("choose another name"));
         } else if let Some((first, place)) = self.taken.get(written) {
-            let message = format!("the name `{written}` is given twice");
-            let mistake = Mistake::error(name.span(), message)
-                .with_help("rename one of them")
-                .with_also(place.clone(), format!("here it names {first}"));
-            mistakes.push(mistake);
+            tell_twice(name, place.clone(), first, mistakes);
         } else {
             self.taken.insert(written.to_owned(), (kind, name.span()));
         }
@@ -92,6 +94,10 @@ impl Names {
             "action" => "the action",
             _ if FUNCTIONS.iter().any(|f| f.name == name) => "a function",
             _ => {
+                let multiplies = self.multipliers.iter().find(|(_, written)| written == name);
+                if let Some((constraint, _)) = multiplies {
+                    return Some(format!("the multiplier of the constraint `{constraint}`"));
+                }
                 let moving = name.trim_end_matches('\'');
                 return match of("p_") {
                     Some(coordinate) => Some(format!("the momentum of `{coordinate}`")),
@@ -104,6 +110,20 @@ impl Names {
         };
         Some(fixed.to_owned())
     }
+}
+
+/// Complains of a name that something has already.
+pub(super) fn tell_twice(
+    name: &Spanned<String>,
+    first: Place,
+    kind: &str,
+    mistakes: &mut Mistakes,
+) {
+    let message = format!("the name `{}` is given twice", name.get_ref());
+    let mistake = Mistake::error(name.span(), message)
+        .with_help("rename one of them")
+        .with_also(first, format!("here it names {kind}"));
+    mistakes.push(mistake);
 }
 
 /// Whether expressions can name it.

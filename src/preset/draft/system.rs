@@ -162,7 +162,11 @@ pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<N
 }
 
 /// A table of names with an expression each.
-fn formulas(table: &Table<'_>, called: &str, mistakes: &mut Mistakes) -> Vec<NamedFormula> {
+pub(super) fn formulas(
+    table: &Table<'_>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Vec<NamedFormula> {
     table
         .entries()
         .map(|(name, entry)| {

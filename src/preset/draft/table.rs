@@ -98,6 +98,22 @@ impl<'d> Table<'d> {
         text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
     }
 
+    /// The name of an entry, which has to be there; messages call the entry by it from then on.
+    pub(super) fn name(&mut self, mistakes: &mut Mistakes) -> Option<Spanned<String>> {
+        let (_, found) = self.require("name", "write name = \"...\"")?;
+        let name = value::text(found, "`name`", mistakes)?;
+        let shown = name.get_ref().trim();
+        if shown.is_empty() || shown.chars().any(char::is_control) {
+            let kind = self.called.replacen("this ", "", 1);
+            let article = if kind.starts_with(['e', 'i', 'o', 'a']) { "an" } else { "a" };
+            let message = format!("{article} {kind} needs a name that can be shown");
+            mistakes.push(Mistake::error(name.span(), message));
+            return None;
+        }
+        self.called = format!("{} `{shown}`", self.called.replacen("this", "the", 1));
+        Some(Spanned::new(name.span(), shown.to_owned()))
+    }
+
     /// A finite number.
     pub(super) fn number(
         &mut self,

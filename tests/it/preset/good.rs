@@ -9,7 +9,7 @@ use phaselab::preset::{Catalog, Checked, Origin, Severity, read, report};
 use super::GOOD;
 
 /// Reads a text without a mistake, or fails with its report.
-fn checked(text: &str) -> Checked {
+pub(super) fn checked(text: &str) -> Checked {
     match read(text) {
         Ok(checked) => checked,
         Err(mistakes) => panic!("{}", report(text, "test.toml", &mistakes, false)),
@@ -17,18 +17,18 @@ fn checked(text: &str) -> Checked {
 }
 
 /// The same, without a warning either.
-fn model(text: &str) -> Model {
+pub(super) fn model(text: &str) -> Model {
     let Checked { model, warnings } = checked(text);
     assert!(warnings.is_empty(), "{}", report(text, "test.toml", &warnings, false));
     model
 }
 
 /// A file about one free coordinate with more tables below.
-fn with(more: &str) -> String {
+pub(super) fn with(more: &str) -> String {
     format!("{GOOD}\n{more}")
 }
 
-fn text(model: &Model, e: Expr) -> String {
+pub(super) fn text(model: &Model, e: Expr) -> String {
     model.pool.text(e)
 }
 

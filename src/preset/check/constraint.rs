@@ -1,0 +1,164 @@
+//! Constraints: linear in the velocities, each binding something, each with a multiplier of its
+//! own name.
+
+use std::collections::HashMap;
+
+use toml::Spanned;
+
+use super::Check;
+use super::names::tell_twice;
+use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
+use crate::model::{Allowed, Constraint, Scope, multiplier_name};
+use crate::preset::draft::{Draft, DraftConstraint, Formula};
+use crate::preset::mistake::Mistake;
+
+impl Check<'_> {
+    /// The constraints by their names, so that their multipliers are known to all expressions; what
+    /// they say is read by [`Check::constraints`].
+    pub(super) fn multipliers(&mut self, draft: &Draft) {
+        let mut taken: Vec<(String, &DraftConstraint)> = Vec::new();
+        for written in &draft.constraints {
+            let Some(name) = &written.name else { continue };
+            let multiplier = multiplier_name(name.get_ref());
+            let same = taken.iter().find(|(known, _)| *known == multiplier);
+            let first = same.and_then(|(_, first)| first.name.as_ref());
+            if let Some(first) = first.filter(|first| first.get_ref() == name.get_ref()) {
+                tell_twice(name, first.span(), "a constraint", self.mistakes);
+            } else if let Some(first) = first {
+                let message =
+                    format!("a constraint before this one has the multiplier `{multiplier}` too");
+                let mistake = Mistake::error(name.span(), message).with_help("rename one of them");
+                self.mistakes.push(mistake.with_also(first.span(), "the first one"));
+            }
+            taken.push((multiplier, written));
+        }
+        let only = draft.constraints.len() == 1;
+        for written in &draft.constraints {
+            let name = written.name.as_ref().map_or("", |name| name.get_ref());
+            let pool = &mut self.model.pool;
+            let mut constraint = Constraint::new(pool, name, Expr::ZERO, only);
+            constraint.unit.clone_from(&written.unit);
+            constraint.about.clone_from(&written.about);
+            constraint.place = written.expression.as_ref().map_or(0..0, Spanned::span);
+            self.model.constraints.push(constraint);
+        }
+    }
+
+    /// What is to vanish. Constraints stand beside a Lagrangian only.
+    pub(super) fn constraints(&mut self, written: &[DraftConstraint]) {
+        if let Some(first) = written.first()
+            && !self.model.is_lagrangian()
+        {
+            let law = if self.model.is_poisson() { "[poisson]" } else { "[hamiltonian]" };
+            let message = format!("constraints hold a Lagrangian; beside {law} there are none");
+            let help = "give the law in [lagrangian], or leave the constrained coordinate out";
+            self.mistakes.push(Mistake::error(first.place.clone(), message).with_help(help));
+            return;
+        }
+        let mut scope = Scope::new(&self.model, Allowed::Lagrangian, "a constraint");
+        for (index, constraint) in written.iter().enumerate() {
+            let Some(formula) = &constraint.expression else { continue };
+            let name = constraint.name.as_ref().map_or("", |name| name.get_ref());
+            let called = format!("the constraint `{name}`");
+            let read = self.formula(&mut scope, &called, formula);
+            if let Some(e) = read.and_then(|e| self.linear(e, &called, formula)) {
+                self.model.constraints[index].expression = e;
+            }
+        }
+    }
+
+    /// A constraint proved to be Σ A_α(q, t) q̇_α + A(q, t), in that form where it is not evident
+    /// from its own. Complains where it is not linear, or binds nothing.
+    fn linear(&mut self, e: Expr, called: &str, formula: &Formula) -> Option<Expr> {
+        let coordinates = &self.model.coordinates;
+        let positions: Vec<Symbol> = coordinates.iter().map(|c| c.position).collect();
+        let velocities: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
+        let pool = &mut self.model.pool;
+        let rest: HashMap<Symbol, Expr> = velocities.iter().map(|&v| (v, Expr::ZERO)).collect();
+        // e = Σ A_α q̇_α + A is e|₀ + Σ q̇_α ∂e/∂q̇_α|₀, with 0 for q̇ = 0
+        let present: Vec<Symbol> =
+            velocities.iter().copied().filter(|&v| pool.depends(e, v)).collect();
+        let mut rows: Vec<(Symbol, Expr)> = Vec::new();
+        let mut terms = vec![pool.substitute(e, &rest)];
+        let mut evident = true;
+        for &velocity in &present {
+            let slope = pool.derivative(e, velocity);
+            evident &= !pool.depends_on_any(slope, &velocities);
+            let slope = pool.substitute(slope, &rest);
+            if pool.is_zero(slope) == Zero::Proved {
+                evident = false;
+                continue;
+            }
+            let rate = pool.variable(velocity);
+            terms.push(pool.mul(slope, rate));
+            rows.push((velocity, slope));
+        }
+        let form = pool.sum(&terms);
+        let residue = pool.sub(e, form);
+        let linear =
+            !kinked(pool, e, &velocities) && (evident || pool.is_zero(residue) != Zero::No);
+        if pool.is_full() {
+            let message = "with this, the file's expressions grow beyond a million nodes";
+            self.error(formula.span(), message);
+            return None;
+        }
+        if !linear {
+            self.not_linear(e, &present, called, formula);
+            return None;
+        }
+        let form = if evident { e } else { form };
+        let binds = if rows.is_empty() {
+            let held: Vec<Symbol> =
+                positions.into_iter().filter(|&q| pool.depends(form, q)).collect();
+            held.into_iter().any(|q| {
+                let slope = pool.derivative(form, q);
+                pool.is_zero(slope) == Zero::No
+            })
+        } else {
+            true
+        };
+        if !binds {
+            let mistake =
+                Mistake::error(formula.span(), format!("{called} binds no coordinate or velocity"));
+            self.mistakes.push(mistake.with_help("what is to vanish depends on where things are"));
+            return None;
+        }
+        Some(form)
+    }
+
+    /// Tells of which velocities a constraint is not linear.
+    fn not_linear(&mut self, e: Expr, present: &[Symbol], called: &str, formula: &Formula) {
+        let pool = &mut self.model.pool;
+        let mut culprit = "in the velocities".to_owned();
+        'all: for (i, &first) in present.iter().enumerate() {
+            let slope = pool.derivative(e, first);
+            for &second in &present[i..] {
+                let curvature = pool.derivative(slope, second);
+                if pool.is_zero(curvature) == Zero::No {
+                    let name = |s| pool.symbol_info(s).name.clone();
+                    culprit = if first == second {
+                        format!("in the velocity `{}`", name(first))
+                    } else {
+                        let names = (name(first), name(second));
+                        format!("in the velocities: it multiplies `{}` and `{}`", names.0, names.1)
+                    };
+                    break 'all;
+                }
+            }
+        }
+        let message = format!("{called} is not linear {culprit}");
+        let help = "a constraint is a sum of velocities, each times a function of q and t, and of \
+                    such a function";
+        self.mistakes.push(Mistake::error(formula.span(), message).with_help(help));
+    }
+}
+
+/// Whether a function with a kink is called of a velocity: its derivatives do not tell all of it.
+fn kinked(pool: &Pool, e: Expr, velocities: &[Symbol]) -> bool {
+    pool.reachable(&[e]).into_iter().any(|part| match pool.node(part) {
+        Node::Call(function, _) => {
+            matches!(function.row().rule, Rule::Branch(_)) && pool.depends_on_any(part, velocities)
+        }
+        _ => false,
+    })
+}

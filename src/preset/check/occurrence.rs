@@ -1,0 +1,224 @@
+//! Blows and events: what they name is there, and what they say is of the state before them.
+
+use toml::Spanned;
+
+use super::Check;
+use super::names::tell_twice;
+use crate::expr::{Expr, nearest};
+use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope};
+use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
+use crate::preset::mistake::Mistake;
+
+/// What an event can do, as messages list it.
+const ACTIONS: &str = "`mark`, `stop`, `release:CONSTRAINT` or `impulse:IMPULSE`";
+
+impl Check<'_> {
+    /// Blows and events have their names in common: what happens is told by name.
+    pub(super) fn occurrences_named_once(&mut self, draft: &Draft) {
+        let impulses = draft.impulses.iter().filter_map(|i| i.name.as_ref());
+        let events = draft.events.iter().filter_map(|e| e.name.as_ref());
+        let all = impulses.map(|n| (n, "an impulse")).chain(events.map(|n| (n, "an event")));
+        let mut before: Vec<(&Spanned<String>, &str)> = Vec::new();
+        for (name, kind) in all {
+            match before.iter().find(|(known, _)| known.get_ref() == name.get_ref()) {
+                Some((first, what)) => {
+                    tell_twice(name, first.span(), what, self.mistakes);
+                }
+                None => before.push((name, kind)),
+            }
+        }
+    }
+
+    /// Blows.
+    pub(super) fn impulses(&mut self, written: &[DraftImpulse]) {
+        let mut times = Scope::new(&self.model, Allowed::Parameters, "the time of an impulse");
+        let allowed = match self.model.mechanics {
+            Mechanics::Lagrangian { .. } => Allowed::Lagrangian,
+            Mechanics::Hamiltonian { .. } => Allowed::Hamiltonian,
+            Mechanics::Poisson { .. } => Allowed::Poisson,
+        };
+        let mut scope = Scope::new(&self.model, allowed, "an impulse");
+        for impulse in written {
+            let name = impulse.name.as_ref().map_or(String::new(), |n| n.get_ref().clone());
+            let called = format!("the impulse `{name}`");
+            let mut at = Vec::new();
+            for formula in &impulse.at {
+                at.extend(self.time(formula, &mut times));
+            }
+            let period = impulse.every.as_ref().and_then(|f| self.interval(f, &mut times));
+            let mut change = vec![Expr::ZERO; self.model.coordinates.len()];
+            for (name, formula) in impulse.change.iter().flatten() {
+                let formula = formula.as_ref();
+                let jump = formula.and_then(|f| self.formula(&mut scope, &called, f));
+                match self.struck(name.get_ref()) {
+                    Some(index) => change[index] = jump.unwrap_or(Expr::ZERO),
+                    None => self.mistakes.push(self.not_struck(name)),
+                }
+            }
+            self.model.impulses.push(Impulse {
+                name,
+                times: at,
+                period,
+                change,
+                about: impulse.about.clone(),
+                place: impulse.place.clone(),
+            });
+        }
+    }
+
+    /// When an impulse strikes.
+    fn time(&mut self, formula: &Formula, scope: &mut Scope) -> Option<Expr> {
+        let e = self.formula(scope, "the time of an impulse", formula)?;
+        if !self.finite(e, "the time of this impulse", formula) {
+            return None;
+        }
+        let (at, start) = (self.at_start(e), self.model.run.start);
+        if at < start {
+            let message = format!("this is before the start, t = {start}; it does not strike");
+            self.mistakes.push(Mistake::warning(formula.span(), message));
+        }
+        Some(e)
+    }
+
+    /// After what time an impulse strikes again.
+    fn interval(&mut self, formula: &Formula, scope: &mut Scope) -> Option<Expr> {
+        let e = self.formula(scope, "the interval of an impulse", formula)?;
+        if !self.finite(e, "the interval of this impulse", formula) {
+            return None;
+        }
+        let interval = self.at_start(e);
+        if interval <= 0.0 {
+            let message = format!("`every` is an interval and must be positive, not {interval}");
+            self.error(formula.span(), message);
+            return None;
+        }
+        Some(e)
+    }
+
+    /// The coordinate whose momentum a key of `change` names, or the variable.
+    fn struck(&self, name: &str) -> Option<usize> {
+        let bare = if self.model.is_poisson() { name } else { name.strip_prefix("p_")? };
+        self.model.coordinate(bare)
+    }
+
+    fn not_struck(&self, name: &Spanned<String>) -> Mistake {
+        let poisson = self.model.is_poisson();
+        let message = if poisson {
+            format!("there is no variable `{}` for an impulse to change", name.get_ref())
+        } else {
+            format!("there is no momentum `{}` for an impulse to change", name.get_ref())
+        };
+        let prefix = if poisson { "" } else { "p_" };
+        let coordinates = self.model.coordinates.iter();
+        let known: Vec<String> = coordinates.map(|c| format!("{prefix}{}", c.name)).collect();
+        let bare = name.get_ref().trim_end_matches('\'');
+        let meant = format!("{prefix}{}", bare.strip_prefix("p_").unwrap_or(bare));
+        let near = nearest(&meant, known.iter().map(String::as_str));
+        Mistake::error(name.span(), message).with_help(match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("an impulse may change {}", known.join(", ")),
+        })
+    }
+
+    /// Events.
+    pub(super) fn events(&mut self, written: &[DraftEvent]) {
+        let mut scope = Scope::new(&self.model, Allowed::Event, "an event");
+        for event in written {
+            let name = event.name.as_ref().map_or(String::new(), |n| n.get_ref().clone());
+            let called = format!("the event `{name}`");
+            let when = event.when.as_ref().and_then(|formula| {
+                let e = self.formula(&mut scope, &called, formula)?;
+                self.changes(e, formula).then_some(e)
+            });
+            let direction = event.direction.as_ref().map_or(Direction::Either, |d| self.sense(d));
+            let action = event.action.as_ref().and_then(|a| self.action(a));
+            self.model.events.push(Event {
+                name,
+                when: when.unwrap_or(Expr::ZERO),
+                direction,
+                action: action.unwrap_or(Action::Mark),
+                place: event.when.as_ref().map_or(event.place.clone(), Spanned::span),
+            });
+        }
+    }
+
+    /// Whether an event can ever happen, as far as its symbols tell.
+    fn changes(&mut self, e: Expr, formula: &Formula) -> bool {
+        let constant = |s| {
+            let body = self.model.body.as_ref();
+            self.model.parameters.iter().any(|p| p.symbol == s)
+                || body.is_some_and(|body| body.names.all().contains(&s))
+        };
+        let moves = !self.model.pool.symbols_of(e).into_iter().all(constant);
+        if !moves {
+            let mistake = Mistake::error(formula.span(), "this does not change in time");
+            let help = "an event happens where its expression crosses zero";
+            self.mistakes.push(mistake.with_help(help));
+        }
+        moves
+    }
+
+    fn sense(&mut self, written: &Spanned<String>) -> Direction {
+        match written.get_ref().as_str() {
+            "rising" => Direction::Rising,
+            "falling" => Direction::Falling,
+            "either" => Direction::Either,
+            other => {
+                let known = ["rising", "falling", "either"];
+                let help = match nearest(other, known) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => "a direction is `rising`, `falling` or `either`".to_owned(),
+                };
+                let message = format!("there is no direction `{other}`");
+                self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+                Direction::Either
+            }
+        }
+    }
+
+    fn action(&mut self, written: &Spanned<String>) -> Option<Action> {
+        let text = written.get_ref().trim();
+        let (verb, object) = match text.split_once(':') {
+            Some((verb, object)) => (verb.trim(), Some(object.trim())),
+            None => (text, None),
+        };
+        let known: Vec<&str> = match (verb, object.filter(|name| !name.is_empty())) {
+            ("mark", None) if object.is_none() => return Some(Action::Mark),
+            ("stop", None) if object.is_none() => return Some(Action::Stop),
+            ("release", Some(_)) => {
+                self.model.constraints.iter().map(|c| c.name.as_str()).collect()
+            }
+            ("impulse", Some(_)) => self.model.impulses.iter().map(|i| i.name.as_str()).collect(),
+            _ => {
+                self.mistakes.push(no_action(written, verb));
+                return None;
+            }
+        };
+        let object = object.unwrap_or("");
+        if let Some(index) = known.iter().position(|name| *name == object) {
+            let release = verb == "release";
+            return Some(if release { Action::Release(index) } else { Action::Impulse(index) });
+        }
+        let kind = if verb == "release" { "constraint" } else { "impulse" };
+        let help = match nearest(object, known.iter().copied()) {
+            Some(near) => format!("did you mean `{verb}:{near}`?"),
+            None if known.is_empty() => format!("the file has no [[{kind}s]]"),
+            None => format!("the {kind}s are {}", known.join(", ")),
+        };
+        let message = format!("there is no {kind} `{object}`");
+        self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+        None
+    }
+}
+
+fn no_action(written: &Spanned<String>, verb: &str) -> Mistake {
+    let text = written.get_ref();
+    let message = format!("an event cannot do `{text}`");
+    let help = match (verb, nearest(verb, ["mark", "stop", "release", "impulse"])) {
+        ("release" | "impulse", _) => format!("name which: `{verb}:NAME`"),
+        (_, Some(near @ ("mark" | "stop"))) => format!("did you mean `{near}`?"),
+        (_, Some(near)) => format!("did you mean `{near}:NAME`?"),
+        _ => format!("it can do {ACTIONS}"),
+    };
+    Mistake::error(written.span(), message).with_help(help)
+}

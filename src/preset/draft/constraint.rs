@@ -1,0 +1,34 @@
+//! What the motion is held to, as written.
+
+use toml::Spanned;
+
+use super::table::Table;
+use super::{Formula, Mistakes, Place, value};
+
+/// A constraint as written.
+pub(in crate::preset) struct DraftConstraint {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    pub(in crate::preset) expression: Option<Formula>,
+    pub(in crate::preset) unit: String,
+    pub(in crate::preset) about: String,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftConstraint> {
+    let mut all = Vec::new();
+    for mut table in top.tables("constraints", "this constraint", mistakes) {
+        let name = table.name(mistakes);
+        let help = "write expression = \"...\", which is to be zero";
+        let expression = table.require("expression", help);
+        all.push(DraftConstraint {
+            name,
+            expression: expression.and_then(|(_, v)| value::formula(v, "`expression`", mistakes)),
+            unit: table.line("unit", mistakes),
+            about: table.line("about", mistakes),
+            place: table.place.clone(),
+        });
+        table.finish(mistakes);
+    }
+    all
+}

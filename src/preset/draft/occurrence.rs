@@ -1,0 +1,89 @@
+//! Blows and events, as written.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::system::formulas;
+use super::table::Table;
+use super::{Formula, Mistake, Mistakes, NamedFormula, Place, value};
+
+/// A blow as written.
+pub(in crate::preset) struct DraftImpulse {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    /// The times given, one by one.
+    pub(in crate::preset) at: Vec<Formula>,
+    pub(in crate::preset) every: Option<Formula>,
+    /// What jumps, and by how much; `None` where that could not be read.
+    pub(in crate::preset) change: Option<Vec<NamedFormula>>,
+    pub(in crate::preset) about: String,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+/// An event as written.
+pub(in crate::preset) struct DraftEvent {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    pub(in crate::preset) when: Option<Formula>,
+    pub(in crate::preset) direction: Option<Spanned<String>>,
+    pub(in crate::preset) action: Option<Spanned<String>>,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+pub(super) fn impulses(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftImpulse> {
+    let tables = top.tables("impulses", "this impulse", mistakes);
+    tables.into_iter().map(|table| impulse(table, mistakes)).collect()
+}
+
+fn impulse(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftImpulse {
+    let name = table.name(mistakes);
+    let at = table.take("at");
+    let every = table.take("every");
+    if let (Some((at, _)), Some((every, _))) = (&at, &every) {
+        let mistake = Mistake::error(every.clone(), "`at` and `every` exclude each other");
+        let mistake = mistake.with_also(at.clone(), "the times are given here");
+        mistakes.push(mistake.with_help("write two impulses"));
+    }
+    let at = at.map_or(Vec::new(), |(_, found)| match found.get_ref() {
+        DeValue::Array(items) => {
+            if items.is_empty() {
+                mistakes.push(Mistake::error(found.span(), "this list is empty"));
+            }
+            items.iter().filter_map(|v| value::formula(v, "a time in `at`", mistakes)).collect()
+        }
+        _ => value::formula(found, "`at`", mistakes).into_iter().collect(),
+    });
+    let every = every.and_then(|(_, found)| value::formula(found, "`every`", mistakes));
+    let change = table.require("change", "write change = { p_x = \"...\" }");
+    let change = change.and_then(|(place, found)| {
+        let shape = "change = { p_x = \"...\" }";
+        let changes = Table::of(found, "`change`", place, shape, mistakes)?;
+        if changes.entries().next().is_none() {
+            let mistake = Mistake::error(found.span(), "this impulse changes nothing");
+            mistakes.push(mistake.with_help(format!("write {shape}")));
+        }
+        Some(formulas(&changes, "the change of", mistakes))
+    });
+    let about = table.line("about", mistakes);
+    let place = table.place.clone();
+    table.finish(mistakes);
+    DraftImpulse { name, at, every, change, about, place }
+}
+
+pub(super) fn events(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftEvent> {
+    let mut all = Vec::new();
+    for mut table in top.tables("events", "this event", mistakes) {
+        let name = table.name(mistakes);
+        let help = "write when = \"...\"; it happens where that crosses zero";
+        let when = table.require("when", help);
+        all.push(DraftEvent {
+            name,
+            when: when.and_then(|(_, v)| value::formula(v, "`when`", mistakes)),
+            direction: table.text("direction", mistakes),
+            action: table.text("action", mistakes),
+            place: table.place.clone(),
+        });
+        table.finish(mistakes);
+    }
+    all
+}
