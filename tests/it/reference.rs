@@ -1,9 +1,11 @@
 //! States known to 30 digits, held against the whole way from a file to an experiment.
 //!
-//! Each `tests/reference/NAME.toml` is a system; `NAME.expected.toml` beside it holds states (q,
-//! q̇, p) at given times, the typical size of each (`scale`), and by how much the motion magnifies
-//! a relative error of its beginning (`condition`).
+//! Each `tests/reference/NAME.toml` is a system; `NAME.expected.toml` beside it holds what is known
+//! at given times, the typical size of each (`scale`), and by how much the motion magnifies
+//! a relative error of its beginning (`condition`). Known are q, q̇ and p, the multipliers
+//! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`).
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +13,7 @@ use std::sync::Arc;
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
 use phaselab::mechanics;
 use phaselab::preset::Document;
-use phaselab::system::System;
+use phaselab::system::{ChannelKind, System};
 
 use serde::Deserialize;
 
@@ -19,23 +21,39 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 struct Expected {
     condition: f64,
-    scale: Sizes,
+    scale: BTreeMap<Kind, Vec<f64>>,
     reference: Vec<Known>,
 }
 
-#[derive(Deserialize)]
-struct Sizes {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    p: Vec<f64>,
-}
-
+/// A row: what is known of each kind at a time.
 #[derive(Deserialize)]
 struct Known {
     at: f64,
-    q: Vec<String>,
-    v: Vec<String>,
-    p: Vec<String>,
+    #[serde(flatten)]
+    values: BTreeMap<Kind, Vec<String>>,
+}
+
+/// A kind of values in a row; an unknown one is refused.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Q,
+    V,
+    P,
+    Lambda,
+    X,
+}
+
+impl Kind {
+    /// The channel that shows the value of this place in the list.
+    fn channel(self, place: usize) -> ChannelKind {
+        match self {
+            Kind::Q | Kind::X => ChannelKind::Position(place),
+            Kind::V => ChannelKind::Velocity(place),
+            Kind::P => ChannelKind::Momentum(place),
+            Kind::Lambda => ChannelKind::Multiplier(place),
+        }
+    }
 }
 
 /// The worst of a system: its error in units of the rounding of the sizes, and where.
@@ -73,6 +91,14 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
     Experiment::new(&model, &equations, &system, setup).map_err(|why| why.to_string())
 }
 
+/// The present value of a channel, and its name.
+fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), String> {
+    let mut channels = experiment.system().channels().iter().zip(experiment.values());
+    let found = channels.find(|(channel, _)| channel.kind == kind);
+    let (channel, &value) = found.ok_or_else(|| format!("no {kind:?}"))?;
+    Ok((value, &channel.name))
+}
+
 /// The worst error of a system's motion.
 fn worst(file: &Path) -> Result<Worst, String> {
     let name = file.file_stem().expect("a file has a name").to_string_lossy().into_owned();
@@ -80,23 +106,26 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let text = text.map_err(|why| why.to_string())?;
     let expected: Expected = toml::from_str(&text).map_err(|why| why.to_string())?;
     let mut experiment = experiment(file)?;
-    let names: Vec<String> =
-        experiment.system().channels().iter().map(|c| c.name.clone()).collect();
-    let sizes = [expected.scale.q, expected.scale.v, expected.scale.p].concat();
     let mut worst = Worst { name, error: 0.0, condition: expected.condition, place: String::new() };
-    for known in expected.reference {
+    for known in &expected.reference {
         while experiment.advance(known.at, 1_000_000) == Progress::Underway {}
         if let Status::Faulted(fault) = experiment.status() {
             return Err(fault.message);
         }
-        let digits = [known.q, known.v, known.p].concat();
-        for (i, digits) in digits.iter().enumerate() {
-            let truth: f64 = digits.parse().map_err(|_| format!("{digits} is not a number"))?;
-            let error = (experiment.values()[i] - truth).abs() / (sizes[i] * f64::EPSILON);
-            // written so that an error that is not a number is the worst of all
-            if error.is_nan() || error > worst.error {
-                worst.error = if error.is_nan() { f64::INFINITY } else { error };
-                worst.place = format!("{} at t = {}", names[i], known.at);
+        for (&kind, digits) in &known.values {
+            let sizes = expected.scale.get(&kind).ok_or(format!("no scale of {kind:?}"))?;
+            if sizes.len() != digits.len() {
+                return Err(format!("{kind:?}: {} values, {} sizes", digits.len(), sizes.len()));
+            }
+            for (place, (digits, size)) in digits.iter().zip(sizes).enumerate() {
+                let (value, shown) = find(&experiment, kind.channel(place))?;
+                let truth: f64 = digits.parse().map_err(|_| format!("{digits} is not a number"))?;
+                let error = (value - truth).abs() / (size * f64::EPSILON);
+                // written so that an error that is not a number is the worst of all
+                if error.is_nan() || error > worst.error {
+                    worst.error = if error.is_nan() { f64::INFINITY } else { error };
+                    worst.place = format!("{shown} at t = {}", known.at);
+                }
             }
         }
     }
