@@ -34,6 +34,22 @@ impl Coordinate {
     /// A coordinate at rest at zero; introduces its four symbols into the pool. `shown` is the
     /// symbol the file gives, or empty for the name's own.
     pub fn new(pool: &mut Pool, name: &str, shown: &str, unit: &str) -> Coordinate {
+        Coordinate::introduce(pool, name, shown, unit, &format!("p_{name}"))
+    }
+
+    /// A variable of a Poisson system. It has no momentum: the symbol in that place has a name that
+    /// no file can write, so that a variable may be called `p_x` beside one called `x`.
+    pub fn variable(pool: &mut Pool, name: &str, shown: &str, unit: &str) -> Coordinate {
+        Coordinate::introduce(pool, name, shown, unit, &format!("no momentum of {name}"))
+    }
+
+    fn introduce(
+        pool: &mut Pool,
+        name: &str,
+        shown: &str,
+        unit: &str,
+        momentum: &str,
+    ) -> Coordinate {
         let shown = if shown.is_empty() { unicode_name(name) } else { shown.to_owned() };
         let latex = latex_of_unicode(&shown);
         let mut introduce = |written: String, unicode: String, latex: String, rank| {
@@ -55,7 +71,7 @@ impl Coordinate {
             Rank::Rate,
         );
         let momentum = introduce(
-            format!("p_{name}"),
+            momentum.to_owned(),
             format!("p{}", subscript(&shown)),
             format!("p_{{{latex}}}"),
             Rank::Momentum,

@@ -13,15 +13,16 @@ mod occurrence;
 mod parameters;
 mod picture;
 mod place;
+mod poisson;
 mod run;
 
 use std::collections::BTreeSet;
 
 use super::Mistakes;
-use super::draft::{Draft, Formula};
+use super::draft::{Draft, Formula, Law};
 use super::mistake::Mistake;
 use crate::expr::Expr;
-use crate::model::{Allowed, Coordinate, Model, Scope};
+use crate::model::{Allowed, Model, Scope};
 use names::Names;
 
 /// Checks a draft; `None` where a model cannot even be begun. The model is to be used only if no
@@ -34,11 +35,7 @@ pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Optio
         return None;
     }
     let mut names = Names::of(draft, check.mistakes);
-    for written in &draft.coordinates {
-        let name = written.name.get_ref();
-        let pool = &mut check.model.pool;
-        check.model.coordinates.push(Coordinate::new(pool, name, &written.symbol, &written.unit));
-    }
+    check.moving(draft);
     for written in &draft.parameters {
         check.parameter(written);
     }
@@ -46,7 +43,7 @@ pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Optio
     check.multipliers(draft);
     check.occurrences_named_once(draft);
     check.definitions(draft);
-    let law = check.law(&draft.mechanics);
+    let law = check.law(&draft.mechanics, &mut names);
     check.initial_values(draft, law);
     check.constraints(&draft.constraints);
     check.impulses(&draft.impulses);
@@ -117,7 +114,7 @@ impl Check<'_> {
                 Mistake::error(place.clone(), message)
             })
         };
-        let coordinates = draft.coordinates.iter().map(|c| c.name.span()).collect();
+        let coordinates = draft.moving.all.iter().map(|c| c.name.span()).collect();
         let parameters = draft.parameters.iter().map(|p| p.name.span()).collect();
         let definitions = draft.definitions.iter().map(|(name, _)| name.span()).collect();
         let observables = draft
@@ -133,8 +130,13 @@ impl Check<'_> {
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
         let shapes = draft.shapes.iter().map(|s| s.place.clone()).collect();
+        let brackets = draft.mechanics.iter().flat_map(|m| &m.brackets);
+        let brackets = brackets.map(|b| b.place.clone()).collect();
+        let casimirs = draft.mechanics.iter().flat_map(|m| &m.casimirs);
+        let casimirs = casimirs.map(|(name, _)| name.span()).collect();
+        let poisson = draft.law() == Some(Law::Poisson);
         let refusals = [
-            named(coordinates, 64, "coordinates"),
+            named(coordinates, 64, if poisson { "variables" } else { "coordinates" }),
             named(parameters, 256, "parameters"),
             named(definitions, 1024, "definitions"),
             named(observables, 1024, "observables"),
@@ -142,6 +144,8 @@ impl Check<'_> {
             named(impulses, 256, "impulses"),
             named(times.collect(), 10_000, "times of impulses"),
             named(events, 256, "events"),
+            named(brackets, 4096, "brackets"),
+            named(casimirs, 64, "casimirs"),
             named(values, 1024, "expected values"),
             named(conserved, 1024, "conserved quantities"),
             named(views, 64, "views"),

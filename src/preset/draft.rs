@@ -7,6 +7,7 @@
 
 mod claims;
 mod constraint;
+mod law;
 mod occurrence;
 mod picture;
 mod run;
@@ -24,10 +25,11 @@ use table::Table;
 
 pub(super) use claims::{DraftExpect, DraftObservable, DraftValue};
 pub(super) use constraint::DraftConstraint;
+pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formulas};
 pub(super) use run::DraftRun;
-pub(super) use system::{DraftCoordinate, DraftMechanics, DraftParameter, Law, NamedFormula};
+pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
 
 /// A text with its place, quotes included: an expression still to be read. A number of TOML is
 /// kept as its digits.
@@ -37,8 +39,8 @@ pub(super) type Formula = Spanned<String>;
 pub(super) struct Draft {
     /// What the file says of itself in words.
     pub(super) info: Info,
-    /// The coordinates in order, and where the table begins.
-    pub(super) coordinates: Vec<DraftCoordinate>,
+    /// The coordinates or variables.
+    pub(super) moving: DraftMoving,
     /// The parameters in order.
     pub(super) parameters: Vec<DraftParameter>,
     /// The definitions in order, name and expression.
@@ -63,9 +65,15 @@ pub(super) struct Draft {
     pub(super) run: DraftRun,
 }
 
+impl Draft {
+    /// The law of motion, as far as it is given.
+    pub(super) fn law(&self) -> Option<Law> {
+        self.mechanics.first().map(|given| given.law)
+    }
+}
+
 /// What the format has and this version does not.
-const NOT_YET: [&str; 6] =
-    ["poisson", "variables", "transformations", "generators", "hamilton_jacobi", "body"];
+const NOT_YET: [&str; 4] = ["transformations", "generators", "hamilton_jacobi", "body"];
 
 /// The keys of the file's first level: where a stray key may have been meant to stand.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
@@ -82,10 +90,10 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draf
     }
     let draft = Draft {
         info,
-        coordinates: system::coordinates(&mut top, mistakes),
+        moving: system::moving(&mut top, mistakes),
         parameters: system::parameters(&mut top, mistakes),
         definitions: system::definitions(&mut top, mistakes),
-        mechanics: system::mechanics(&mut top, mistakes),
+        mechanics: law::mechanics(&mut top, mistakes),
         constraints: constraint::constraints(&mut top, mistakes),
         impulses: occurrence::impulses(&mut top, mistakes),
         events: occurrence::events(&mut top, mistakes),

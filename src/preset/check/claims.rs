@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::Check;
 use super::names::Names;
 use crate::expr::{Expr, nearest};
-use crate::model::{Allowed, Expect, ExpectedValue, Observable, Scope};
+use crate::model::{Allowed, Expect, ExpectedValue, Mechanics, Observable, Place, Scope};
 use crate::preset::draft::{DraftExpect, DraftObservable, DraftValue};
 use crate::preset::mistake::Mistake;
 
@@ -25,7 +25,9 @@ impl Check<'_> {
                 .expression
                 .as_ref()
                 .and_then(|f| self.formula(&mut scope, "an observable", f));
-            let Some(name) = self.name_of(observable, read, names) else { continue };
+            let Some(written) = &observable.name else { continue };
+            let shown = self.name_shown(written, "an observable", read, names);
+            let Some(name) = shown else { continue };
             // one that cannot be read stands for itself, so that its uses are no mistakes
             let e = read.unwrap_or_else(|| self.model.pool.named(&name));
             scope.define(&name, e);
@@ -36,24 +38,24 @@ impl Check<'_> {
         }
     }
 
-    /// The name of an observable, claimed for it. One that shows a definition under the
+    /// The name of an observable or Casimir, claimed for it. One that shows a definition under the
     /// definition's own name gives that name no second meaning.
-    fn name_of(
+    pub(super) fn name_shown(
         &mut self,
-        observable: &DraftObservable,
+        written: &Spanned<String>,
+        kind: &'static str,
         read: Option<Expr>,
         names: &mut Names,
     ) -> Option<String> {
-        let written = observable.name.as_ref()?;
         let name = written.get_ref().trim();
         if name.is_empty() || name.chars().any(char::is_control) {
-            self.error(written.span(), "an observable needs a name that can be shown");
+            self.error(written.span(), format!("{kind} needs a name that can be shown"));
             return None;
         }
         let same = self.model.definitions.iter().any(|(n, e)| n == name && Some(*e) == read);
         let again = self.model.observables.iter().any(|o| o.name == name);
         if !(same && !again && names.kind(name) == Some("a definition")) {
-            names.claim(written, "an observable", self.mistakes);
+            names.claim(written, kind, self.mistakes);
         }
         Some(name.to_owned())
     }
@@ -80,14 +82,20 @@ impl Check<'_> {
         if let Some(observable) = self.model.observables.iter().find(|o| o.name == name) {
             return Some(observable.expression);
         }
+        if let Some((_, e, _)) = self.casimirs_by_name().iter().find(|(known, ..)| known == name) {
+            return Some(*e);
+        }
         let mut trial = scope.clone();
         if let Some(e) = trial.read(&mut self.model.pool, name) {
             self.used.append(&mut trial.used);
             return Some(e);
         }
-        let momenta: Vec<String> =
-            self.model.coordinates.iter().map(|c| format!("p_{}", c.name)).collect();
+        let momenta: Vec<String> = match self.model.mechanics {
+            Mechanics::Poisson { .. } => Vec::new(),
+            _ => self.model.coordinates.iter().map(|c| format!("p_{}", c.name)).collect(),
+        };
         let known = ["energy"].into_iter().chain(momenta.iter().map(String::as_str));
+        let known = known.chain(self.casimirs_by_name().iter().map(|(name, ..)| name.as_str()));
         let known = known.chain(self.model.observables.iter().map(|o| o.name.as_str()));
         let is_expression = name.contains(['+', '-', '*', '/', '^', '(']);
         match nearest(name, known) {
@@ -98,12 +106,23 @@ impl Check<'_> {
                 let message = format!("`{name}` names nothing that could be conserved");
                 let help = match near {
                     Some(near) => format!("did you mean `{near}`?"),
+                    None if self.model.is_poisson() => {
+                        "name `energy`, a Casimir, or an observable".to_owned()
+                    }
                     None => "name `energy`, a momentum p_..., or an observable".to_owned(),
                 };
                 self.mistakes.push(Mistake::error(claim.span(), message).with_help(help));
             }
         }
         None
+    }
+
+    /// The Casimirs of the file.
+    fn casimirs_by_name(&self) -> &[(String, Expr, Place)] {
+        match &self.model.mechanics {
+            Mechanics::Poisson { casimirs, .. } => casimirs,
+            _ => &[],
+        }
     }
 
     fn expected(&mut self, written: &DraftValue, scope: &mut Scope) -> Option<ExpectedValue> {

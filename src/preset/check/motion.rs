@@ -1,24 +1,52 @@
 //! The law of motion and the initial values it needs.
 
 use super::Check;
+use super::names::Names;
 use crate::expr::{Expr, nearest};
-use crate::model::{Allowed, Mechanics, Scope};
+use crate::model::{Allowed, Coordinate, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
 use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
+    /// The coordinates or variables, and which kind of law they move by: what an expression may name
+    /// depends on it.
+    pub(super) fn moving(&mut self, draft: &Draft) {
+        let law = draft.law();
+        let poisson = law == Some(Law::Poisson);
+        let introduce = if poisson { Coordinate::variable } else { Coordinate::new };
+        for written in &draft.moving.all {
+            let (name, pool) = (written.name.get_ref(), &mut self.model.pool);
+            self.model.coordinates.push(introduce(pool, name, &written.symbol, &written.unit));
+        }
+        self.model.mechanics = law.unwrap_or(Law::Lagrangian).unread();
+        let wrong = match (law, &draft.moving.coordinates, &draft.moving.variables) {
+            (Some(Law::Poisson), Some(place), _) => {
+                let help = "head them with [variables]; each starts from its `initial` alone";
+                Some((place, "[poisson] moves [variables], not [coordinates]", help))
+            }
+            (Some(Law::Lagrangian | Law::Hamiltonian), _, Some(place)) => {
+                let help = "head them with [coordinates], or give the law in [poisson]";
+                Some((place, "[variables] are moved by [poisson] only", help))
+            }
+            _ => None,
+        };
+        if let Some((place, message, help)) = wrong {
+            self.mistakes.push(Mistake::error(place.clone(), message).with_help(help));
+        }
+    }
+
     /// The law of motion, read into the model; `None` where the file does not give exactly one.
-    pub(super) fn law(&mut self, given: &[DraftMechanics]) -> Option<Law> {
+    pub(super) fn law(&mut self, given: &[DraftMechanics], names: &mut Names) -> Option<Law> {
         let (first, others) = given.split_first()?;
         for other in others {
             let message = "the file gives more than one law of motion";
             let mistake = Mistake::error(other.place.clone(), message)
-                .with_help("keep either [lagrangian] or [hamiltonian]")
+                .with_help("keep one of [lagrangian], [hamiltonian] and [poisson]")
                 .with_also(first.place.clone(), "the first one");
             self.mistakes.push(mistake);
         }
         for law in given {
-            let mechanics = self.mechanics(law);
+            let mechanics = self.mechanics(law, names);
             if law.law == first.law {
                 self.model.mechanics = mechanics;
             }
@@ -26,10 +54,11 @@ impl Check<'_> {
         others.is_empty().then_some(first.law)
     }
 
-    fn mechanics(&mut self, written: &DraftMechanics) -> Mechanics {
+    fn mechanics(&mut self, written: &DraftMechanics, names: &mut Names) -> Mechanics {
         let (allowed, called) = match written.law {
             Law::Lagrangian => (Allowed::Lagrangian, "the Lagrangian"),
             Law::Hamiltonian => (Allowed::Hamiltonian, "the Hamiltonian"),
+            Law::Poisson => (Allowed::Poisson, "the Hamiltonian"),
         };
         let mut scope = Scope::new(&self.model, allowed, called);
         let mut read = |check: &mut Self, called: &str, formula: &Option<Formula>| {
@@ -49,24 +78,32 @@ impl Check<'_> {
         match written.law {
             Law::Lagrangian => Mechanics::Lagrangian { lagrangian: function, dissipation, forces },
             Law::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: function, forces },
+            Law::Poisson => Mechanics::Poisson {
+                hamiltonian: function,
+                brackets: self.brackets(&written.brackets),
+                casimirs: self.casimirs(&written.casimirs, names),
+                forces,
+                place: written.brackets_place.clone(),
+            },
         }
     }
 
     fn no_coordinate(&self, name: &toml::Spanned<String>) -> Mistake {
-        let message = format!("there is no coordinate `{}` for a force to act on", name.get_ref());
+        let kind = if self.model.is_poisson() { "variable" } else { "coordinate" };
+        let message = format!("there is no {kind} `{}` for a force to act on", name.get_ref());
         let mistake = Mistake::error(name.span(), message);
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
         let bare = name.get_ref().trim_end_matches('\'');
         match nearest(bare.strip_prefix("p_").unwrap_or(bare), known.iter().copied()) {
             Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-            None => mistake.with_help(format!("the coordinates are {}", known.join(", "))),
+            None => mistake.with_help(format!("the {kind}s are {}", known.join(", "))),
         }
     }
 
     /// Where everything starts, in parameters.
     pub(super) fn initial_values(&mut self, draft: &Draft, law: Option<Law>) {
         let mut scope = Scope::new(&self.model, Allowed::Parameters, "an initial value");
-        for (index, written) in draft.coordinates.iter().enumerate() {
+        for (index, written) in draft.moving.all.iter().enumerate() {
             let name = written.name.get_ref();
             let mut value = |check: &mut Self, called: &str, what: &str, f: &Option<Formula>| {
                 let formula = f.as_ref()?;
@@ -100,6 +137,7 @@ impl Check<'_> {
         let (wrong, given, wanted, of) = match law {
             Law::Lagrangian => (&written.momentum, "momentum", "velocity", "a Lagrangian"),
             Law::Hamiltonian => (&written.velocity, "velocity", "momentum", "a Hamiltonian"),
+            Law::Poisson => return,
         };
         if let Some((place, _)) = wrong {
             let message = format!("a `{given}` is given, but {of} starts from a `{wanted}`");
@@ -135,5 +173,25 @@ impl Check<'_> {
             self.error(formula.span(), format!("with the parameters' values {what} {comes}"));
         }
         !known || value.is_finite()
+    }
+}
+
+impl Law {
+    /// A law of this kind in which everything is zero.
+    fn unread(self) -> Mechanics {
+        let (zero, forces) = (Expr::ZERO, Vec::new());
+        match self {
+            Law::Lagrangian => {
+                Mechanics::Lagrangian { lagrangian: zero, dissipation: zero, forces }
+            }
+            Law::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: zero, forces },
+            Law::Poisson => Mechanics::Poisson {
+                hamiltonian: zero,
+                brackets: Vec::new(),
+                casimirs: Vec::new(),
+                forces,
+                place: 0..0,
+            },
+        }
     }
 }

@@ -7,13 +7,15 @@ use toml::Spanned;
 use crate::expr::{FUNCTIONS, latex_of_unicode};
 use crate::model::{Place, multiplier_name};
 use crate::preset::Mistakes;
-use crate::preset::draft::Draft;
+use crate::preset::draft::{Draft, Law};
 use crate::preset::mistake::Mistake;
 
 /// The names given so far, with what they name and where.
 pub(super) struct Names {
     taken: BTreeMap<String, (&'static str, Place)>,
     coordinates: Vec<String>,
+    /// Whether these are variables of brackets, which have no momenta.
+    poisson: bool,
     /// Constraints and how their multipliers are written.
     multipliers: Vec<(String, String)>,
 }
@@ -21,14 +23,16 @@ pub(super) struct Names {
 impl Names {
     /// The names of coordinates, parameters and definitions, after they have been checked.
     pub(super) fn of(draft: &Draft, mistakes: &mut Mistakes) -> Names {
-        let coordinates = draft.coordinates.iter().map(|c| c.name.get_ref().clone()).collect();
+        let coordinates = draft.moving.all.iter().map(|c| c.name.get_ref().clone()).collect();
         let constraints = draft.constraints.iter().filter_map(|c| c.name.as_ref());
         let multipliers = constraints
             .map(|name| (name.get_ref().clone(), multiplier_name(name.get_ref())))
             .collect();
-        let mut names = Names { taken: BTreeMap::new(), coordinates, multipliers };
-        for coordinate in &draft.coordinates {
-            names.word(&coordinate.name, "a coordinate", mistakes);
+        let poisson = draft.law() == Some(Law::Poisson);
+        let mut names = Names { taken: BTreeMap::new(), coordinates, poisson, multipliers };
+        let kind = if poisson { "a variable" } else { "a coordinate" };
+        for coordinate in &draft.moving.all {
+            names.word(&coordinate.name, kind, mistakes);
         }
         for parameter in &draft.parameters {
             names.word(&parameter.name, "a parameter", mistakes);
@@ -99,7 +103,7 @@ impl Names {
                     return Some(format!("the multiplier of the constraint `{constraint}`"));
                 }
                 let moving = name.trim_end_matches('\'');
-                return match of("p_") {
+                return match of("p_").filter(|_| !self.poisson) {
                     Some(coordinate) => Some(format!("the momentum of `{coordinate}`")),
                     None if moving != name && self.coordinates.iter().any(|c| c == moving) => {
                         Some(format!("a rate of change of `{moving}`"))

@@ -1,4 +1,4 @@
-//! Coordinates, parameters, definitions and the law of motion, as written.
+//! Coordinates or variables, parameters and definitions, as written.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -22,6 +22,21 @@ pub(in crate::preset) struct DraftCoordinate {
     pub(in crate::preset) period: Option<Formula>,
 }
 
+impl DraftCoordinate {
+    /// One of which nothing is read but its name.
+    fn unread(name: Spanned<String>) -> DraftCoordinate {
+        DraftCoordinate {
+            name,
+            initial: None,
+            velocity: None,
+            momentum: None,
+            symbol: String::new(),
+            unit: String::new(),
+            period: None,
+        }
+    }
+}
+
 /// A parameter as written.
 pub(in crate::preset) struct DraftParameter {
     pub(in crate::preset) name: Spanned<String>,
@@ -34,41 +49,44 @@ pub(in crate::preset) struct DraftParameter {
     pub(in crate::preset) about: String,
 }
 
-/// A law of motion as written.
-pub(in crate::preset) struct DraftMechanics {
-    /// Which table it is.
-    pub(in crate::preset) law: Law,
-    /// Where the table's name stands.
-    pub(in crate::preset) place: Place,
-    /// L or H.
-    pub(in crate::preset) function: Option<Formula>,
-    /// Rayleigh's function.
-    pub(in crate::preset) dissipation: Option<Formula>,
-    /// Coordinate and force.
-    pub(in crate::preset) forces: Vec<NamedFormula>,
+/// What moves, as written: both tables, where a file has both.
+pub(in crate::preset) struct DraftMoving {
+    /// The coordinates or variables in order.
+    pub(in crate::preset) all: Vec<DraftCoordinate>,
+    /// Where `[coordinates]` stands.
+    pub(in crate::preset) coordinates: Option<Place>,
+    /// Where `[variables]` stands.
+    pub(in crate::preset) variables: Option<Place>,
 }
 
-/// The tables that give a law of motion.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(in crate::preset) enum Law {
-    Lagrangian,
-    Hamiltonian,
-}
-
-pub(super) fn coordinates(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftCoordinate> {
-    let Some(table) = top.table("coordinates", mistakes) else {
-        if !top.has("coordinates") && !top.has("variables") {
-            let missing = Mistake::error(0..0, "the file has no coordinates");
-            let help = "write [coordinates], and below it x = { initial = 1.0 }";
-            top.lacks("coordinates", missing.with_help(help));
-        }
-        return Vec::new();
-    };
-    if table.entries().next().is_none() {
-        let missing = Mistake::error(table.place.clone(), "there is no coordinate here");
-        mistakes.missing("coordinates", missing.with_help("write x = { initial = 1.0 }"));
+pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftMoving {
+    let mut moving = DraftMoving { all: Vec::new(), coordinates: None, variables: None };
+    if !top.has("coordinates") && !top.has("variables") {
+        let key = if top.has("poisson") { "variables" } else { "coordinates" };
+        let missing = Mistake::error(0..0, format!("the file has no {key}"));
+        let help = format!("write [{key}], and below it x = {{ initial = 1.0 }}");
+        top.lacks(key, missing.with_help(help));
     }
-    table.entries().map(|(name, entry)| coordinate(name, entry, mistakes)).collect()
+    let tables = ["coordinates", "variables"].map(|key| {
+        let table = top.table(key, mistakes)?;
+        if table.entries().next().is_none() {
+            let what = key.trim_end_matches('s');
+            let message = format!("there is no {what} here");
+            let missing = Mistake::error(table.place.clone(), message);
+            mistakes.missing(key, missing.with_help("write x = { initial = 1.0 }"));
+        }
+        Some(table)
+    });
+    let [coordinates, variables] = tables;
+    if let Some(table) = coordinates {
+        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, mistakes)));
+        moving.coordinates = Some(table.place);
+    }
+    if let Some(table) = variables {
+        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, mistakes)));
+        moving.variables = Some(table.place);
+    }
+    moving
 }
 
 fn coordinate<'d>(
@@ -79,15 +97,7 @@ fn coordinate<'d>(
     let called = format!("the coordinate `{}`", name.get_ref());
     let shape = format!("{} = {{ initial = ... }}", name.get_ref());
     let table = Table::of(entry, called, name.span(), &shape, mistakes);
-    let mut coordinate = DraftCoordinate {
-        name,
-        initial: None,
-        velocity: None,
-        momentum: None,
-        symbol: String::new(),
-        unit: String::new(),
-        period: None,
-    };
+    let mut coordinate = DraftCoordinate::unread(name);
     let Some(mut table) = table else { return coordinate };
     let initial = table.require("initial", "give its value at the start");
     coordinate.initial = initial.and_then(|(_, v)| value::formula(v, "`initial`", mistakes));
@@ -101,6 +111,36 @@ fn coordinate<'d>(
     coordinate.period = table.formula("period", mistakes);
     table.finish(mistakes);
     coordinate
+}
+
+/// A variable of brackets: a number or an expression, or a table as a coordinate's.
+fn variable<'d>(
+    name: Spanned<String>,
+    entry: &'d Value<'d>,
+    mistakes: &mut Mistakes,
+) -> DraftCoordinate {
+    let called = format!("the variable `{}`", name.get_ref());
+    let mut variable = DraftCoordinate::unread(name);
+    let DeValue::Table(entries) = entry.get_ref() else {
+        variable.initial = value::formula(entry, &called, mistakes);
+        return variable;
+    };
+    let mut table = Table::new(called, variable.name.span(), entries);
+    let initial = table.require("initial", "give its value at the start");
+    variable.initial = initial.and_then(|(_, v)| value::formula(v, "`initial`", mistakes));
+    variable.symbol = symbol(&mut table, mistakes);
+    variable.unit = table.line("unit", mistakes);
+    variable.period = table.formula("period", mistakes);
+    for (key, _) in table.entries() {
+        if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
+            let message = format!("a variable has no `{rate}`");
+            let mistake = Mistake::error(key.span(), message);
+            mistakes.push(mistake.with_help("its rate of change follows from H and the brackets"));
+        }
+    }
+    table.pass_over(&["velocity", "momentum"]);
+    table.finish(mistakes);
+    variable
 }
 
 /// How a name is to be shown; empty where the file does not say.
@@ -175,37 +215,4 @@ pub(super) fn formulas(
             (name, formula)
         })
         .collect()
-}
-
-pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftMechanics> {
-    let lagrangian = law(Law::Lagrangian, top, mistakes);
-    let hamiltonian = law(Law::Hamiltonian, top, mistakes);
-    if !["lagrangian", "hamiltonian", "poisson"].iter().any(|law| top.has(law)) {
-        let missing = Mistake::error(0..0, "the file has no law of motion");
-        let help = "write [lagrangian] with L = \"...\", or [hamiltonian] with H = \"...\"";
-        top.lacks("lagrangian", missing.with_help(help));
-    }
-    lagrangian.into_iter().chain(hamiltonian).collect()
-}
-
-fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftMechanics> {
-    let (table, key, example) = match law {
-        Law::Lagrangian => ("lagrangian", "L", "L = \"T - V\""),
-        Law::Hamiltonian => ("hamiltonian", "H", "H = \"T + V\""),
-    };
-    let mut table = top.table(table, mistakes)?;
-    let found = table.require(key, &format!("write {example}"));
-    let function = found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes));
-    let mut dissipation = None;
-    if law == Law::Lagrangian {
-        dissipation = table.formula("dissipation", mistakes);
-    }
-    let forces = table.take("forces").and_then(|(place, found)| {
-        let shape = "forces = { x = \"...\" }";
-        Table::of(found, "`forces`", place, shape, mistakes)
-    });
-    let forces = forces.map_or(Vec::new(), |t| formulas(&t, "the force on", mistakes));
-    let place = table.place.clone();
-    table.finish(mistakes);
-    Some(DraftMechanics { law, place, function, dissipation, forces })
 }

@@ -18,6 +18,7 @@ pub(super) struct Table<'d> {
     pub(super) place: Place,
     entries: &'d DeTable<'d>,
     asked: Vec<&'static str>,
+    passed: Vec<&'static str>,
     absent: Vec<(&'static str, Mistake)>,
 }
 
@@ -27,7 +28,8 @@ impl<'d> Table<'d> {
         place: Place,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
-        Table { called: called.into(), place, entries, asked: Vec::new(), absent: Vec::new() }
+        let (asked, passed, absent) = (Vec::new(), Vec::new(), Vec::new());
+        Table { called: called.into(), place, entries, asked, passed, absent }
     }
 
     /// A value as a table; a complaint where it is none. `shape` shows how it is written.
@@ -189,6 +191,11 @@ impl<'d> Table<'d> {
         }
     }
 
+    /// Keys of which all is said.
+    pub(super) fn pass_over(&mut self, keys: &[&'static str]) {
+        self.passed.extend(keys);
+    }
+
     /// The entries in order, where the keys are names of the file's own.
     pub(super) fn entries(&self) -> impl Iterator<Item = (Spanned<String>, &'d Value<'d>)> {
         self.entries
@@ -200,7 +207,7 @@ impl<'d> Table<'d> {
     pub(super) fn finish(mut self, mistakes: &mut Mistakes) {
         for (key, value) in self.entries {
             let name: &str = key.get_ref();
-            if self.asked.contains(&name) {
+            if self.asked.contains(&name) || self.passed.contains(&name) {
                 continue;
             }
             let tables = match value.get_ref() {

@@ -1,7 +1,7 @@
 //! The tables beside the law: what they may say, and what the model then holds.
 
 use phaselab::expr::{Expr, Rank};
-use phaselab::model::{Action, Allowed, Direction, Model, Scope, multiplier_name};
+use phaselab::model::{Action, Allowed, Direction, Mechanics, Model, Scope, multiplier_name};
 
 use super::good::{checked, model, text, with};
 
@@ -196,4 +196,86 @@ fn a_blow_before_the_start_is_a_warning() {
     let warnings = checked(&file).warnings;
     assert_eq!(warnings.len(), 1);
     assert_eq!(warnings[0].message, "this is before the start, t = 0; it does not strike");
+}
+
+/// A free rigid body.
+const BODY: &str = r#"title = "Body"
+
+[variables]
+L1 = { symbol = "L₁", unit = "J s", initial = "k" }
+L2 = 0.01
+L3 = "2*k"
+
+[parameters]
+I1 = 1.0
+I2 = 2.0
+I3 = 3.0
+k = 0.5
+
+[definitions]
+w1 = "L1/I1"
+
+[poisson]
+H = "L1*w1/2 + L2^2/(2*I2) + L3^2/(2*I3)"
+brackets = [["L1", "L2", "-L3"], ["L3", "L2", "L1"], ["L3", "L1", "-L2"], ["L2", "L2", "0"]]
+casimirs = { "|L|²" = "L1^2 + L2^2 + L3^2", C = "k*(L1^2 + L2^2 + L3^2)" }
+forces = { L2 = "-t*L2" }
+
+[[observables]]
+name = "rate"
+expression = "L1' + L1'' + C"
+
+[expect]
+conserves = ["energy", "|L|²", "C", "L1^2 + L2^2 + L3^2"]
+
+[[impulses]]
+name = "blow"
+change = { L1 = "L2 + t" }
+"#;
+
+#[test]
+fn brackets_become_an_antisymmetric_matrix() {
+    let body = model(BODY);
+    assert!(body.is_poisson() && body.moving() == 3);
+    let Mechanics::Poisson { brackets, casimirs, forces, place, .. } = &body.mechanics else {
+        panic!("{:?}", body.mechanics)
+    };
+    let written: Vec<Vec<String>> =
+        brackets.iter().map(|row| row.iter().map(|&e| text(&body, e)).collect()).collect();
+    assert_eq!(written, [["0", "-L3", "L2"], ["L3", "0", "-L1"], ["-L2", "L1", "0"]]);
+    assert!(BODY[place.clone()].starts_with("[[\"L1\", \"L2\", \"-L3\"]"));
+    assert_eq!(casimirs[0].0, "|L|²");
+    assert_eq!(&BODY[casimirs[1].2.clone()], "\"k*(L1^2 + L2^2 + L3^2)\"");
+    assert_eq!(forces.iter().map(|&e| text(&body, e)).collect::<Vec<_>>(), ["0", "-t*L2", "0"]);
+    let starts: Vec<String> = body.coordinates.iter().map(|c| text(&body, c.initial)).collect();
+    assert_eq!(starts, ["k", "1/100", "2*k"]);
+    assert_eq!(
+        (body.coordinates[0].shown.as_str(), body.coordinates[0].unit.as_str()),
+        ("L₁", "J s")
+    );
+    let mut scope = Scope::new(&body, Allowed::Observable, "this");
+    let mut pool = body.pool.clone();
+    let rate = scope.read(&mut pool, "L1' + L1'' + k*(L1^2 + L2^2 + L3^2)").unwrap();
+    assert!(body.observables[0].expression == rate);
+    assert_eq!(body.expect.conserves[1].1, casimirs[0].1);
+    assert_eq!(text(&body, body.impulses[0].change[0]), "L2 + t");
+}
+
+/// Variables may be called as momenta are: canonical brackets are brackets too.
+#[test]
+fn a_variable_may_be_called_as_a_momentum() {
+    let plane = model(
+        r#"title = "canonical"
+[variables]
+x = 1.0
+p_x = 0.5
+[poisson]
+H = "p_x^2/2 + x^2/2"
+brackets = [["x", "p_x", "1"]]
+"#,
+    );
+    let [x, p] = [0, 1].map(|i| plane.coordinates[i].clone());
+    assert_ne!(x.momentum, p.position);
+    let (_, h) = plane.mechanics.function();
+    assert!(plane.pool.depends(h, p.position) && !plane.pool.depends(h, x.momentum));
 }

@@ -1,0 +1,148 @@
+//! The law of motion, as written.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::system::formulas;
+use super::table::{Table, Value};
+use super::{Formula, Mistake, Mistakes, NamedFormula, Place, value};
+
+/// A law of motion as written.
+pub(in crate::preset) struct DraftMechanics {
+    /// Which table it is.
+    pub(in crate::preset) law: Law,
+    /// Where the table's name stands.
+    pub(in crate::preset) place: Place,
+    /// L or H.
+    pub(in crate::preset) function: Option<Formula>,
+    /// Rayleigh's function.
+    pub(in crate::preset) dissipation: Option<Formula>,
+    /// Coordinate and force.
+    pub(in crate::preset) forces: Vec<NamedFormula>,
+    /// The brackets of variables.
+    pub(in crate::preset) brackets: Vec<DraftBracket>,
+    /// Where the brackets stand.
+    pub(in crate::preset) brackets_place: Place,
+    /// The Casimirs.
+    pub(in crate::preset) casimirs: Vec<NamedFormula>,
+}
+
+/// A bracket of two variables, as written.
+pub(in crate::preset) struct DraftBracket {
+    /// Of what.
+    pub(in crate::preset) pair: [Spanned<String>; 2],
+    /// What it is.
+    pub(in crate::preset) value: Formula,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+/// The tables that give a law of motion.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::preset) enum Law {
+    Lagrangian,
+    Hamiltonian,
+    Poisson,
+}
+
+impl Law {
+    /// The name of its table.
+    pub(in crate::preset) fn table(self) -> &'static str {
+        match self {
+            Law::Lagrangian => "lagrangian",
+            Law::Hamiltonian => "hamiltonian",
+            Law::Poisson => "poisson",
+        }
+    }
+}
+
+pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftMechanics> {
+    let laws = [Law::Lagrangian, Law::Hamiltonian, Law::Poisson];
+    let given = laws.map(|one| law(one, top, mistakes));
+    if !laws.into_iter().any(|law| top.has(law.table())) {
+        let missing = Mistake::error(0..0, "the file has no law of motion");
+        let (key, help) = if top.has("variables") {
+            ("poisson", "write [poisson] with H = \"...\" and brackets = [...]")
+        } else {
+            ("lagrangian", "write [lagrangian] with L = \"...\", or [hamiltonian] with H = \"...\"")
+        };
+        top.lacks(key, missing.with_help(help));
+    }
+    given.into_iter().flatten().collect()
+}
+
+fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftMechanics> {
+    let (key, example) = match law {
+        Law::Lagrangian => ("L", "L = \"T - V\""),
+        Law::Hamiltonian | Law::Poisson => ("H", "H = \"T + V\""),
+    };
+    let mut table = top.table(law.table(), mistakes)?;
+    let found = table.require(key, &format!("write {example}"));
+    let function = found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes));
+    let mut dissipation = None;
+    if law == Law::Lagrangian {
+        dissipation = table.formula("dissipation", mistakes);
+    }
+    let (mut brackets, mut brackets_place, mut casimirs) = (Vec::new(), 0..0, Vec::new());
+    if law == Law::Poisson {
+        let help = "write brackets = [[\"a\", \"b\", \"{a, b}\"], ...], one for each pair";
+        if let Some((_, found)) = table.require("brackets", help) {
+            brackets_place = found.span();
+            let items = value::list(found, "`brackets`", mistakes);
+            brackets = items
+                .map_or(&[][..], |items| items)
+                .iter()
+                .filter_map(|item| bracket(item, mistakes))
+                .collect();
+        }
+        casimirs = named(&mut table, "casimirs", "C", "the Casimir", mistakes);
+    }
+    let forces = named(&mut table, "forces", "x", "the force on", mistakes);
+    let place = table.place.clone();
+    table.finish(mistakes);
+    Some(DraftMechanics {
+        law,
+        place,
+        function,
+        dissipation,
+        forces,
+        brackets,
+        brackets_place,
+        casimirs,
+    })
+}
+
+/// A table of names with an expression each, in its own key.
+fn named(
+    table: &mut Table<'_>,
+    key: &'static str,
+    example: &str,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Vec<NamedFormula> {
+    let Some((place, found)) = table.take(key) else { return Vec::new() };
+    let shape = format!("{key} = {{ {example} = \"...\" }}");
+    let table = Table::of(found, format!("`{key}`"), place, &shape, mistakes);
+    table.map_or(Vec::new(), |t| formulas(&t, called, mistakes))
+}
+
+/// `["a", "b", "{a, b}"]`.
+fn bracket(found: &Value<'_>, mistakes: &mut Mistakes) -> Option<DraftBracket> {
+    let items = match found.get_ref() {
+        DeValue::Array(items) if items.len() == 3 => items,
+        other => {
+            let is = match other {
+                DeValue::Array(items) => format!("a list of {}", items.len()),
+                other => value::kind(other).to_owned(),
+            };
+            let message = format!("a bracket must be a list of three, not {is}");
+            let help = "two variables and their bracket: [\"a\", \"b\", \"{a, b}\"]";
+            mistakes.push(Mistake::error(found.span(), message).with_help(help));
+            return None;
+        }
+    };
+    let mut name = |item: &Value<'_>| value::text(item, "a variable of a bracket", mistakes);
+    let (first, second) = (name(&items[0]), name(&items[1]));
+    let value = value::formula(&items[2], "a bracket", mistakes);
+    Some(DraftBracket { pair: [first?, second?], value: value?, place: found.span() })
+}
