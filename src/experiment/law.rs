@@ -1,6 +1,6 @@
 //! Why the energy is not conserved, in words and in a formula.
 //!
-//! dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q, *The Principles of Dynamics*, §§ 1.3.1, 1.4.2.
+//! dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, *The Principles of Dynamics*, §§ 1.3.1, 1.3.2, 1.4.2.
 
 use crate::expr::Expr;
 use crate::mechanics::Equations;
@@ -21,16 +21,19 @@ impl EnergyLaw {
     pub(super) fn of(model: &Model, equations: &Equations) -> EnergyLaw {
         let any = |all: &[Expr]| all.iter().any(|&e| e != Expr::ZERO);
         let timed = |e: Expr| model.pool.depends(e, model.symbols.time);
+        let moved = equations.constraints.iter().any(|row| row.rate != Expr::ZERO);
         let terms = match &model.mechanics {
             Mechanics::Lagrangian { lagrangian, dissipation, forces } => [
                 (timed(*lagrangian), "explicit time", "− ∂L/∂t"),
                 (*dissipation != Expr::ZERO, "friction", "− q̇·∂F/∂q̇"),
                 (any(forces), "forces", "+ q̇·Q"),
+                (moved, "a moving constraint", "− Σ λ A₀"),
             ],
             Mechanics::Hamiltonian { hamiltonian, forces }
             | Mechanics::Poisson { hamiltonian, forces, .. } => [
                 (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
                 (any(forces), "forces", "+ q̇·Q"),
+                (false, "", ""),
                 (false, "", ""),
             ],
         };

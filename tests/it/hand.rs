@@ -32,7 +32,8 @@ pub(crate) fn pendulum() -> Loaded {
     PENDULUM.get_or_init(|| loaded("pendulum", 1)).clone()
 }
 
-/// What one could see at a time if every coordinate swung like a cosine of its own about its initial value.
+/// What one could see at a time if every coordinate swung like a cosine of its own about its initial value; where
+/// constraints would not let it, the start all the time.
 pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
     let system = &loaded.system;
     let parameters = loaded.model.parameter_values();
@@ -45,9 +46,11 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
             let q = initial[i] + 0.9 * (cos - cos0);
             [Given::Position(i, q), Given::Velocity(i, -2.7 * (sin - sin0))]
         };
-        let given: Vec<Given> = (0..system.degrees()).flat_map(swing).collect();
+        let free = loaded.model.constraints.is_empty();
+        let given: Vec<Given> = (0..system.degrees()).filter(|_| free).flat_map(swing).collect();
         let mut values = vec![f64::NAN; system.channels().len()];
-        let state = system.initial(t, &parameters, &given).unwrap();
+        let moment = if free { t } else { loaded.model.run.start };
+        let state = system.initial(moment, &parameters, &given).unwrap();
         observer.observe(&state, &mut values).unwrap();
         [vec![t], values].concat()
     };
