@@ -56,7 +56,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// List the presets by topic.
+    /// List the presets by chapter and topic.
     List(list::Arguments),
     /// Show what follows from L or H: momenta, equations of motion, Hamiltonian, what is conserved
     /// and why.

@@ -1,4 +1,4 @@
-//! `phaselab list`: the presets by topic.
+//! `phaselab list`: the presets by the chapters of the notes, and by topic within a chapter.
 
 use std::io::Write;
 
@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::output::Output;
 use crate::preset::{Catalog, Entry, Origin};
 
-/// List the presets by topic.
+/// List the presets by chapter and topic.
 #[derive(Debug, clap::Args)]
 pub(super) struct Arguments {
     /// How the list is written.
@@ -40,16 +40,44 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     out.finish()
 }
 
+/// What the chapters of *The Principles of Dynamics* are about, from the introduction on.
+const CHAPTERS: [&str; 5] = [
+    "Introduction",
+    "Chapter 1: from Newton to Lagrange",
+    "Chapter 2: rotating frames and rigid bodies",
+    "Chapter 3: Hamilton's equations",
+    "Chapter 4: action variables and adiabatic invariants",
+];
+
+/// The heading a preset stands below, and its place among the headings.
+fn heading(entry: &Entry) -> (usize, &'static str) {
+    let number = entry.info.chapter.split('.').next().and_then(|first| first.parse().ok());
+    match number.and_then(|n: usize| Some((n, *CHAPTERS.get(n)?))) {
+        Some(chapter) => chapter,
+        None => (CHAPTERS.len(), "Beyond the notes"),
+    }
+}
+
 fn text(entries: &[Entry]) -> String {
-    let width = entries.iter().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
+    let longest = |of: fn(&Entry) -> &str| {
+        entries.iter().map(|entry| of(entry).chars().count()).max().unwrap_or(0)
+    };
+    let section = longest(|entry| &entry.info.chapter);
+    let width = longest(|entry| &entry.name);
+    let mut ordered: Vec<&Entry> = entries.iter().collect();
+    ordered.sort_by_key(|entry| heading(entry).0);
     let mut text = String::new();
-    let mut topic = None;
-    for entry in entries {
-        if topic != Some(entry.topic()) {
-            let gap = if topic.is_some() { "\n" } else { "" };
-            let title = if entry.topic().is_empty() { "others" } else { entry.topic() };
+    let mut above = None;
+    for entry in ordered {
+        let (chapter, title) = heading(entry);
+        if above.is_none_or(|(number, _)| number != chapter) {
+            let gap = if above.is_some() { "\n" } else { "" };
             text.push_str(&format!("{gap}{title}\n"));
-            topic = Some(entry.topic());
+        }
+        if above != Some((chapter, entry.topic())) {
+            let topic = if entry.topic().is_empty() { "others" } else { entry.topic() };
+            text.push_str(&format!("\n  {topic}\n"));
+            above = Some((chapter, entry.topic()));
         }
         let about = match &entry.fault {
             Some(fault) => format!("cannot be used: {fault}"),
@@ -57,7 +85,8 @@ fn text(entries: &[Entry]) -> String {
             None => entry.info.summary.clone(),
         };
         let own = if matches!(entry.origin, Origin::User(_)) { " (your own)" } else { "" };
-        text.push_str(&format!("  {:width$}  {about}{own}\n", entry.name));
+        let place = &entry.info.chapter;
+        text.push_str(&format!("    {place:section$}  {:width$}  {about}{own}\n", entry.name));
     }
     text
 }

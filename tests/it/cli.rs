@@ -130,7 +130,7 @@ fn a_users_preset_comes_before_a_shipped_one() {
     let derived = done(program(home.path()).args(["derive", "pendulum"])).success();
     assert!(derived.starts_with("A pendulum\n"), "{derived}");
     let listed = done(program(home.path()).args(["list"])).success();
-    let named = listed.lines().filter(|line| line.starts_with("  pendulum "));
-    assert_eq!(named.count(), 1, "{listed}");
+    let named = |line: &&str| line.starts_with("    ") && line.contains(" pendulum  ");
+    assert_eq!(listed.lines().filter(named).count(), 1, "{listed}");
     assert!(listed.contains("A pendulum (your own)"), "{listed}");
 }

@@ -20,16 +20,33 @@ fn every_preset_stands_in_the_list() {
     }
 }
 
+/// Every chapter once, in the order of the notes; every topic once in a chapter; every preset below
+/// the chapter its section belongs to.
 #[test]
-fn presets_stand_below_their_topics() {
+fn presets_stand_below_their_chapters_and_topics() {
     let text = phaselab(&["list"]).success();
-    let topics: Vec<&str> =
-        text.lines().filter(|line| !line.is_empty() && !line.starts_with(' ')).collect();
-    let mut once = topics.clone();
-    once.sort_unstable();
-    once.dedup();
-    assert_eq!(once.len(), topics.len(), "every topic once: {topics:?}");
-    assert!(topics.contains(&"rigid body"), "{topics:?}");
+    let (mut chapters, mut topics) = (Vec::new(), Vec::new());
+    for line in text.lines().filter(|line| !line.is_empty()) {
+        if !line.starts_with(' ') {
+            chapters.push(line);
+            topics.clear();
+        } else if !line.starts_with("   ") {
+            assert!(!topics.contains(&line), "{line} stands twice in {chapters:?}");
+            topics.push(line);
+        } else {
+            let section = line.split_whitespace().next().expect("a section or a name");
+            let number = section.split('.').next().and_then(|first| first.parse::<usize>().ok());
+            let chapter = chapters.last().expect("a chapter above");
+            match number {
+                Some(number) => assert!(chapter.contains(&format!(" {number}:")), "{line}"),
+                None => assert_eq!(*chapter, "Beyond the notes", "{line}"),
+            }
+        }
+    }
+    let begin: Vec<&str> = chapters.iter().map(|line| line.split(':').next().unwrap()).collect();
+    let meant = ["Chapter 1", "Chapter 2", "Chapter 3", "Chapter 4", "Beyond the notes"];
+    assert_eq!(begin, meant);
+    assert!(text.contains("\n  rigid body\n"), "{text}");
 }
 
 #[test]
