@@ -9,6 +9,7 @@ mod law;
 mod motion;
 mod obey;
 mod recorder;
+mod residual;
 mod setup;
 mod snapshot;
 mod trail;
@@ -26,6 +27,7 @@ pub use setup::{NoMethod, Setup, choose_method};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 
+use crate::integrate::{Happening, Kind, Reached};
 use gauges::{Gauges, Present};
 use motion::Motion;
 use recorder::Recorder;
@@ -44,6 +46,10 @@ pub struct Experiment {
     fault: Option<Fault>,
     epoch: u64,
     notices: Vec<String>,
+    /// What happened since the last restart.
+    happenings: Arc<Vec<Happening>>,
+    /// The event that ended the motion.
+    ended: Option<String>,
 }
 
 /// How far an experiment came.
@@ -55,6 +61,8 @@ pub enum Progress {
     Underway,
     /// Not so far: a fault stands in the way.
     Stuck,
+    /// Not so far: an event has ended the motion.
+    Ended,
 }
 
 impl Experiment {
@@ -81,6 +89,8 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
+            happenings: Arc::default(),
+            ended: None,
             setup,
         };
         experiment.restart();
@@ -116,6 +126,7 @@ impl Experiment {
     pub fn status(&self) -> Status {
         match (&self.fault, self.running) {
             (Some(fault), _) => Status::Faulted(fault.clone()),
+            _ if self.ended.is_some() => Status::Ended(self.ended.clone().unwrap_or_default()),
             (None, true) => Status::Running,
             (None, false) => Status::Paused,
         }
@@ -132,6 +143,9 @@ impl Experiment {
     pub fn advance(&mut self, time: f64, mut budget: u64) -> Progress {
         if self.fault.is_some() {
             return Progress::Stuck;
+        }
+        if self.ended.is_some() {
+            return Progress::Ended;
         }
         while self.recorder.due() <= time {
             match self.reach(self.recorder.due(), &mut budget) {
@@ -154,6 +168,11 @@ impl Experiment {
         progress
     }
 
+    /// What happened since the last restart, in time.
+    pub fn happenings(&self) -> &[Happening] {
+        &self.happenings
+    }
+
     /// What can be seen of it now.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
@@ -169,6 +188,10 @@ impl Experiment {
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
+            happenings: Arc::clone(&self.happenings),
+            released: (0..self.system().constraints())
+                .filter(|&k| self.system().is_released(k))
+                .collect(),
         }
     }
 }
@@ -178,6 +201,8 @@ impl Experiment {
     /// Begins anew at the initial values.
     fn restart(&mut self) {
         self.fault = None;
+        self.ended = None;
+        self.happenings = Arc::default();
         self.motion.forget(self.setup.start);
         self.recorder.restart(self.setup.start);
         let state = self.initial_state();
@@ -211,9 +236,20 @@ impl Experiment {
         // a motion that is a polynomial would be over in one step; any other is not cut short
         let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
         let limit = self.setup.end.unwrap_or(self.time() + ahead).max(time);
-        match self.motion.reach(time, limit, budget) {
-            Ok(true) => Progress::Arrived,
-            Ok(false) => Progress::Underway,
+        let reached = loop {
+            match self.motion.reach(time, limit, budget) {
+                Ok(Reached::Happened(happening)) => {
+                    if let Err(fault) = self.note(happening) {
+                        break Err(fault);
+                    }
+                }
+                other => break other,
+            }
+        };
+        match reached {
+            Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
+            Ok(Reached::Underway) => Progress::Underway,
+            Ok(Reached::Ended) => Progress::Ended,
             Err(fault) => {
                 // what was computed before the fault is still shown, as far as it can be
                 let _ = self.motion.reach_end();
@@ -221,6 +257,31 @@ impl Experiment {
                 Progress::Stuck
             }
         }
+    }
+
+    /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
+    /// from what a blow left.
+    fn note(&mut self, happening: Happening) -> Result<(), system::Fault> {
+        match &happening.kind {
+            Kind::Mark => {}
+            Kind::Stop => self.ended = Some(happening.name.clone()),
+            Kind::Release(_) => {
+                let name = &happening.name;
+                self.tell(format!("{name}: a constraint is let go"));
+            }
+            Kind::Blow { .. } => {
+                let before = self.motion.values_before()?;
+                self.recorder.insert(happening.time, &before);
+                let after = self.motion.values();
+                self.gauges.shift(&before, after);
+            }
+        }
+        self.recorder.insert(happening.time, self.motion.values());
+        let happenings = Arc::make_mut(&mut self.happenings);
+        if happenings.len() < MOST_HAPPENINGS {
+            happenings.push(happening);
+        }
+        Ok(())
     }
 
     /// Records the present as the row that is due.
@@ -268,6 +329,9 @@ impl Experiment {
         }
     }
 }
+
+/// How many happenings are kept.
+const MOST_HAPPENINGS: usize = 1_000_000;
 
 /// How many of the closest rows a step may reach ahead.
 const HORIZON: f64 = 4096.0;

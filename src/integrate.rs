@@ -3,11 +3,13 @@
 //! In: a [`System`](crate::system::System) and a state. Out: steppers, which carry the state from
 //! step to step and tell it anywhere inside the last one. Never here: rows, gauges, clocks.
 
+mod crossing;
 mod dop853;
 mod fixed;
 mod gauss;
 mod leapfrog;
 mod method;
+mod motion;
 mod pace;
 mod rk4;
 mod roots;
@@ -18,5 +20,6 @@ mod taylor;
 mod yoshida;
 
 pub use method::{METHODS, Made, Method, Preserves, Refusal, Settings, Stepping, method_named};
+pub use motion::{Happening, Kind, Motion, Reached};
 pub use roots::first_crossing;
 pub use stepper::Stepper;

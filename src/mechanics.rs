@@ -17,7 +17,7 @@ mod symmetry;
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
-pub use constrain::augmented;
+pub use constrain::{augmented, with_reactions};
 pub use equations::{
     Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason, Separable, WhyNot,
 };

@@ -5,11 +5,11 @@
 //! place. What is proved symbolically is not integrated. Never here: how claims are written.
 
 use crate::expr::{Expr, Symbol};
-use crate::integrate::{Settings, Stepper, method_named};
+use crate::integrate::{self, Happening, Reached, Settings, method_named};
 use crate::mechanics::{Conserved, Equations, Reason};
 use crate::model::{ExpectedValue, Model, Place};
 use crate::preset::Mistake;
-use crate::system::{ChannelKind, Fault, Observer, State, System};
+use crate::system::{ChannelKind, Fault, Observer, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
@@ -90,23 +90,25 @@ fn open_claims(model: &Model, equations: &Equations) -> Vec<Claim> {
 /// The motion that claims are held against.
 struct Motion<'a> {
     system: &'a System,
-    stepper: Box<dyn Stepper>,
+    course: integrate::Motion,
     observer: Observer,
-    state: State,
     values: Vec<f64>,
-    steps: u64,
+    budget: u64,
+    happenings: Vec<Happening>,
 }
 
 /// Why a motion did not come as far as a claim.
 enum Short {
     Fault(Fault),
     Long,
+    Ended(f64),
 }
 
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Short::Fault(fault) => fault.fmt(f),
+            Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
             Short::Long => write!(f, "{MOST_STEPS} steps did not lead so far"),
         }
     }
@@ -116,14 +118,15 @@ impl<'a> Motion<'a> {
     fn begin(model: &Model, system: &'a System) -> Result<Motion<'a>, String> {
         let parameters = model.parameter_values();
         let method = method_named("auto").ok_or("there is no method")?;
-        let make = (method.make)(system, &Settings::default());
-        let mut stepper = make.map_err(|refusal| refusal.to_string())?;
+        let course = integrate::Motion::new(system, method, Settings::default(), &parameters);
+        let mut course = course.map_err(|refusal| refusal.to_string())?;
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|fault| fault.to_string())?;
-        stepper.start(&state, &parameters).map_err(|fault| fault.to_string())?;
+        course.begin(&state, &parameters).map_err(|fault| fault.to_string())?;
         let observer = system.observer(&parameters);
         let values = vec![f64::NAN; system.channels().len()];
-        Ok(Motion { system, stepper, observer, state, values, steps: 0 })
+        let happenings = Vec::new();
+        Ok(Motion { system, course, observer, values, budget: MOST_STEPS, happenings })
     }
 
     /// Follows the motion through all that is claimed of it.
@@ -143,6 +146,8 @@ impl<'a> Motion<'a> {
             (0..looks).map(|k| (look(k), None)).chain(values).collect();
         schedule.sort_by(|a, b| a.0.total_cmp(&b.0));
         let last = schedule.last().map_or(end, |(time, _)| *time);
+        let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
+        let last = model.expect.events.iter().map(|event| event.at + 1.0).fold(last, f64::max);
         for (k, &(time, value)) in schedule.iter().enumerate() {
             if let (true, Some(value)) = (time < start, value) {
                 let message = format!("the motion begins at {start}; {time} is before it");
@@ -162,22 +167,61 @@ impl<'a> Motion<'a> {
             }
         }
         mistakes.extend(claims.iter().filter_map(|claim| claim.mistake(equations, end)));
+        if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
+            let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
+            mistakes.extend(self.false_happenings(model, short.as_ref()));
+        }
+    }
+
+    /// Events that did not happen when, or as often as, the file says.
+    fn false_happenings(&self, model: &Model, short: Option<&Short>) -> Vec<Mistake> {
+        let times = |name: &str| -> Vec<f64> {
+            self.happenings.iter().filter(|h| h.name == name).map(|h| h.time).collect()
+        };
+        let until = short.map_or(String::new(), |why| format!("; {why}"));
+        let mut mistakes = Vec::new();
+        for expected in &model.expect.events {
+            let (name, nth, at) = (&expected.name, expected.nth, expected.at);
+            let message = match times(name).get(nth.wrapping_sub(1)) {
+                Some(&time) if (time - at).abs() <= expected.within => continue,
+                Some(time) => format!(
+                    "`{name}` happens at t = {time}, not {at}: it is off by {:.1e}",
+                    (time - at).abs()
+                ),
+                None => format!("`{name}` does not happen {nth} times{until}"),
+            };
+            mistakes.push(Mistake::error(expected.place.clone(), message));
+        }
+        for expected in &model.expect.counts {
+            let (name, is) = (&expected.name, expected.is);
+            let found = times(name).iter().filter(|time| **time <= expected.until).count();
+            if found != is {
+                let message = format!(
+                    "`{name}` happens {found} times until t = {}, not {is}",
+                    expected.until
+                );
+                mistakes.push(Mistake::error(expected.place.clone(), message));
+            }
+        }
+        mistakes
     }
 
     fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
-        while self.stepper.time() < time {
-            if self.steps == MOST_STEPS {
-                return Err(Short::Long);
+        loop {
+            match self.course.reach(time, limit, &mut self.budget).map_err(Short::Fault)? {
+                Reached::There => break,
+                Reached::Underway => return Err(Short::Long),
+                Reached::Ended => return Err(Short::Ended(self.course.state().time)),
+                Reached::Happened(happening) => {
+                    if matches!(happening.kind, integrate::Kind::Release(_)) {
+                        let parameters = self.observer.parameters().to_vec();
+                        self.observer = self.course.system().observer(&parameters);
+                    }
+                    self.happenings.push(happening);
+                }
             }
-            self.steps += 1;
-            self.stepper.step(limit).map_err(Short::Fault)?;
         }
-        if self.stepper.time() == time {
-            self.state.copy_from(self.stepper.state());
-        } else {
-            self.stepper.at(time, &mut self.state).map_err(Short::Fault)?;
-        }
-        self.observer.observe(&self.state, &mut self.values).map_err(Short::Fault)
+        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::Fault)
     }
 
     fn compare(&self, expected: &ExpectedValue) -> Option<Mistake> {
@@ -211,7 +255,7 @@ impl<'a> Motion<'a> {
             let parameter = || model.parameters.iter().find(|p| p.symbol == symbol);
             match coordinate {
                 Some(value) => value,
-                None if symbol == equations.symbols.time => self.state.time,
+                None if symbol == equations.symbols.time => self.course.state().time,
                 None if symbol == equations.symbols.energy => value(ChannelKind::Energy),
                 None => parameter().map_or(f64::NAN, |p| p.value),
             }

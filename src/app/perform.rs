@@ -49,6 +49,7 @@ impl App {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
                 Some(Status::Faulted(_)) => self.say("It cannot go on from here: reset it with r."),
+                Some(Status::Ended(_)) => self.say("The motion has ended: begin it again with r."),
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],

@@ -1,5 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
+mod events;
 mod invariants;
 mod progress;
 mod times;
@@ -136,6 +137,7 @@ struct Run {
 /// How a run ended before its time.
 enum End {
     Fault(experiment::Fault),
+    Event(String),
     Signal(i32),
     Write(std::io::Error),
 }
@@ -181,6 +183,10 @@ impl Run {
             if let experiment::Status::Faulted(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
+            if progress == Progress::Ended {
+                let names = self.experiment.happenings().last().map(|h| h.name.clone());
+                return Err(End::Event(names.unwrap_or_default()));
+            }
             if let Some(signal) = self.interrupt.signal() {
                 return Err(End::Signal(signal));
             }
@@ -193,11 +199,16 @@ impl Run {
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
             Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
+            Some(End::Event(name)) => {
+                let time = self.experiment.time();
+                (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
+            }
             Some(_) => (Status::Stopped, Some("stopped by a signal".to_owned())),
             None => (Status::Completed, None),
         };
         let gauges = self.experiment.snapshot().gauges;
-        Closing { invariants: invariants::of(&gauges), events: Vec::new(), status, message }
+        let events = events::of(self.experiment.model(), self.experiment.happenings());
+        Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }
 

@@ -26,6 +26,8 @@ pub enum Command {
         /// Its new value.
         value: f64,
     },
+    /// Strikes the motion now with the impulse of this index.
+    Strike(usize),
     /// Back to the initial values; parameters stay.
     Reset,
     /// Back to all values of the file.

@@ -8,17 +8,22 @@ use std::sync::Arc;
 
 use super::Gauge;
 use super::law::EnergyLaw;
+use super::residual::Residual;
 use crate::analysis::{History, Stretch, Verdict, rounding_floor};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{ChannelKind, System};
 
+/// The gauge that is constant by the law of the energy's change.
+const LEDGER: &str = "energy ledger";
+
 /// All gauges of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Gauges {
     equations: Arc<Equations>,
     needles: Vec<Needle>,
+    residuals: Vec<Residual>,
     /// For each symbol an expression of the state may hold: its channel.
     places: Vec<(Symbol, usize)>,
     reference_time: f64,
@@ -37,6 +42,8 @@ struct Needle {
     channel: usize,
     /// What its size is measured by.
     expression: Expr,
+    /// Whether its reference jumps with a blow.
+    jumps: bool,
     reference: f64,
     /// The greatest size of its terms seen since the reference.
     size: f64,
@@ -61,7 +68,10 @@ impl Gauges {
             let law = EnergyLaw::of(model, equations);
             add("energy", law.cause, Some(law.rate), ChannelKind::Energy, equations.energy);
             let reason = "E less the work done on it".to_owned();
-            add("energy ledger", reason, None, ChannelKind::Ledger, equations.energy);
+            add(LEDGER, reason, None, ChannelKind::Ledger, equations.energy);
+        } else if !model.impulses.is_empty() {
+            let reason = "E less what the blows gave".to_owned();
+            add(LEDGER, reason, None, ChannelKind::Ledger, equations.energy);
         }
         for (i, conserved) in equations.conserved.iter().enumerate() {
             let kind = if conserved.name == "energy" {
@@ -85,8 +95,17 @@ impl Gauges {
             }
         }
         places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
+        let residuals = Residual::all(model, equations, system);
         let equations = Arc::clone(equations);
-        Gauges { equations, needles, places, reference_time: 0.0, reference_steps: 0, samples: 0 }
+        Gauges {
+            equations,
+            needles,
+            residuals,
+            places,
+            reference_time: 0.0,
+            reference_steps: 0,
+            samples: 0,
+        }
     }
 
     /// Takes the present values as the reference.
@@ -97,8 +116,20 @@ impl Gauges {
         for needle in &mut self.needles {
             needle.refer(now.values);
         }
+        self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.measure(now);
         self.sample(now);
+    }
+
+    /// A blow has led from some values to others: the references jump with them, so that drift is
+    /// told from what the blow gave. The energy ledger knows that by its own law.
+    pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
+        for needle in self.needles.iter_mut().filter(|needle| needle.jumps) {
+            let jump = after[needle.channel] - before[needle.channel];
+            if jump.is_finite() {
+                needle.reference += jump;
+            }
+        }
     }
 
     /// Takes note of the values at one of the evenly spaced times.
@@ -112,6 +143,9 @@ impl Gauges {
         for needle in &mut self.needles {
             needle.distances.push(now.time, now.values[needle.channel] - needle.reference);
         }
+        for residual in &mut self.residuals {
+            residual.sample(now.time, now.residuals);
+        }
     }
 
     /// Takes note of the values at any other time.
@@ -122,13 +156,19 @@ impl Gauges {
                 needle.farthest = distance;
             }
         }
+        for residual in &mut self.residuals {
+            residual.look(now.residuals);
+        }
     }
 
     /// What they show.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
         let floor = rounding_floor(now.steps.saturating_sub(self.reference_steps));
         let show = |needle: &Needle| needle.show(now.values, self.reference_time, floor);
-        self.needles.iter().map(show).collect()
+        let held = self.residuals.iter().enumerate().map(|(k, residual)| {
+            residual.show(now.values, now.residuals, now.system.is_released(k))
+        });
+        self.needles.iter().map(show).chain(held).collect()
     }
 
     /// Measures the size of every gauge's terms.
@@ -158,7 +198,10 @@ pub(super) struct Present<'a> {
     pub(super) steps: u64,
     /// Every channel's value.
     pub(super) values: &'a [f64],
+    /// How far the motion is from keeping each constraint: in position and in velocity.
+    pub(super) residuals: &'a [[f64; 2]],
     pub(super) action: f64,
+    pub(super) system: &'a System,
     /// The value of a parameter's symbol.
     pub(super) parameter: &'a dyn Fn(Symbol) -> f64,
 }
@@ -179,6 +222,7 @@ impl Needle {
             broken,
             channel,
             expression,
+            jumps: name != LEDGER,
             reference: f64::NAN,
             size: 0.0,
             farthest: 0.0,

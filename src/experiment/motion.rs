@@ -1,26 +1,19 @@
-//! A motion and what is seen of it: the stepper runs ahead by whole steps, the present follows at
-//! the times asked for.
+//! A motion and what is seen of it: the present, and every channel's value there.
 //!
 //! In: a state, parameters, times. Out: the state and every channel's value at the present. Never
 //! here: rows, gauges, commands.
 
 use super::gauges::Present;
 use crate::expr::Symbol;
-use crate::integrate::{Method, Refusal, Settings, Stepper};
-use crate::system::{Fault, Keeper, Observer, State, System};
+use crate::integrate::{self, Happening, Kind, Method, Reached, Refusal, Settings};
+use crate::system::{Fault, Observer, State, System};
 
-/// A motion under way.
+/// A motion under way, observed.
 pub(super) struct Motion {
-    system: System,
-    method: &'static Method,
-    settings: Settings,
-    stepper: Box<dyn Stepper>,
+    inner: integrate::Motion,
     observer: Observer,
-    /// Puts states back on the constraints, where there are any.
-    keeper: Option<Keeper>,
-    state: State,
     values: Vec<f64>,
-    steps: u64,
+    residuals: Vec<[f64; 2]>,
 }
 
 impl Motion {
@@ -31,101 +24,111 @@ impl Motion {
         settings: Settings,
         parameters: &[f64],
     ) -> Result<Motion, Refusal> {
-        let stepper = (method.make)(system, &settings)?;
-        let state = State::new(0.0, system.form(), Vec::new());
-        let values = vec![f64::NAN; system.channels().len()];
-        let observer = system.observer(parameters);
-        let keeper = system.keeper(parameters);
-        let system = system.clone();
-        Ok(Motion { system, method, settings, stepper, observer, keeper, state, values, steps: 0 })
+        Ok(Motion {
+            inner: integrate::Motion::new(system, method, settings, parameters)?,
+            observer: system.observer(parameters),
+            values: vec![f64::NAN; system.channels().len()],
+            residuals: Vec::new(),
+        })
     }
 
-    /// Takes another method or other settings; the motion has then to [begin](Motion::begin) anew
-    /// from its state.
+    /// Takes another method or other settings; the motion has then to [go on](Motion::go_on) from
+    /// its state.
     pub(super) fn change_method(
         &mut self,
         method: &'static Method,
         settings: Settings,
     ) -> Result<(), Refusal> {
-        self.stepper = (method.make)(&self.system, &settings)?;
-        self.method = method;
-        self.settings = settings;
-        Ok(())
+        self.inner.change_method(method, settings)
     }
 
     /// Begins at a state.
     pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
-        self.state = state.clone();
-        self.observer.set_parameters(parameters);
-        if let Some(keeper) = &mut self.keeper {
-            keeper.set_parameters(parameters);
-        }
-        self.observer.observe(&self.state, &mut self.values)?;
-        self.stepper.start(state, parameters)
+        self.inner.begin(state, parameters)?;
+        self.observer = self.inner.system().observer(parameters);
+        self.look()
     }
 
-    /// Moves the present on to `time`, in at most `budget` steps (which are taken off it). `false`
-    /// where they did not suffice; the present then stays. No step reaches beyond `limit`, unless
-    /// the method's step is fixed.
-    pub(super) fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<bool, Fault> {
-        while self.stepper.time() < time {
-            if *budget == 0 {
-                return Ok(false);
-            }
-            *budget -= 1;
-            self.stepper.step(limit)?;
-            self.steps += 1;
-            if let Some(keeper) = &mut self.keeper {
-                self.state.copy_from(self.stepper.state());
-                keeper.project(&mut self.state)?;
-                self.stepper.settle(&self.state);
-            }
+    /// Goes on from a state at the present time.
+    pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        self.inner.go_on(state, parameters)?;
+        self.observer.set_parameters(parameters);
+        self.look()
+    }
+
+    /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
+    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed.
+    pub(super) fn reach(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<Reached, Fault> {
+        let reached = self.inner.reach(time, limit, budget)?;
+        match &reached {
+            Reached::Happened(happening) => self.take_in(happening)?,
+            Reached::There => self.look()?,
+            Reached::Underway | Reached::Ended => {}
         }
-        self.look(time)?;
-        Ok(true)
+        Ok(reached)
+    }
+
+    /// Strikes the present.
+    pub(super) fn strike(&mut self, impulse: usize) -> Result<Happening, Fault> {
+        let happening = self.inner.strike_now(impulse)?;
+        self.take_in(&happening)?;
+        Ok(happening)
+    }
+
+    fn take_in(&mut self, happening: &Happening) -> Result<(), Fault> {
+        if matches!(happening.kind, Kind::Release(_)) {
+            let parameters = self.observer.parameters().to_vec();
+            self.observer = self.inner.system().observer(&parameters);
+        }
+        self.look()
     }
 
     /// Moves the present to the end of what was computed before a fault.
     pub(super) fn reach_end(&mut self) -> Result<(), Fault> {
-        self.look(self.stepper.time())
+        self.inner.reach_computed()?;
+        self.look()
     }
 
-    fn look(&mut self, time: f64) -> Result<(), Fault> {
-        let (begin, end) = self.stepper.interval();
-        if time == end || begin == end {
-            self.state.copy_from(self.stepper.state());
-        } else {
-            self.stepper.at(time, &mut self.state)?;
-            if let Some(keeper) = &mut self.keeper {
-                keeper.project(&mut self.state)?;
-            }
-        }
-        self.observer.observe(&self.state, &mut self.values)
+    fn look(&mut self) -> Result<(), Fault> {
+        self.residuals = self.inner.residuals();
+        self.observer.observe(self.inner.state(), &mut self.values)
+    }
+
+    /// Every channel's value just before the last blow.
+    pub(super) fn values_before(&mut self) -> Result<Vec<f64>, Fault> {
+        let mut values = vec![f64::NAN; self.values.len()];
+        self.observer.observe(self.inner.before(), &mut values)?;
+        Ok(values)
     }
 }
 
 /// What can be asked of it.
 impl Motion {
     pub(super) fn system(&self) -> &System {
-        &self.system
+        self.inner.system()
     }
 
     pub(super) fn method(&self) -> &'static Method {
-        self.method
+        self.inner.method()
     }
 
     pub(super) fn settings(&self) -> Settings {
-        self.settings
+        self.inner.settings()
     }
 
     /// The present time.
     pub(super) fn time(&self) -> f64 {
-        self.state.time
+        self.state().time
     }
 
     /// The present state.
     pub(super) fn state(&self) -> &State {
-        &self.state
+        self.inner.state()
     }
 
     /// Every channel's present value.
@@ -134,33 +137,35 @@ impl Motion {
     }
 
     pub(super) fn steps(&self) -> u64 {
-        self.steps
+        self.inner.steps()
     }
 
     /// Forgets what was, until it [begins](Motion::begin); the clock shows `time`.
     pub(super) fn forget(&mut self, time: f64) {
-        self.steps = 0;
         self.values.fill(f64::NAN);
-        self.state = State::new(time, self.system.form(), Vec::new());
+        self.inner.forget(time);
     }
 
     /// Whether there is a present.
     pub(super) fn has_begun(&self) -> bool {
-        !self.state.values.is_empty()
+        !self.state().values.is_empty()
     }
 
     /// What the gauges look at.
     pub(super) fn present<'a>(&'a self, parameter: &'a dyn Fn(Symbol) -> f64) -> Present<'a> {
+        let action = self.state().values.get(self.system().moving());
         Present {
-            time: self.state.time,
-            steps: self.steps,
+            time: self.time(),
+            steps: self.steps(),
             values: &self.values,
-            action: self.state.values.get(self.system.moving()).copied().unwrap_or(f64::NAN),
+            residuals: &self.residuals,
+            system: self.system(),
+            action: action.copied().unwrap_or(f64::NAN),
             parameter,
         }
     }
 
     pub(super) fn step_size(&self) -> f64 {
-        self.stepper.step_size()
+        self.inner.step_size()
     }
 }

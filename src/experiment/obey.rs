@@ -29,6 +29,7 @@ impl Experiment {
             Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
             Command::Parameter { index, value } => self.change_parameter(index, value),
             Command::Initial { index, value } => self.change_initial(index, value),
+            Command::Strike(index) => self.strike(index),
             Command::Reset => self.restart(),
             Command::FullReset => {
                 self.setup.parameters = self.model.parameter_values();
@@ -54,6 +55,26 @@ impl Experiment {
             self.notices.remove(0);
         }
         self.notices.push(notice);
+    }
+
+    fn strike(&mut self, index: usize) {
+        let known = index < self.system().occasions().impulses.len();
+        if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
+            return;
+        }
+        let before = self.energy();
+        let struck = self.motion.strike(index).and_then(|happening| {
+            let name = happening.name.clone();
+            self.note(happening).map(|()| name)
+        });
+        match struck {
+            Ok(name) => {
+                let given = self.energy() - before;
+                let sign = if given < 0.0 { '−' } else { '+' };
+                self.tell(format!("{name}: energy {sign}{}", short(given.abs())));
+            }
+            Err(fault) => self.fault = Some(fault.into()),
+        }
     }
 
     fn step(&mut self, count: u32) {
@@ -162,7 +183,7 @@ impl Experiment {
 
     /// Goes on from a state, if there is one to go on from.
     fn go_on(&mut self, state: Result<State, system::Fault>) {
-        let begun = state.and_then(|state| self.motion.begin(&state, &self.setup.parameters));
+        let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
         self.fault = begun.err().map(super::Fault::from);
     }
 }

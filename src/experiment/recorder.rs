@@ -75,6 +75,11 @@ impl Recorder {
     /// Records the row that is due.
     pub(super) fn record(&mut self, time: f64, values: &[f64]) {
         self.count += 1;
+        self.insert(time, values);
+    }
+
+    /// Records a row at a time of its own, before the next one is due.
+    pub(super) fn insert(&mut self, time: f64, values: &[f64]) {
         self.widen(values);
         // copies the open chunk where a snapshot still holds it
         let open = Arc::make_mut(&mut self.open);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Trail;
 use crate::analysis::Verdict;
+use crate::integrate::Happening;
 
 /// The state of an experiment as the screen and the reports see it.
 #[derive(Clone, Debug)]
@@ -33,6 +34,10 @@ pub struct Snapshot {
     pub method: MethodFact,
     /// What the user is told in passing: "energy reference taken anew: …". The newest last.
     pub notices: Arc<[String]>,
+    /// What happened since the last restart, in time.
+    pub happenings: Arc<Vec<Happening>>,
+    /// The constraints that were let go, by index.
+    pub released: Vec<usize>,
 }
 
 impl Snapshot {
@@ -51,6 +56,8 @@ impl Snapshot {
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
+            happenings: Arc::default(),
+            released: Vec::new(),
         }
     }
 }
@@ -62,6 +69,8 @@ pub enum Status {
     Running,
     /// Held by the user.
     Paused,
+    /// Ended by the event of this name.
+    Ended(String),
     /// It cannot go on.
     Faulted(Fault),
 }

@@ -69,6 +69,16 @@ pub(super) fn force(pool: &mut Pool, rows: &[ConstraintRow], coordinate: usize) 
     pool.sum(&terms)
 }
 
+/// f + Aᵀλ with the multipliers' symbols: the right side of M q̈ = f + Aᵀλ.
+pub fn with_reactions(pool: &mut Pool, rows: &[ConstraintRow], acting: &[Expr]) -> Vec<Expr> {
+    let all = acting.iter().enumerate();
+    all.map(|(i, &f)| {
+        let held = force(pool, rows, i);
+        pool.add(f, held)
+    })
+    .collect()
+}
+
 /// −Σ_β λ_β A_β0: what the constraints that move do to the energy.
 pub(super) fn power(pool: &mut Pool, rows: &[ConstraintRow]) -> Expr {
     let terms: Vec<(Number, Expr)> = rows

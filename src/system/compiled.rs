@@ -11,7 +11,7 @@ use super::motion::{Quadratures, Split, Writer};
 use super::program::{Program, Singular};
 use super::value::Values;
 use super::watch::{List, Watch};
-use super::{Channel, Form, Given, Observer, State};
+use super::{Channel, Form, Given, Observer, Occasions, State};
 use crate::expr::{Double, Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{self, Model};
@@ -32,13 +32,14 @@ struct Shared {
     quadratures: Quadratures,
     motion: Motion,
     watch: Watch,
+    occasions: Occasions,
     legendre: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
     initial: Arc<Program>,
     constraints: Option<Constrained>,
     /// Which rates the file gives at the start.
     known: Vec<Known>,
-    /// Of one degree of freedom: the energy of (q, native rate).
+    /// The energy of (q, native rates).
     energy: Arc<Program>,
 }
 
@@ -81,7 +82,7 @@ impl System {
         let list = List::of(model, &mut equations, extra);
         let quadratures = Quadratures {
             action: list.depends(&equations, equations.symbols.action),
-            work: equations.energy_rate != Expr::ZERO,
+            work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
         };
         let mut writer = Writer {
             pool: equations.pool.clone(),
@@ -138,6 +139,7 @@ impl System {
             constraints,
             known: coordinates.iter().map(known).collect(),
             energy,
+            occasions: Occasions::of(model, writer)?,
             watch: list.compile(writer)?,
         })
     }
@@ -308,6 +310,57 @@ impl System {
         }
         self.check_finite(&result)?;
         Ok(result)
+    }
+
+    /// The same in the system's own form, near a state that has it already.
+    pub(super) fn convert_near(
+        &self,
+        state: &State,
+        near: &State,
+        parameters: &[f64],
+    ) -> Result<State, Fault> {
+        let mut legendre = self.legendre(&self.inputs(parameters));
+        self.convert_by(&mut legendre, state, self.form(), Some(near))
+    }
+
+    /// The inputs of programs that look at states: a state in the system's own form, then action
+    /// and work, zero where they are not carried.
+    pub(super) fn inputs_of(&self, state: &State, out: &mut [Double]) {
+        let moving = self.moving();
+        for (i, x) in out[..moving].iter_mut().enumerate() {
+            *x = state.exact(i);
+        }
+        let quadratures = self.quadratures();
+        let mut next = moving;
+        for (carried, place) in [(quadratures.action, moving), (quadratures.work, moving + 1)] {
+            out[place] = Double::ZERO;
+            if carried {
+                out[place] = state.exact(next);
+                next += 1;
+            }
+        }
+    }
+
+    /// Where a state carries the work done on it.
+    pub(super) fn work_place(&self) -> Option<usize> {
+        let quadratures = self.quadratures();
+        quadratures.work.then(|| self.moving() + usize::from(quadratures.action))
+    }
+
+    /// The energy of a state in the system's own form.
+    pub(super) fn energy_of(&self, state: &State, parameters: &[f64]) -> Result<Double, Fault> {
+        let program = self.energy_program();
+        let mut values: Values<Double> = Values::new(Arc::clone(&program));
+        values.set_parameters(&self.inputs(parameters));
+        let numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let found = values.evaluate(state.exact_time(), &numbers);
+        found.map_err(|why| self.singular(&program, why, state.time, &state.values))?;
+        Ok(values.output(0))
+    }
+
+    /// What may happen to its motions.
+    pub fn occasions(&self) -> &Occasions {
+        &self.shared.occasions
     }
 
     /// What looks at states of this system.

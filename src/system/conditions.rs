@@ -97,6 +97,11 @@ impl Conditions {
         self.output(constraint, coordinate)
     }
 
+    /// A₀ of one constraint.
+    pub(super) fn rate(&self, constraint: usize) -> Double {
+        self.output(constraint, self.degrees)
+    }
+
     /// f of a holonomic constraint, zero of others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
         let value = self.output(constraint, self.degrees + 1);

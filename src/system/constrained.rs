@@ -225,6 +225,12 @@ impl System {
         Some(keeper)
     }
 
+    /// A₀ of each constraint at a state.
+    pub(super) fn constraint_rates(&self, state: &State, parameters: &[f64]) -> Vec<Double> {
+        let conditions = self.conditions(parameters, state);
+        conditions.map_or(Vec::new(), |c| (0..c.count()).map(|k| c.rate(k)).collect())
+    }
+
     /// The state that momenta `target` and the constraints give, with q kept and q̇ of `state` as
     /// the first guess, and the reactions Λ of the constraints (none where there are none).
     pub(super) fn strike(

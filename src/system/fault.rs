@@ -34,6 +34,8 @@ pub enum FaultKind {
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
     StepUnderflow(f64),
+    /// This event comes ever faster and would come without end.
+    PilesUp(String),
     /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
     Sticks,
 }
@@ -68,6 +70,9 @@ impl fmt::Display for Fault {
             FaultKind::StepUnderflow(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
+            FaultKind::PilesUp(name) => {
+                write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
+            }
             FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
         }
         for (name, value) in &self.place {
@@ -84,6 +89,7 @@ impl fmt::Display for Fault {
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
             FaultKind::NoConvergence(_) => ": try a smaller step",
             FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            FaultKind::PilesUp(_) => ": give the file an event that stops it before",
             FaultKind::Sticks => ": both sides of a kink push towards it",
         })
     }

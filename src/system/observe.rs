@@ -99,26 +99,12 @@ impl Observer {
 
     /// The inputs of the programs: the state in the native form, then action and work.
     fn take_in(&mut self, state: &State) -> Result<(), Fault> {
-        let moving = self.system.moving();
         if state.form == self.system.form() {
-            for i in 0..moving {
-                self.inputs[i] = state.exact(i);
-            }
+            self.system.inputs_of(state, &mut self.inputs);
         } else {
-            let native =
-                self.system.convert_by(&mut self.legendre, state, self.system.form(), None)?;
-            for i in 0..moving {
-                self.inputs[i] = native.exact(i);
-            }
-        }
-        let quadratures = self.system.quadratures();
-        let mut next = moving;
-        for (carried, place) in [(quadratures.action, moving), (quadratures.work, moving + 1)] {
-            self.inputs[place] = Double::ZERO;
-            if carried {
-                self.inputs[place] = state.exact(next);
-                next += 1;
-            }
+            let form = self.system.form();
+            let native = self.system.convert_by(&mut self.legendre, state, form, None)?;
+            self.system.inputs_of(&native, &mut self.inputs);
         }
         Ok(())
     }

@@ -49,7 +49,7 @@ impl List {
             list.add(ChannelKind::Extra(i), &c.written, &c.written, c.expression);
         }
         list.columns = list.channels.len();
-        if equations.energy_rate != Expr::ZERO {
+        if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
             list.push(ChannelKind::Ledger, "energy ledger", "energy ledger", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {
@@ -144,18 +144,8 @@ impl List {
     /// Compiles the list.
     pub(super) fn compile(self, writer: &mut Writer<'_>) -> Result<Watch, Symbol> {
         let (precise, drawn) = self.expressions.split_at(self.precise);
-        let accelerated: Vec<Expr> = self.expressions.iter().flatten().copied().collect();
-        let accelerated = {
-            let accelerations = writer.equations.coordinates.iter().map(|c| c.acceleration);
-            let multipliers = writer.equations.constraints.iter().map(|c| c.multiplier);
-            let symbols: Vec<Symbol> = accelerations.chain(multipliers).collect();
-            let reached = writer.pool.reachable(&accelerated);
-            reached
-                .into_iter()
-                .any(|e| writer.pool.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
-        };
-        let precise = program(writer, precise, accelerated)?;
-        let drawn = program(writer, drawn, accelerated)?;
+        let precise = program(writer, precise)?;
+        let drawn = program(writer, drawn)?;
         Ok(Watch {
             channels: self.channels,
             columns: self.columns,
@@ -168,12 +158,12 @@ impl List {
 
 /// A program of (q, native rates, action, work) for channels' expressions: p, q̈ and the energy
 /// are computed first and stand for their symbols.
-fn program(
+pub(super) fn program(
     writer: &mut Writer<'_>,
     channels: &[Option<Expr>],
-    accelerated: bool,
 ) -> Result<Arc<Program>, Symbol> {
     let equations = writer.equations;
+    let accelerated = is_accelerated(writer, channels);
     let accelerations = match &equations.flow {
         Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } if accelerated => {
             // q̈ = d/dt ∂H/∂p along the motion
@@ -196,6 +186,16 @@ fn program(
         })
         .collect();
     lowering.finish(outputs)
+}
+
+/// Whether any of the expressions depends on an acceleration or a multiplier.
+fn is_accelerated(writer: &Writer<'_>, channels: &[Option<Expr>]) -> bool {
+    let all: Vec<Expr> = channels.iter().flatten().copied().collect();
+    let accelerations = writer.equations.coordinates.iter().map(|c| c.acceleration);
+    let multipliers = writer.equations.constraints.iter().map(|c| c.multiplier);
+    let symbols: Vec<Symbol> = accelerations.chain(multipliers).collect();
+    let reached = writer.pool.reachable(&all);
+    reached.into_iter().any(|e| writer.pool.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
 }
 
 fn bind_derived(

@@ -63,6 +63,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let (sign, word, role) = match &snapshot.status {
         Status::Running => (glyphs.pick("▶", ">"), "running", Role::Good),
         Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
+        Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
         Status::Faulted(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
     };
     let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);

@@ -18,6 +18,7 @@ pub(super) fn document(lab: &Lab, look: &Look) -> Document {
     let writer = Writer { equations: &lab.loaded.equations, model: &lab.loaded.model, look };
     let mut page = Document::default();
     writer.law(&mut page);
+    writer.constraints(&mut page);
     writer.motion(&mut page);
     writer.hamiltonian(&mut page);
     writer.conserved(&mut page);
@@ -87,6 +88,28 @@ impl Writer<'_> {
                 self.put(page, "H", *hamiltonian);
                 self.forces(page, forces);
             }
+        }
+    }
+
+    /// Constraints and their multipliers.
+    fn constraints(&self, page: &mut Document) {
+        if self.model.constraints.is_empty() {
+            return;
+        }
+        page.heading("Constraints");
+        for constraint in &self.model.constraints {
+            page.formula("0", self.write(constraint.expression), &constraint.name);
+        }
+        page.heading("Multipliers: the force on each coordinate is λ times the constraint's slope");
+        match &self.equations.multipliers {
+            Ok(solved) => {
+                for ((row, e), c) in
+                    self.equations.constraints.iter().zip(solved).zip(&self.model.constraints)
+                {
+                    page.formula(&self.symbol(row.multiplier), self.write(*e), &c.about);
+                }
+            }
+            Err(why) => page.words(Role::Dim, format!("Not in closed form: {why}.")),
         }
     }
 

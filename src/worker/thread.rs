@@ -72,7 +72,8 @@ impl Bench<'_> {
             self.slice.learn(began.elapsed());
         }
         let since = self.published.elapsed();
-        if since >= BETWEEN_SNAPSHOTS || progress == Some(Progress::Stuck) {
+        if since >= BETWEEN_SNAPSHOTS || matches!(progress, Some(Progress::Stuck | Progress::Ended))
+        {
             self.publish();
         } else if progress == Some(Progress::Arrived) {
             return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));

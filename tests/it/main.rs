@@ -11,6 +11,7 @@ mod experiment;
 mod expr;
 mod expr_parse;
 mod hand;
+mod happenings;
 mod layers;
 mod mechanics;
 mod methods;

@@ -4,11 +4,16 @@
 use serde_json::{Map, Value, json};
 
 use crate::expr::Expr;
-use crate::mechanics::{Equations, Flow};
-use crate::model::Model;
+use crate::mechanics::{Equations, Flow, with_reactions};
+use crate::model::{Action, Direction, Event, Impulse, Model};
 
 pub(super) fn write(model: &Model, equations: &Equations) -> String {
-    let text = |e: &Expr| Value::String(equations.pool.text(*e));
+    let mut pool = equations.pool.clone();
+    let forces = match &equations.flow {
+        Flow::Lagrange { force, .. } => with_reactions(&mut pool, &equations.constraints, force),
+        Flow::Hamilton { .. } | Flow::Poisson { .. } => Vec::new(),
+    };
+    let text = |e: &Expr| Value::String(pool.text(*e));
     let list = |all: &[Expr]| Value::Array(all.iter().map(text).collect());
     let names = model.coordinates.iter().map(|c| c.name.as_str());
     let name = |i: usize| model.coordinates[i].name.clone();
@@ -25,9 +30,7 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         }
     };
     let (mass_matrix, right_hand_side) = match &equations.flow {
-        Flow::Lagrange { mass, force, .. } => {
-            (mass.iter().map(|row| list(row)).collect(), list(force))
-        }
+        Flow::Lagrange { mass, .. } => (mass.iter().map(|row| list(row)).collect(), list(&forces)),
         Flow::Hamilton { velocities, momentum_rates } => {
             (Value::Null, list(&[velocities.as_slice(), momentum_rates].concat()))
         }
@@ -64,13 +67,83 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         "energy_rate": text(&equations.energy_rate),
         "cyclic": equations.cyclic.iter().map(|&i| name(i)).collect::<Vec<_>>(),
         "conserved": conserved,
-        "constraints": [],
+        "constraints": constraints(model, equations),
+        "impulses": impulses(model),
+        "events": events(model),
         "transformations": [],
     });
     if !why.is_empty() {
         object["why"] = Value::String(why.join("; "));
     }
     format!("{object:#}\n")
+}
+
+/// Each constraint, Σ coefficient · x' + rate = 0, with its multiplier: its name, and its value
+/// where it is known in closed form. The force on x is λ times the coefficient of x.
+fn constraints(model: &Model, equations: &Equations) -> Vec<Value> {
+    let text = |e: Expr| Value::String(equations.pool.text(e));
+    let all = model.constraints.iter().zip(&equations.constraints).enumerate();
+    all.map(|(k, (constraint, row))| {
+        let named = model.coordinates.iter().zip(&row.row);
+        let coefficients: Map<String, Value> =
+            named.map(|(c, &a)| (c.name.clone(), text(a))).collect();
+        let solved = equations.multipliers.as_ref().ok().map(|solved| text(solved[k]));
+        json!({
+            "name": constraint.name,
+            "expression": text(constraint.expression),
+            "holonomic": row.position.is_some(),
+            "coefficients": coefficients,
+            "rate": text(row.rate),
+            "multiplier": equations.pool.symbol_info(row.multiplier).name,
+            "lambda": solved,
+        })
+    })
+    .collect()
+}
+
+/// Each impulse with what it adds to momenta (or variables), and when.
+fn impulses(model: &Model) -> Vec<Value> {
+    let text = |e: Expr| Value::String(model.pool.text(e));
+    let object = |impulse: &Impulse| {
+        let changes = model.coordinates.iter().zip(&impulse.change);
+        let changes: Map<String, Value> = changes
+            .filter(|(_, e)| **e != Expr::ZERO)
+            .map(|(c, &e)| {
+                let lead = if model.is_poisson() { "" } else { "p_" };
+                (format!("{lead}{}", c.name), text(e))
+            })
+            .collect();
+        json!({
+            "name": impulse.name,
+            "change": changes,
+            "at": impulse.times.iter().map(|&e| text(e)).collect::<Vec<_>>(),
+            "every": impulse.period.map(text),
+        })
+    };
+    model.impulses.iter().map(object).collect()
+}
+
+fn events(model: &Model) -> Vec<Value> {
+    let object = |event: &Event| {
+        let direction = match event.direction {
+            Direction::Rising => "rising",
+            Direction::Falling => "falling",
+            Direction::Either => "either",
+        };
+        let action = match event.action {
+            Action::Mark => "mark".to_owned(),
+            Action::Stop => "stop".to_owned(),
+            Action::Release(k) => format!("release:{}", model.constraints[k].name),
+            Action::Impulse(k) => format!("impulse:{}", model.impulses[k].name),
+        };
+        json!({
+            "name": event.name,
+            "when": model.pool.text(event.when),
+            "direction": direction,
+            "action": action,
+        })
+    };
+    model.events.iter().map(object).collect()
 }
 
 /// What [`Equations::solved`] gives the rate of: `x''`, or `x'` then `p_x'`.

@@ -19,6 +19,9 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
     lines.extend(
         forces.map(|(c, &force)| format!("Q_{{{}}} &= {}", symbol(c.position), pool.latex(force))),
     );
+    for c in &model.constraints {
+        lines.push(format!("{} &= 0", pool.latex(c.expression)));
+    }
     if model.is_lagrangian() {
         for (c, &p) in model.coordinates.iter().zip(&equations.momenta) {
             lines.push(format!("{} &= {}", symbol(c.momentum), pool.latex(p)));
@@ -37,6 +40,12 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         }
         // q̇ and ṗ are solved for as they stand
         (Err(_), Flow::Hamilton { .. } | Flow::Poisson { .. }) => {}
+    }
+    if let Ok(solved) = &equations.multipliers {
+        let solved = equations.constraints.iter().zip(solved);
+        lines.extend(
+            solved.map(|(row, &e)| format!("{} &= {}", symbol(row.multiplier), pool.latex(e))),
+        );
     }
     if model.is_lagrangian() {
         lines.extend(equations.hamiltonian.iter().map(|&h| format!("H &= {}", pool.latex(h))));

@@ -32,8 +32,11 @@ pub(super) fn write(model: &Model, equations: &Equations, script: Script) -> Str
     let mut page = Page { equations, script, text: String::new() };
     page.head(model);
     page.law(model);
+    page.constraints(model);
     page.momenta(model);
     page.motion(model);
+    page.multipliers();
+    page.happenings(model);
     page.energy();
     page.conserved(model);
     page.text
@@ -71,6 +74,81 @@ impl Page<'_> {
             }
         }
         self.section(title, &rows);
+    }
+
+    fn constraints(&mut self, model: &Model) {
+        if model.constraints.is_empty() {
+            return;
+        }
+        self.line("");
+        self.line("Constraints");
+        for (c, row) in model.constraints.iter().zip(&self.equations.constraints) {
+            let kind = match (row.position.is_some(), row.rate == Expr::ZERO) {
+                (true, true) => "holonomic",
+                (true, false) => "holonomic, moving",
+                (false, true) => "on the velocities",
+                (false, false) => "on the velocities, moving",
+            };
+            let line = format!("  {} = 0   ({}; {kind})", self.math(c.expression), c.name);
+            self.line(&line);
+        }
+    }
+
+    /// λ in closed form, and the force it makes on each coordinate.
+    fn multipliers(&mut self) {
+        let equations = self.equations;
+        if equations.constraints.is_empty() {
+            return;
+        }
+        match &equations.multipliers {
+            Ok(solved) => {
+                let rows = equations.constraints.iter().zip(solved);
+                let rows: Vec<_> =
+                    rows.map(|(row, &e)| (self.symbol(row.multiplier), self.math(e))).collect();
+                self.section("Multipliers", &rows);
+            }
+            Err(why) => self.why_not("Multipliers", why),
+        }
+        let mut rows = Vec::new();
+        for row in &equations.constraints {
+            for (c, &a) in equations.coordinates.iter().zip(&row.row) {
+                if a != Expr::ZERO {
+                    let left = format!("on {}", self.symbol(c.position));
+                    let factor = match self.math(a) {
+                        one if one == "1" => String::new(),
+                        other => format!("({other}) "),
+                    };
+                    rows.push((left, format!("{factor}{}", self.symbol(row.multiplier))));
+                }
+            }
+        }
+        self.section("Forces of constraint", &rows);
+    }
+
+    fn happenings(&mut self, model: &Model) {
+        if !model.impulses.is_empty() {
+            self.line("");
+            self.line("Impulses");
+        }
+        for impulse in &model.impulses {
+            let changes = model.coordinates.iter().zip(&impulse.change);
+            let changes = changes.filter(|(_, e)| **e != Expr::ZERO).map(|(c, &e)| {
+                let moved = if model.is_poisson() { c.position } else { c.momentum };
+                format!("Δ{} = {}", self.symbol(moved), self.math(e))
+            });
+            let changes = self.words(&changes.collect::<Vec<_>>().join(", "));
+            let line = format!("  {changes}   ({})", impulse.name);
+            self.line(&line);
+        }
+        if !model.events.is_empty() {
+            self.line("");
+            self.line("Events");
+        }
+        for event in &model.events {
+            let when = self.math(event.when);
+            let line = format!("  {when} = 0   ({})", event.name);
+            self.line(&line);
+        }
     }
 
     fn momenta(&mut self, model: &Model) {

@@ -1,0 +1,130 @@
+//! The gauge of one constraint: how far the motion is from keeping it, and by what force it is kept.
+//!
+//! In: residuals measured by the size of their terms, and the multiplier's value. Out: a [`Gauge`].
+//! Never here: how a constraint is kept.
+
+use super::Gauge;
+use crate::analysis::{Growth, History, Verdict};
+use crate::expr::Expr;
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::system::{ChannelKind, System};
+
+/// A residual below this is rounding: a few units in the last place of its terms.
+const ROUNDING: f64 = 1e-14;
+
+/// A row longer than this is given by its general form.
+const LONGEST: usize = 24;
+
+/// What a gauge of a constraint remembers.
+#[derive(Clone, Debug)]
+pub(super) struct Residual {
+    index: usize,
+    name: String,
+    /// The channel of its multiplier.
+    multiplier: usize,
+    /// λ as shown, its unit, and what the force is.
+    symbol: String,
+    unit: String,
+    force: String,
+    since: f64,
+    farthest: f64,
+    history: History,
+}
+
+impl Residual {
+    /// One gauge for each constraint.
+    pub(super) fn all(model: &Model, equations: &Equations, system: &System) -> Vec<Residual> {
+        let gauge = |index: usize| {
+            let kind = ChannelKind::Multiplier(index);
+            let multiplier = system.channels().iter().position(|c| c.kind == kind)?;
+            let channel = &system.channels()[multiplier];
+            Some(Residual {
+                index,
+                name: model.constraints[index].name.clone(),
+                multiplier,
+                symbol: channel.shown.clone(),
+                unit: channel.unit.clone(),
+                force: force(model, equations, index),
+                since: 0.0,
+                farthest: 0.0,
+                history: History::new(),
+            })
+        };
+        (0..model.constraints.len()).filter_map(gauge).collect()
+    }
+
+    pub(super) fn refer(&mut self, time: f64) {
+        self.since = time;
+        self.farthest = 0.0;
+        self.history = History::new();
+    }
+
+    pub(super) fn look(&mut self, residuals: &[[f64; 2]]) {
+        if let Some(&[position, velocity]) = residuals.get(self.index) {
+            self.farthest = self.farthest.max(position).max(velocity);
+        }
+    }
+
+    pub(super) fn sample(&mut self, time: f64, residuals: &[[f64; 2]]) {
+        self.look(residuals);
+        if let Some(&[position, velocity]) = residuals.get(self.index) {
+            self.history.push(time, position.max(velocity));
+        }
+    }
+
+    pub(super) fn show(&self, values: &[f64], residuals: &[[f64; 2]], released: bool) -> Gauge {
+        let now = residuals.get(self.index).map_or(0.0, |r| r[0].max(r[1]));
+        let lambda = values[self.multiplier];
+        let reason = if released {
+            "released".to_owned()
+        } else {
+            let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+            format!("{} = {}{unit}, {}", self.symbol, short(lambda), self.force)
+        };
+        let verdict = if self.farthest <= ROUNDING {
+            Verdict::Exact(Growth::Level)
+        } else {
+            Verdict::Bounded
+        };
+        Gauge {
+            name: self.name.clone(),
+            shown: self.name.clone(),
+            reason,
+            value: now,
+            reference: 0.0,
+            reference_time: self.since,
+            drift: now,
+            max_drift: self.farthest,
+            history: self.history.stretches().iter().map(|s| s.peak() as f32).collect(),
+            verdict,
+        }
+    }
+}
+
+/// What the force of a constraint is: in the file's words, else λ times the row.
+fn force(model: &Model, equations: &Equations, index: usize) -> String {
+    let about = &model.constraints[index].about;
+    if !about.is_empty() {
+        return about.clone();
+    }
+    let pool = &equations.pool;
+    let row = model.coordinates.iter().zip(&equations.constraints[index].row);
+    let parts = row.filter(|(_, a)| **a != Expr::ZERO).map(|(c, &a)| {
+        let factor = pool.unicode(a);
+        let factor = match factor.as_str() {
+            "1" => "λ".to_owned(),
+            "−1" => "−λ".to_owned(),
+            _ if factor.chars().count() > LONGEST => "λ A".to_owned(),
+            _ => format!("λ·({factor})"),
+        };
+        format!("{factor} on {}", c.shown)
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Four significant digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    rounded.to_string()
+}

@@ -1,0 +1,467 @@
+//! A motion with all that happens to it: steps, constraints that are kept, blows at their times,
+//! events where they are found.
+//!
+//! In: a system, a method, a state. Out: states at the times asked for, and [`Happening`]s. Never
+//! here: rows, gauges, what can be seen of a state.
+
+use super::crossing::{Crossings, Found};
+use super::{Method, Refusal, Settings, Stepper};
+use crate::expr::Double;
+use crate::model::Action;
+use crate::system::{Fault, FaultKind, Form, Keeper, Schedule, State, System};
+
+/// An event that comes ever faster, so many times in a row, …
+const PATIENCE: u32 = 4;
+
+/// … and at last after so small a part of the time that has passed, piles up: time would never pass
+/// that point.
+const HASTE: f64 = 1e-9;
+
+/// It comes faster where the time to the last one is at most this part of that before.
+const FASTER: f64 = 0.9999;
+
+/// An event that has not come yet.
+const UNHURRIED: (f64, f64, u32) = (f64::NEG_INFINITY, 0.0, 0);
+
+/// Something that happened.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Happening {
+    /// The event's or the impulse's name.
+    pub name: String,
+    /// When.
+    pub time: f64,
+    /// What it was.
+    pub kind: Kind,
+}
+
+/// What happened.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Kind {
+    /// An event was passed.
+    Mark,
+    /// An event ended the motion.
+    Stop,
+    /// The constraint of this index was let go.
+    Release(usize),
+    /// A blow fell.
+    Blow {
+        /// Δp of each coordinate, or the jump of each variable.
+        jump: Vec<f64>,
+        /// Λ of each constraint.
+        reaction: Vec<f64>,
+    },
+}
+
+/// How far a motion came.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Reached {
+    /// To the time asked for.
+    There,
+    /// Not so far: the steps allowed were taken.
+    Underway,
+    /// To something that happened on the way; the state is the one after it.
+    Happened(Happening),
+    /// Not so far: an event has ended the motion.
+    Ended,
+}
+
+/// A motion under way.
+pub struct Motion {
+    /// As compiled, with all its constraints.
+    whole: System,
+    /// With those that still hold.
+    system: System,
+    method: &'static Method,
+    settings: Settings,
+    stepper: Box<dyn Stepper>,
+    keeper: Option<Keeper>,
+    crossings: Option<Crossings>,
+    schedule: Vec<Schedule>,
+    parameters: Vec<f64>,
+    start: f64,
+    /// The present.
+    state: State,
+    /// The state before the last blow.
+    before: State,
+    /// Up to here the last step holds no event that is not known.
+    clear: f64,
+    /// What happens there.
+    waiting: Option<Found>,
+    /// The blows that fall at `clear` and have fallen.
+    fallen: Option<(f64, usize)>,
+    /// Of each event: when it was last passed, after what time, and how often it came faster.
+    hurried: Vec<(f64, f64, u32)>,
+    ended: bool,
+    steps: u64,
+}
+
+impl Motion {
+    /// A motion that has yet to [begin](Motion::begin).
+    ///
+    /// # Errors
+    /// Where the method does not fit the system.
+    pub fn new(
+        system: &System,
+        method: &'static Method,
+        settings: Settings,
+        parameters: &[f64],
+    ) -> Result<Motion, Refusal> {
+        let stepper = (method.make)(system, &settings)?;
+        let blank = State::new(0.0, system.form(), Vec::new());
+        let mut motion = Motion {
+            whole: system.clone(),
+            system: system.clone(),
+            method,
+            settings,
+            stepper,
+            keeper: None,
+            crossings: None,
+            schedule: Vec::new(),
+            parameters: parameters.to_vec(),
+            start: 0.0,
+            state: blank.clone(),
+            before: blank,
+            clear: 0.0,
+            waiting: None,
+            fallen: None,
+            hurried: vec![UNHURRIED; system.occasions().events.len()],
+            ended: false,
+            steps: 0,
+        };
+        motion.take_system();
+        Ok(motion)
+    }
+
+    /// Takes what depends on which constraints hold anew.
+    fn take_system(&mut self) {
+        self.keeper = self.system.keeper(&self.parameters);
+        let triggers = self.system.triggers(&self.parameters);
+        let directions = self.system.occasions().events.iter().map(|e| e.direction).collect();
+        let blank = State::new(0.0, self.system.form(), Vec::new());
+        self.crossings = triggers.map(|t| Crossings::new(t, directions, blank));
+        self.schedule = self.system.schedule(&self.parameters);
+    }
+
+    /// Begins anew at a state: with all constraints, and no event behind it.
+    ///
+    /// # Errors
+    /// Where the motion cannot begin there.
+    pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        self.start = state.time;
+        self.ended = false;
+        self.hurried.fill(UNHURRIED);
+        self.parameters = parameters.to_vec();
+        self.system = self.whole.hold_all(state, parameters);
+        // a step asked for was taken before, so the method still fits
+        if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
+            self.stepper = stepper;
+        }
+        self.take_system();
+        self.resume(state)
+    }
+
+    /// Goes on from another state at the present time, or with other parameters: constraints that
+    /// were let go stay so.
+    ///
+    /// # Errors
+    /// Where the motion cannot go on from there.
+    pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        if parameters != self.parameters {
+            self.parameters = parameters.to_vec();
+            self.schedule = self.system.schedule(parameters);
+            if let Some(keeper) = &mut self.keeper {
+                keeper.set_parameters(parameters);
+            }
+            if let Some(crossings) = &mut self.crossings {
+                crossings.set_parameters(parameters);
+                crossings.forget();
+            }
+        }
+        self.resume(state)
+    }
+
+    /// Takes another method or other settings, and goes on from the present state by it.
+    ///
+    /// # Errors
+    /// Where the method does not fit the system; all stays as it was.
+    pub fn change_method(
+        &mut self,
+        method: &'static Method,
+        settings: Settings,
+    ) -> Result<(), Refusal> {
+        self.stepper = (method.make)(&self.system, &settings)?;
+        self.method = method;
+        self.settings = settings;
+        Ok(())
+    }
+
+    fn resume(&mut self, state: &State) -> Result<(), Fault> {
+        if state.form == self.system.form() {
+            self.state.copy_from(state);
+        } else {
+            self.state = self.system.convert(state, self.system.form(), &self.parameters)?;
+        }
+        self.clear = state.time;
+        self.waiting = None;
+        self.stepper.start(&self.state, &self.parameters)
+    }
+
+    /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
+    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed. What
+    /// happens at `time` itself has happened when it is reached.
+    ///
+    /// # Errors
+    /// Where the motion cannot go on.
+    pub fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, Fault> {
+        loop {
+            if self.ended {
+                return Ok(Reached::Ended);
+            }
+            if self.clear <= time {
+                if let Some(found) = self.waiting.take() {
+                    return self.meet(found).map(Reached::Happened);
+                }
+                if let Some(impulse) = self.due() {
+                    return self.fall(impulse).map(Reached::Happened);
+                }
+            }
+            if self.clear >= time {
+                self.look(time)?;
+                return Ok(Reached::There);
+            }
+            if self.stepper.time() <= self.clear {
+                if *budget == 0 {
+                    return Ok(Reached::Underway);
+                }
+                *budget -= 1;
+                self.step(limit)?;
+            }
+            self.scan()?;
+        }
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+        let limit = self.next_blow().map_or(limit, |blow| blow.min(limit));
+        self.stepper.step(limit)?;
+        self.steps += 1;
+        if let Some(keeper) = &mut self.keeper {
+            self.before.copy_from(self.stepper.state());
+            keeper.project(&mut self.before)?;
+            self.stepper.settle(&self.before);
+        }
+        Ok(())
+    }
+
+    /// Looks for events in what was computed beyond `clear`, up to the next blow.
+    fn scan(&mut self) -> Result<(), Fault> {
+        let end = self.stepper.time();
+        let end = self.next_blow().map_or(end, |blow| blow.min(end));
+        if let Some(crossings) = &mut self.crossings {
+            self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
+        }
+        self.clear = self.waiting.map_or(end, |found| found.time);
+        Ok(())
+    }
+
+    /// The present becomes the state at a time within the last step.
+    fn look(&mut self, time: f64) -> Result<(), Fault> {
+        let (begin, end) = self.stepper.interval();
+        if time == end || begin == end {
+            self.state.copy_from(self.stepper.state());
+        } else {
+            self.stepper.at(time, &mut self.state)?;
+            if let (Some(keeper), Form::Velocity) = (&mut self.keeper, self.state.form) {
+                keeper.project(&mut self.state)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The present in the system's own form.
+    fn own(&self) -> Result<State, Fault> {
+        self.system.convert(&self.state, self.system.form(), &self.parameters)
+    }
+}
+
+/// What happens.
+impl Motion {
+    /// The time of the first blow that is due and has not fallen.
+    fn next_blow(&self) -> Option<f64> {
+        let now = self.clear;
+        let last = self.fallen.filter(|&(time, _)| time == now).map(|(_, impulse)| impulse);
+        let next = |(i, schedule): (usize, &Schedule)| {
+            // of several at one time those further down in the file are still to fall
+            let open = |time: f64| time > now || (time == now && last.is_none_or(|k| i > k));
+            let after_start = |time: &f64| *time > self.start && open(*time);
+            let listed = schedule.times.iter().map(|time| time.high).filter(after_start);
+            let periodic = schedule.interval.and_then(|interval| {
+                let start = Double::written(self.start);
+                let count = ((now - self.start) / interval.high).floor().max(1.0);
+                (-1..=2)
+                    .map(|k| (start + interval * (count + f64::from(k))).high)
+                    .find(|time| *time > self.start && open(*time))
+            });
+            listed.chain(periodic).min_by(f64::total_cmp)
+        };
+        self.schedule.iter().enumerate().filter_map(next).min_by(f64::total_cmp)
+    }
+
+    /// The impulse that falls at `clear`, if one does.
+    fn due(&self) -> Option<usize> {
+        let time = self.next_blow().filter(|&time| time <= self.clear)?;
+        let last = self.fallen.filter(|&(at, _)| at == self.clear).map(|(_, impulse)| impulse);
+        let falls = |&i: &usize| {
+            let schedule = &self.schedule[i];
+            let listed = schedule.times.iter().any(|x| x.high == time);
+            let periodic = schedule.interval.is_some_and(|interval| {
+                let count = ((time - self.start) / interval.high).round();
+                count >= 1.0 && (Double::written(self.start) + interval * count).high == time
+            });
+            (listed || periodic) && last.is_none_or(|k| i > k)
+        };
+        (0..self.schedule.len()).find(falls)
+    }
+
+    fn fall(&mut self, impulse: usize) -> Result<Happening, Fault> {
+        let time = self.clear;
+        self.look(time)?;
+        self.fallen = Some((time, impulse));
+        self.strike(impulse, None)
+    }
+
+    /// The present is struck, as by the user's hand.
+    ///
+    /// # Errors
+    /// Where no motion has the momenta the blow gives.
+    pub fn strike_now(&mut self, impulse: usize) -> Result<Happening, Fault> {
+        self.strike(impulse, None)
+    }
+
+    /// Strikes the present state.
+    fn strike(&mut self, impulse: usize, event: Option<usize>) -> Result<Happening, Fault> {
+        let mut before = self.own()?;
+        let time = before.time;
+        if let Some(keeper) = &mut self.keeper {
+            keeper.project(&mut before)?;
+        }
+        let struck = self.system.strike_by(impulse, &before, &self.parameters)?;
+        let kind = Kind::Blow { jump: struck.jump, reaction: struck.reaction };
+        if let Some(crossings) = &mut self.crossings {
+            crossings.struck(&before, &struck.after, event)?;
+        }
+        self.before.copy_from(&before);
+        self.resume(&struck.after)?;
+        let occasions = self.system.occasions();
+        let name = match event {
+            Some(event) => occasions.events[event].name.clone(),
+            None => occasions.impulses[impulse].name.clone(),
+        };
+        Ok(Happening { name, time, kind })
+    }
+
+    /// An event is passed, and what it does is done.
+    fn meet(&mut self, found: Found) -> Result<Happening, Fault> {
+        self.look(found.time)?;
+        self.note_haste(found)?;
+        let trigger = self.system.occasions().events[found.event].clone();
+        let kind = match trigger.action {
+            Action::Mark => Kind::Mark,
+            Action::Stop => {
+                self.ended = true;
+                Kind::Stop
+            }
+            Action::Release(constraint) => {
+                self.before.copy_from(&self.state);
+                let state = self.own()?;
+                self.system = self.system.release(constraint, &state, &self.parameters);
+                if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
+                    self.stepper = stepper;
+                }
+                self.take_system();
+                self.resume(&state)?;
+                Kind::Release(constraint)
+            }
+            Action::Impulse(impulse) => return self.strike(impulse, Some(found.event)),
+        };
+        Ok(Happening { name: trigger.name, time: found.time, kind })
+    }
+
+    /// An event that comes again and again without end stops the motion with a reason.
+    fn note_haste(&mut self, found: Found) -> Result<(), Fault> {
+        let (last, before, count) = &mut self.hurried[found.event];
+        let gap = found.time - *last;
+        *count = if gap <= FASTER * *before { *count + 1 } else { 0 };
+        (*last, *before) = (found.time, gap);
+        if *count < PATIENCE || gap > HASTE * (found.time - self.start).abs() {
+            return Ok(());
+        }
+        let name = self.system.occasions().events[found.event].name.clone();
+        Err(self.system.fault(FaultKind::PilesUp(name), found.time, &self.state.values))
+    }
+}
+
+/// What can be asked of it.
+impl Motion {
+    /// The system, without the constraints that were let go.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The method.
+    pub fn method(&self) -> &'static Method {
+        self.method
+    }
+
+    /// Its step or tolerance.
+    pub fn settings(&self) -> Settings {
+        self.settings
+    }
+
+    /// The present state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The state just before the last blow or release.
+    pub fn before(&self) -> &State {
+        &self.before
+    }
+
+    /// The time up to which the motion has been computed.
+    pub fn computed(&self) -> f64 {
+        self.clear
+    }
+
+    /// Moves the present to the end of what was computed.
+    ///
+    /// # Errors
+    /// Where it cannot be told.
+    pub fn reach_computed(&mut self) -> Result<(), Fault> {
+        self.look(self.clear)
+    }
+
+    /// The steps taken.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The step last taken.
+    pub fn step_size(&self) -> f64 {
+        self.stepper.step_size()
+    }
+
+    /// How far the present is from keeping each constraint: position and velocity, measured by the
+    /// size of their terms.
+    pub fn residuals(&mut self) -> Vec<[f64; 2]> {
+        match (&mut self.keeper, self.state.form) {
+            (Some(keeper), Form::Velocity) => keeper.residuals(&self.state),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Forgets the count of steps; the clock shows `time`.
+    pub fn forget(&mut self, time: f64) {
+        self.steps = 0;
+        self.state = State::new(time, self.system.form(), Vec::new());
+    }
+}

@@ -1,0 +1,336 @@
+//! Blows and events: when they fall, what they do, and that none is overlooked or invented.
+
+use phaselab::experiment::{Command, Experiment, Progress, Status};
+use phaselab::integrate::Kind;
+
+use crate::experiment::{PLENTY, build, gauge, run, value};
+
+const FREE: &str = r#"
+title = 'a test'
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+[lagrangian]
+L = "1/2*x'^2"
+"#;
+
+fn file(text: &str) -> Experiment {
+    build(text, |_| ())
+}
+
+/// Names and times of what happened.
+fn passed(experiment: &Experiment) -> Vec<(String, f64)> {
+    experiment.happenings().iter().map(|h| (h.name.clone(), h.time)).collect()
+}
+
+fn times(experiment: &Experiment, name: &str) -> Vec<f64> {
+    passed(experiment).into_iter().filter(|(n, _)| n == name).map(|(_, t)| t).collect()
+}
+
+#[test]
+fn the_kicked_rotor_is_the_standard_map_to_rounding() {
+    // Chirikov, Phys. Rep. 52 (1979) 263: p' = p + K sin θ, θ' = θ + p'
+    let text = "
+title = 'kicked rotor'
+[coordinates]
+theta = { initial = 1.0, velocity = 0.3 }
+[parameters]
+K = 0.9
+[lagrangian]
+L = \"1/2*theta'^2\"
+[[impulses]]
+name = 'kick'
+every = 1.0
+change = { p_theta = 'K*sin(theta)' }
+";
+    for method in ["taylor", "gauss4", "rk4"] {
+        let mut rotor = build(text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = (method != "taylor").then_some(0.25);
+        });
+        let (mut theta, mut p) = (1.0_f64, 0.3_f64);
+        for n in 1..=30 {
+            theta += p;
+            p += 0.9 * theta.sin();
+            run(&mut rotor, f64::from(n));
+            // the map itself magnifies rounding: K = 0.9, thirty times
+            let within = 4e-15 * 1.5_f64.powi(n);
+            assert!((value(&rotor, "theta") - theta).abs() < within, "{method}: θ after {n}");
+            assert!((value(&rotor, "p_theta") - p).abs() < within, "{method}: p after {n}");
+        }
+        let kicks = times(&rotor, "kick");
+        assert_eq!(kicks, (1..=30).map(f64::from).collect::<Vec<_>>(), "{method}");
+    }
+}
+
+#[test]
+fn a_blow_changes_p_and_not_q_and_gives_the_energy_its_law_says() {
+    let text = "
+title = 'a struck pendulum that is damped'
+[coordinates]
+theta = { initial = 0.4 }
+[lagrangian]
+L = \"1/2*theta'^2 + cos(theta)\"
+dissipation = \"0.05*theta'^2\"
+[[impulses]]
+name = 'blow'
+at = [2.0, 2.0000000001]
+change = { p_theta = '0.7' }
+[[impulses]]
+name = 'second'
+at = 2.0
+change = { p_theta = \"-2*theta'\" }
+";
+    let mut struck = file(text);
+    run(&mut struck, 1.999_999_999_999);
+    let (theta, rate) = (value(&struck, "theta"), value(&struck, "theta'"));
+    run(&mut struck, 2.0);
+    // in the order of the file, each sees what the one before it left
+    assert!((value(&struck, "theta") - theta).abs() < 1e-11);
+    assert!((value(&struck, "theta'") + (rate + 0.7)).abs() < 1e-11);
+    let names: Vec<_> = passed(&struck).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["blow", "second"]);
+    run(&mut struck, 12.0);
+    assert_eq!(times(&struck, "blow"), [2.0, 2.000_000_000_1]);
+    let snapshot = struck.snapshot();
+    assert!(gauge(&snapshot, "energy ledger").max_drift < 1e-14, "blows included");
+}
+
+#[test]
+fn blows_are_counted_from_the_start_in_decimals() {
+    let text = format!(
+        "{FREE}
+[[impulses]]
+name = 'tick'
+every = 0.1
+change = {{ p_x = '1' }}
+[run]
+start = 0.05
+"
+    );
+    let mut ticks = file(&text);
+    run(&mut ticks, 1.05);
+    let expected: Vec<f64> =
+        (1..=10).map(|n| format!("{:.2}", 0.05 + 0.1 * f64::from(n)).parse().unwrap()).collect();
+    assert_eq!(times(&ticks, "tick"), expected);
+    assert_eq!(value(&ticks, "x'"), 11.0);
+}
+
+#[test]
+fn a_blow_under_a_constraint_has_its_reaction() {
+    // a dumbbell of two unit masses struck at one end, along the rod and across it: along it both
+    // move together, so half of the blow is taken on by the rod; across it only the struck one does
+    let text = "
+title = 'dumbbell'
+[coordinates]
+x1 = { initial = 0.0, velocity = 0.0 }
+y1 = { initial = 0.0, velocity = 0.0 }
+x2 = { initial = 2.0, velocity = 0.0 }
+y2 = { initial = 0.0, velocity = 0.0 }
+[lagrangian]
+L = \"1/2*(x1'^2 + y1'^2 + x2'^2 + y2'^2)\"
+[[constraints]]
+name = 'rod'
+expression = '(x1 - x2)^2 + (y1 - y2)^2 - 4'
+[[impulses]]
+name = 'blow'
+at = 1.0
+change = { p_x1 = '3', p_y1 = '1' }
+";
+    let mut dumbbell = file(text);
+    run(&mut dumbbell, 1.0);
+    let found = ["x1'", "y1'", "x2'", "y2'"].map(|name| value(&dumbbell, name));
+    for (found, right) in found.into_iter().zip([1.5, 1.0, 1.5, 0.0]) {
+        assert!((found - right).abs() < 1e-15, "{found} is not {right}");
+    }
+    // p_x2 = Λ ∂f/∂x2 = Λ · 2 (x2 − x1)
+    let Kind::Blow { jump, reaction } = &dumbbell.happenings()[0].kind else { panic!("no blow") };
+    assert!((reaction[0] - 1.5 / 4.0).abs() < 1e-15, "{reaction:?}");
+    assert!((jump[0] - 1.5).abs() < 1e-15 && (jump[2] - 1.5).abs() < 1e-15, "{jump:?}");
+}
+
+#[test]
+fn a_ball_bounces_at_the_times_of_its_parabolas() {
+    // from rest at h = 1 with g = 2: the first bounce at 1, then after 2 e, 2 e², …
+    let text = "
+title = 'ball'
+[coordinates]
+x = { initial = 1.0, velocity = 0.0 }
+[parameters]
+e = 0.8
+[lagrangian]
+L = \"1/2*x'^2 - 2*x\"
+[[impulses]]
+name = 'floor'
+change = { p_x = \"-(1 + e)*x'\" }
+[[events]]
+name = 'bounce'
+when = 'x'
+direction = 'falling'
+action = 'impulse:floor'
+";
+    let mut ball = file(text);
+    run(&mut ball, 7.0);
+    let mut time = 1.0;
+    for (n, found) in times(&ball, "bounce").into_iter().enumerate() {
+        assert!((found - time).abs() < 1e-14 * (1.0 + n as f64), "bounce {n}: {found}, {time}");
+        time += 2.0 * 0.8_f64.powi(n as i32 + 1);
+    }
+    assert_eq!(times(&ball, "bounce").len(), 7);
+    // Σ ends at t = 1 + 2 e/(1 − e) = 9, and no motion leads beyond
+    let progress = ball.advance(10.0, PLENTY);
+    assert_eq!(progress, Progress::Stuck);
+    let Status::Faulted(fault) = ball.status() else { panic!("it went on") };
+    assert!((fault.time - 9.0).abs() < 1e-6, "{}", fault.time);
+    assert!(fault.message.contains("piles up"), "{}", fault.message);
+    assert!(value(&ball, "x").abs() < 1e-9, "it did not fall through the floor");
+}
+
+#[test]
+fn a_particle_leaves_the_sphere_at_two_thirds_and_flies_on() {
+    // The Principles of Dynamics, § 1.3.2: from rest at θ₀, cos θ = ⅔ cos θ₀
+    let text = "
+title = 'sphere'
+[coordinates]
+x = { initial = 'sin(0.3)', velocity = 0.0 }
+z = { initial = 'cos(0.3)', velocity = 0.0 }
+[lagrangian]
+L = \"1/2*(x'^2 + z'^2) - z\"
+[[constraints]]
+name = 'sphere'
+expression = 'x^2 + z^2 - 1'
+[[events]]
+name = 'lift-off'
+when = 'lambda_sphere'
+direction = 'falling'
+action = 'release:sphere'
+";
+    let mut particle = file(text);
+    run(&mut particle, 3.0);
+    let lift_off = times(&particle, "lift-off");
+    assert_eq!(lift_off.len(), 1);
+    assert_eq!(value(&particle, "lambda_sphere"), 0.0);
+    // back at that moment, by the parabola
+    let back = 3.0 - lift_off[0];
+    let z = value(&particle, "z") - value(&particle, "z'") * back - 0.5 * back * back;
+    let cosine = 2.0 / 3.0 * 0.3_f64.cos();
+    assert!((z - cosine).abs() < 1e-14, "{z} is not {cosine}");
+    assert!((value(&particle, "energy") - 0.3_f64.cos()).abs() < 1e-15);
+    // begun again, it is on the sphere again
+    particle.obey(Command::Reset);
+    run(&mut particle, 0.5);
+    assert!(value(&particle, "lambda_sphere") > 0.0);
+    assert!(particle.happenings().is_empty());
+}
+
+#[test]
+fn events_are_located_to_the_last_digits_and_in_their_direction() {
+    let text = "
+title = 'oscillator'
+[coordinates]
+x = { initial = 1.0, velocity = 0.0 }
+[lagrangian]
+L = \"1/2*x'^2 - 1/2*x^2\"
+[[events]]
+name = 'down'
+when = 'x'
+direction = 'falling'
+[[events]]
+name = 'either'
+when = 'x'
+[[events]]
+name = 'top'
+when = \"x'\"
+direction = 'falling'
+";
+    let pi = std::f64::consts::PI;
+    for (method, step, within) in
+        [("taylor", None, 4e-15), ("dop853", None, 1e-12), ("leapfrog", Some(1e-3), 1e-4)]
+    {
+        let mut oscillator = build(text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut oscillator, 40.0);
+        let check = |name: &str, first: f64, every: f64, count: usize| {
+            let found = times(&oscillator, name);
+            assert_eq!(found.len(), count, "{method}: {name} {found:?}");
+            for (n, time) in found.into_iter().enumerate() {
+                let right = first + every * n as f64;
+                let error = (time - right).abs();
+                assert!(error < within * (1.0 + right), "{method}: {name} {n} off by {error:e}");
+            }
+        };
+        check("down", pi / 2.0, 2.0 * pi, 7);
+        check("either", pi / 2.0, pi, 13);
+        // it is at rest at the start, and does not fire there
+        check("top", 2.0 * pi, 2.0 * pi, 6);
+    }
+}
+
+#[test]
+fn fast_functions_are_not_stepped_over_and_touches_are_not_crossings() {
+    let text = format!(
+        "{FREE}
+[[events]]
+name = 'fast'
+when = 'sin(50*t)'
+direction = 'rising'
+[[events]]
+name = 'close pair'
+when = '(t - 3)^2 - 1e-8'
+[[events]]
+name = 'touch'
+when = '(t - 5)^2'
+[[events]]
+name = 'line'
+when = 'x - 7'
+[[events]]
+name = 'never'
+when = 'x^2 + 1'
+"
+    );
+    let mut free = file(&text);
+    run(&mut free, 10.0);
+    let turn = 2.0 * std::f64::consts::PI / 50.0;
+    let fast = times(&free, "fast");
+    assert_eq!(fast.len(), 79, "{fast:?}");
+    for (n, time) in fast.iter().enumerate() {
+        assert!((time - turn * (n + 1) as f64).abs() < 1e-13);
+    }
+    let pair = times(&free, "close pair");
+    assert_eq!(pair.len(), 2, "{pair:?}");
+    assert!((pair[0] - 2.9999).abs() < 1e-11 && (pair[1] - 3.0001).abs() < 1e-11);
+    assert!(times(&free, "touch").is_empty());
+    assert_eq!(times(&free, "line"), [7.0]);
+    assert!(times(&free, "never").is_empty());
+}
+
+#[test]
+fn an_event_may_end_the_motion() {
+    let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
+    let mut free = file(&text);
+    assert_eq!(free.advance(5.0, PLENTY), Progress::Ended);
+    assert_eq!(free.status(), Status::Ended("far".to_owned()));
+    assert_eq!((free.time(), value(&free, "x")), (2.0, 2.0));
+    free.obey(Command::Reset);
+    run(&mut free, 1.5);
+    assert_eq!(free.status(), Status::Running);
+}
+
+#[test]
+fn a_blow_waits_for_its_key() {
+    let text =
+        format!("{FREE}[[impulses]]\nname = 'push'\nchange = {{ p_x = '2' }}\nabout = 'a push'\n");
+    let mut free = file(&text);
+    run(&mut free, 3.0);
+    assert!(free.happenings().is_empty());
+    free.obey(Command::Strike(0));
+    free.obey(Command::Strike(7));
+    assert_eq!((value(&free, "x"), value(&free, "x'")), (3.0, 3.0));
+    run(&mut free, 4.0);
+    assert_eq!(value(&free, "x"), 6.0);
+    assert_eq!(passed(&free), [("push".to_owned(), 3.0)]);
+    let snapshot = free.snapshot();
+    assert!(snapshot.notices.last().is_some_and(|n| n.contains("push")), "{:?}", snapshot.notices);
+    assert!(gauge(&snapshot, "energy").max_drift < 1e-15, "it is told from the blow");
+}
