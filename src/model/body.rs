@@ -28,6 +28,23 @@ pub struct BodyNames {
 }
 
 impl BodyNames {
+    /// How they are written: six components, three moments, the mass, the centre of mass.
+    pub const WRITTEN: [&'static str; 13] = [
+        "Ixx",
+        "Iyy",
+        "Izz",
+        "Ixy",
+        "Ixz",
+        "Iyz",
+        "I1",
+        "I2",
+        "I3",
+        "body_mass",
+        "body_x",
+        "body_y",
+        "body_z",
+    ];
+
     /// All of them.
     pub fn all(&self) -> Vec<Symbol> {
         let single = [self.mass];
@@ -115,6 +132,12 @@ pub struct Attitude {
     pub source: AttitudeSource,
     /// Where the table stands in the file.
     pub place: Place,
+}
+
+impl Attitude {
+    /// How the entries of the matrix are written, by rows.
+    pub const WRITTEN: [[&'static str; 3]; 3] =
+        [["A11", "A12", "A13"], ["A21", "A22", "A23"], ["A31", "A32", "A33"]];
 }
 
 /// Where an attitude comes from.

@@ -5,7 +5,7 @@ mod allowed;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::{Mechanics, Model, multiplier_name};
+use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
 use crate::expr::{
     Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, nearest, parse,
 };
@@ -232,6 +232,10 @@ impl Scope {
             known.push("pi");
         }
         known.sort_unstable();
+        if let Some(table) = table_of(name).filter(|_| primes == 0) {
+            let help = format!("{table} defines it; other names stand in [parameters]");
+            return error.with_help(help);
+        }
         match nearest(name, known) {
             Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
             None if primes > 0 => error.with_help("only coordinates have velocities"),
@@ -330,6 +334,17 @@ impl Scope {
             Some(near) => error.with_help(format!("did you mean `{near}'`?")),
             None => error,
         }
+    }
+}
+
+/// The table that defines a name by being in the file.
+fn table_of(name: &str) -> Option<&'static str> {
+    if BodyNames::WRITTEN.contains(&name) {
+        Some("[body]")
+    } else if Attitude::WRITTEN.as_flattened().contains(&name) {
+        Some("[attitude]")
+    } else {
+        None
     }
 }
 

@@ -5,7 +5,9 @@
 //! the way, in the file's own bytes. Never here: what follows from the mechanics, and whether what
 //! the file claims of itself is true.
 
+mod body;
 mod claims;
+mod comparison;
 mod constraint;
 mod motion;
 mod names;
@@ -41,11 +43,24 @@ pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Optio
     }
     check.run(&draft.run);
     check.multipliers(draft);
+    check.body_names(draft.body.as_ref(), draft.attitude.as_ref());
+    if let Some(comparison) = &draft.comparison {
+        check.comparison(comparison);
+    }
     check.occurrences_named_once(draft);
     check.definitions(draft);
     let law = check.law(&draft.mechanics, &mut names);
+    if let Some(body) = &draft.body {
+        check.body(body);
+    }
     check.initial_values(draft, law);
     check.constraints(&draft.constraints);
+    if let Some(comparison) = &draft.comparison {
+        check.compared(comparison);
+    }
+    if let Some(attitude) = &draft.attitude {
+        check.attitude(attitude);
+    }
     check.impulses(&draft.impulses);
     check.observables(&draft.observables, &mut names);
     check.events(&draft.events);
@@ -130,6 +145,8 @@ impl Check<'_> {
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
         let shapes = draft.shapes.iter().map(|s| s.place.clone()).collect();
+        let pieces = draft.body.iter().flat_map(|body| &body.pieces);
+        let pieces = pieces.map(|piece| piece.place.clone()).collect();
         let brackets = draft.mechanics.iter().flat_map(|m| &m.brackets);
         let brackets = brackets.map(|b| b.place.clone()).collect();
         let casimirs = draft.mechanics.iter().flat_map(|m| &m.casimirs);
@@ -146,6 +163,7 @@ impl Check<'_> {
             named(events, 256, "events"),
             named(brackets, 4096, "brackets"),
             named(casimirs, 64, "casimirs"),
+            named(pieces, 1024, "pieces of a body"),
             named(values, 1024, "expected values"),
             named(conserved, 1024, "conserved quantities"),
             named(views, 64, "views"),

@@ -5,6 +5,7 @@
 //! entry are mistakes. (serde would stop at the first of them; so the tables are walked here.)
 //! Never here: expressions, what names mean, whether numbers make sense.
 
+mod body;
 mod claims;
 mod constraint;
 mod law;
@@ -14,6 +15,7 @@ mod run;
 mod system;
 mod table;
 mod value;
+mod vector;
 
 use toml::Spanned;
 use toml::de::DeTable;
@@ -23,13 +25,15 @@ use super::mistake::Mistake;
 use crate::model::{Info, Place};
 use table::Table;
 
+pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
 pub(super) use claims::{DraftExpect, DraftObservable, DraftValue};
 pub(super) use constraint::DraftConstraint;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
-pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formulas};
+pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
+pub(super) use vector::Formulas;
 
 /// A text with its place, quotes included: an expression still to be read. A number of TOML is
 /// kept as its digits.
@@ -53,6 +57,12 @@ pub(super) struct Draft {
     pub(super) impulses: Vec<DraftImpulse>,
     /// Crossings to be located.
     pub(super) events: Vec<DraftEvent>,
+    /// A body put together from pieces.
+    pub(super) body: Option<DraftBody>,
+    /// How it stands.
+    pub(super) attitude: Option<DraftAttitude>,
+    /// The wrong mechanics beside the right.
+    pub(super) comparison: Option<DraftComparison>,
     /// What is to be watched.
     pub(super) observables: Vec<DraftObservable>,
     /// What the file claims.
@@ -73,7 +83,7 @@ impl Draft {
 }
 
 /// What the format has and this version does not.
-const NOT_YET: [&str; 4] = ["transformations", "generators", "hamilton_jacobi", "body"];
+const NOT_YET: [&str; 3] = ["transformations", "generators", "hamilton_jacobi"];
 
 /// The keys of the file's first level: where a stray key may have been meant to stand.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
@@ -97,6 +107,9 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draf
         constraints: constraint::constraints(&mut top, mistakes),
         impulses: occurrence::impulses(&mut top, mistakes),
         events: occurrence::events(&mut top, mistakes),
+        body: body::body(&mut top, mistakes),
+        attitude: body::attitude(&mut top, mistakes),
+        comparison: body::comparison(&mut top, mistakes),
         observables: claims::observables(&mut top, mistakes),
         expect: claims::expect(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),

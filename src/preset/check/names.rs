@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use crate::expr::{FUNCTIONS, latex_of_unicode};
-use crate::model::{Place, multiplier_name};
+use crate::model::{Attitude, BodyNames, Place, multiplier_name};
 use crate::preset::Mistakes;
 use crate::preset::draft::{Draft, Law};
 use crate::preset::mistake::Mistake;
@@ -30,6 +30,7 @@ impl Names {
             .collect();
         let poisson = draft.law() == Some(Law::Poisson);
         let mut names = Names { taken: BTreeMap::new(), coordinates, poisson, multipliers };
+        names.given(draft);
         let kind = if poisson { "a variable" } else { "a coordinate" };
         for coordinate in &draft.moving.all {
             names.word(&coordinate.name, kind, mistakes);
@@ -41,6 +42,29 @@ impl Names {
             names.word(name, "a definition", mistakes);
         }
         names
+    }
+
+    /// The names that tables of the file define by being there.
+    fn given(&mut self, draft: &Draft) {
+        let mut take = |name: &str, kind: &'static str, place: &Place| {
+            self.taken.insert(name.to_owned(), (kind, place.clone()));
+        };
+        if let Some(body) = &draft.body {
+            for name in BodyNames::WRITTEN {
+                take(name, "what follows from the pieces", &body.place);
+            }
+        }
+        if let Some(attitude) = &draft.attitude {
+            for name in Attitude::WRITTEN.as_flattened() {
+                take(name, "an entry of the matrix", &attitude.place);
+            }
+        }
+        if let Some(comparison) = &draft.comparison {
+            for coordinate in &self.coordinates {
+                let name = format!("other_{coordinate}");
+                take(&name, "a coordinate of the other motion", &comparison.place);
+            }
+        }
     }
 
     /// A name that stands in expressions.

@@ -4,11 +4,9 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, Value};
+use super::vector::{Formulas, optional_point, point};
 use super::{Formula, Mistake, Mistakes, Place, value};
 use crate::expr::nearest;
-
-/// Coordinates of a point: two or three expressions, with their common place.
-pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
@@ -234,40 +232,4 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
 fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Mistakes) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
     value::formula(found, &format!("`{key}`"), mistakes)
-}
-
-/// A point that has to be there.
-fn point(table: &mut Table<'_>, key: &'static str, mistakes: &mut Mistakes) -> Option<Formulas> {
-    let help = format!("write {key} = [\"x\", \"y\", \"z\"]");
-    let (_, found) = table.require(key, &help)?;
-    entries_of_point(found, key, mistakes)
-}
-
-fn optional_point(
-    table: &mut Table<'_>,
-    key: &'static str,
-    mistakes: &mut Mistakes,
-) -> Option<Formulas> {
-    let (_, found) = table.take(key)?;
-    entries_of_point(found, key, mistakes)
-}
-
-fn entries_of_point(found: &Value<'_>, key: &str, mistakes: &mut Mistakes) -> Option<Formulas> {
-    let items = match found.get_ref() {
-        DeValue::Array(items) if matches!(items.len(), 2 | 3) => items,
-        other => {
-            let is = match other {
-                DeValue::Array(items) => format!("a list of {}", items.len()),
-                other => value::kind(other).to_owned(),
-            };
-            let message = format!("`{key}` must be a list of two or three expressions, not {is}");
-            mistakes.push(Mistake::error(found.span(), message));
-            return None;
-        }
-    };
-    let formulas: Vec<Formula> = items
-        .iter()
-        .filter_map(|item| value::formula(item, "a coordinate of a point", mistakes))
-        .collect();
-    (formulas.len() == items.len()).then(|| Formulas::new(found.span(), formulas))
 }

@@ -1,7 +1,10 @@
 //! The tables beside the law: what they may say, and what the model then holds.
 
 use phaselab::expr::{Expr, Rank};
-use phaselab::model::{Action, Allowed, Direction, Mechanics, Model, Scope, multiplier_name};
+use phaselab::model::{
+    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Solid, Turn,
+    multiplier_name,
+};
 
 use super::good::{checked, model, text, with};
 
@@ -278,4 +281,116 @@ brackets = [["x", "p_x", "1"]]
     assert_ne!(x.momentum, p.position);
     let (_, h) = plane.mechanics.function();
     assert!(plane.pool.depends(h, p.position) && !plane.pool.depends(h, x.momentum));
+}
+
+/// A hammer that turns: a head and a handle.
+const HAMMER: &str = r#"title = "Hammer"
+
+[coordinates]
+phi = { initial = 0.0, velocity = "body_mass" }
+theta = { initial = "I1/I3", velocity = 0.0, period = "I2" }
+
+[parameters]
+m = 1.0
+a = 0.5
+
+[definitions]
+T = "Izz*phi'^2/2 + I1*theta'^2/2"
+quarter = "pi/2"
+edge = "a/2"
+
+[lagrangian]
+L = "T - body_mass*body_z*cos(theta)"
+
+[body]
+pieces = [
+  { solid = "cylinder", mass = "m", radius = "a/10", length = "a", at = ["0", "0", "-a/2"] },
+  { solid = "cuboid", mass = "3*m", size = ["a", "edge", "edge"],
+    turned = { axis = ["1", "0", 0], angle = "quarter" } },
+  { solid = "shell", mass = 0, radius = 0, turned = { euler = ["0", "0", "a"] } },
+  { point = true, mass = "-m/10", at = ["a", "0", "0"] },
+]
+
+[attitude]
+euler = ["phi", "theta", "a*t"]
+
+[[observables]]
+name = "tilt"
+expression = "acos(A33) + Ixy"
+
+[[events]]
+name = "level"
+when = "A33 - I1"
+"#;
+
+#[test]
+fn a_body_is_read_with_the_names_it_defines() {
+    let hammer = model(HAMMER);
+    let body = hammer.body.as_ref().unwrap();
+    let Solid::Cylinder { radius, length } = body.pieces[0].solid else { panic!("{body:?}") };
+    assert_eq!((text(&hammer, radius), text(&hammer, length)), ("1/10*a".into(), "a".into()));
+    assert_eq!(body.pieces[0].at.map(|e| text(&hammer, e)), ["0", "0", "-1/2*a"]);
+    assert!(matches!(body.pieces[0].turn, Turn::None));
+    let Solid::Cuboid(edges) = body.pieces[1].solid else { panic!("{body:?}") };
+    assert_eq!(edges.map(|e| text(&hammer, e)), ["a", "1/2*a", "1/2*a"]);
+    let Turn::Axis { axis, angle } = body.pieces[1].turn else { panic!("{body:?}") };
+    assert_eq!(axis.map(|e| text(&hammer, e)), ["1", "0", "0"]);
+    assert_eq!(text(&hammer, angle), "1/2*pi");
+    assert!(matches!(body.pieces[2].solid, Solid::SphericalShell(_)));
+    assert!(matches!(body.pieces[2].turn, Turn::Euler(_)));
+    assert!(matches!(body.pieces[3].solid, Solid::Point));
+    assert!(HAMMER[body.pieces[3].place.clone()].starts_with("{ point = true"));
+    let start = hammer.coordinates[1].initial;
+    let symbols = hammer.pool.symbols_of(start);
+    assert!(symbols.contains(&body.names.principal[0]), "{symbols:?}");
+    assert_eq!(hammer.coordinates[1].period.map(|e| text(&hammer, e)).as_deref(), Some("I2"));
+    let names: Vec<String> =
+        body.names.all().into_iter().map(|s| hammer.pool.symbol_info(s).name.clone()).collect();
+    assert_eq!(names, BodyNames::WRITTEN);
+}
+
+#[test]
+fn an_attitude_has_angles_or_a_rate() {
+    let hammer = model(HAMMER);
+    let attitude = hammer.attitude.as_ref().unwrap();
+    let AttitudeSource::Euler(angles) = attitude.source else { panic!("{attitude:?}") };
+    assert_eq!(angles.map(|e| text(&hammer, e)), ["phi", "theta", "a*t"]);
+    let last = hammer.pool.symbol_info(attitude.matrix[2][2]);
+    assert_eq!((last.name.as_str(), last.unicode.as_str()), ("A33", "A₃₃"));
+    let file = format!("{BODY}[attitude]\nomega = [\"L1/I1\", \"L2/I2\", \"L3/I3\"]\n");
+    let body = model(&file);
+    let AttitudeSource::Rate { omega, start } = body.attitude.as_ref().unwrap().source else {
+        panic!("{:?}", body.attitude)
+    };
+    assert_eq!(omega.map(|e| text(&body, e)), ["L1/I1", "L2/I2", "L3/I3"]);
+    assert_eq!(start, [Expr::ZERO; 3]);
+    let file = format!("{file}start = [\"0\", \"k\", 1]\n");
+    let body = model(&file);
+    let AttitudeSource::Rate { start, .. } = body.attitude.as_ref().unwrap().source else {
+        panic!("{:?}", body.attitude)
+    };
+    assert_eq!(start.map(|e| text(&body, e)), ["0", "k", "1"]);
+}
+
+#[test]
+fn a_comparison_has_names_for_the_other_motion() {
+    let file = format!(
+        "{HOOP}\n[comparison]\neliminate = [\"x\"]\n\
+         [[observables]]\nname = \"apart\"\nexpression = \"other_x - x + other_theta'\"\n"
+    );
+    let hoop = model(&file);
+    let comparison = hoop.comparison.as_ref().unwrap();
+    assert_eq!(comparison.eliminate, [0]);
+    let written: Vec<(&str, &str)> = comparison
+        .symbols
+        .iter()
+        .map(|&(x, v)| {
+            (hoop.pool.symbol_info(x).name.as_str(), hoop.pool.symbol_info(v).name.as_str())
+        })
+        .collect();
+    assert_eq!(written, [("other_x", "other_x'"), ("other_theta", "other_theta'")]);
+    let symbols = hoop.pool.symbols_of(hoop.observables[0].expression);
+    assert!(
+        symbols.contains(&comparison.symbols[0].0) && symbols.contains(&comparison.symbols[1].1)
+    );
 }

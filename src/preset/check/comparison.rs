@@ -1,0 +1,77 @@
+//! The wrong mechanics beside the right: as many velocities to eliminate as there are constraints.
+//! Whether the constraints can be solved for them is not asked here.
+
+use toml::Spanned;
+
+use super::Check;
+use crate::expr::{Rank, latex_of_unicode, nearest};
+use crate::model::Comparison;
+use crate::preset::draft::DraftComparison;
+use crate::preset::mistake::Mistake;
+
+impl Check<'_> {
+    /// The other motion: `other_x` and `other_x'` of every coordinate.
+    pub(super) fn comparison(&mut self, written: &DraftComparison) {
+        let mut symbols = Vec::new();
+        for c in &self.model.coordinates {
+            let pool = &mut self.model.pool;
+            let shown = format!("other {}", c.shown);
+            let position = pool.symbol(&format!("other_{}", c.name));
+            pool.describe(position, &shown, &latex_of_unicode(&shown), Rank::Variable);
+            let rate = pool.symbol_info(c.velocity);
+            let (shown, latex) = (format!("other {}", rate.unicode), rate.latex.clone());
+            let velocity = pool.symbol(&format!("other_{}'", c.name));
+            pool.describe(velocity, &shown, &format!("\\text{{other }}{latex}"), Rank::Rate);
+            symbols.push((position, velocity));
+        }
+        let mut eliminate = Vec::new();
+        let mut seen: Vec<&Spanned<String>> = Vec::new();
+        for name in &written.eliminate {
+            match self.model.coordinate(name.get_ref()) {
+                Some(index) => match seen.iter().find(|n| n.get_ref() == name.get_ref()) {
+                    Some(first) => {
+                        let message = format!("`{}` is eliminated twice", name.get_ref());
+                        let mistake = Mistake::error(name.span(), message);
+                        self.mistakes.push(mistake.with_also(first.span(), "the first time"));
+                    }
+                    None => eliminate.push(index),
+                },
+                None => self.mistakes.push(self.not_eliminated(name)),
+            }
+            seen.push(name);
+        }
+        let place = written.place.clone();
+        self.model.comparison = Some(Comparison { eliminate, symbols, place });
+    }
+
+    fn not_eliminated(&self, name: &Spanned<String>) -> Mistake {
+        let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
+        let message = format!("there is no coordinate `{}`", name.get_ref());
+        Mistake::error(name.span(), message).with_help(
+            match nearest(name.get_ref().trim_end_matches('\''), known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the coordinates are {}", known.join(", ")),
+            },
+        )
+    }
+
+    /// A comparison eliminates as many velocities as there are constraints.
+    pub(super) fn compared(&mut self, written: &DraftComparison) {
+        let constraints = self.model.constraints.len();
+        if constraints == 0 || !self.model.is_lagrangian() {
+            let message = "there is nothing to compare: the file has no constraints";
+            let help = "[comparison] puts the [[constraints]] of a Lagrangian into it";
+            self.mistakes.push(Mistake::error(written.place.clone(), message).with_help(help));
+        } else if written.eliminate.len() != constraints && written.list != (0..0) {
+            let count =
+                |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+            let message = format!(
+                "{} to eliminate for {}",
+                count(written.eliminate.len(), "coordinate"),
+                count(constraints, "constraint")
+            );
+            let help = "each constraint is solved for the velocity of one coordinate";
+            self.mistakes.push(Mistake::error(written.list.clone(), message).with_help(help));
+        }
+    }
+}

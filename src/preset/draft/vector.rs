@@ -1,0 +1,80 @@
+//! Points, directions and triples of angles: lists of expressions, as written.
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::table::{Table, Value};
+use super::{Formula, Mistake, Mistakes, value};
+
+/// Two or three expressions, with their common place.
+pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
+
+/// A point that has to be there; the third entry may be left out.
+pub(super) fn point(
+    table: &mut Table<'_>,
+    key: &'static str,
+    mistakes: &mut Mistakes,
+) -> Option<Formulas> {
+    let help = format!("write {key} = [\"x\", \"y\", \"z\"]");
+    let (_, found) = table.require(key, &help)?;
+    entries(found, key, 2, mistakes)
+}
+
+/// A point or direction that may be left out, and so may its third entry.
+pub(super) fn optional_point(
+    table: &mut Table<'_>,
+    key: &'static str,
+    mistakes: &mut Mistakes,
+) -> Option<Formulas> {
+    let (_, found) = table.take(key)?;
+    entries(found, key, 2, mistakes)
+}
+
+/// Three expressions that have to be there.
+pub(super) fn triple(
+    table: &mut Table<'_>,
+    key: &'static str,
+    mistakes: &mut Mistakes,
+) -> Option<Formulas> {
+    let help = format!("write {key} = [\"...\", \"...\", \"...\"]");
+    let (_, found) = table.require(key, &help)?;
+    entries(found, key, 3, mistakes)
+}
+
+/// Three expressions that may be left out.
+pub(super) fn optional_triple(
+    table: &mut Table<'_>,
+    key: &'static str,
+    mistakes: &mut Mistakes,
+) -> Option<Formulas> {
+    let (_, found) = table.take(key)?;
+    entries(found, key, 3, mistakes)
+}
+
+/// A list of three expressions, or of `least`.
+fn entries(
+    found: &Value<'_>,
+    key: &str,
+    least: usize,
+    mistakes: &mut Mistakes,
+) -> Option<Formulas> {
+    let items = match found.get_ref() {
+        DeValue::Array(items) if (least..=3).contains(&items.len()) => items,
+        other => {
+            let is = match other {
+                DeValue::Array(items) => format!("a list of {}", items.len()),
+                other => value::kind(other).to_owned(),
+            };
+            let many = if least == 3 { "three" } else { "two or three" };
+            let message = format!("`{key}` must be a list of {many} expressions, not {is}");
+            mistakes.push(Mistake::error(found.span(), message));
+            return None;
+        }
+    };
+    let called = if least == 3 { format!("an entry of `{key}`") } else { COORDINATE.to_owned() };
+    let formulas: Vec<Formula> =
+        items.iter().filter_map(|item| value::formula(item, &called, mistakes)).collect();
+    (formulas.len() == items.len()).then(|| Formulas::new(found.span(), formulas))
+}
+
+const COORDINATE: &str = "a coordinate of a point";
