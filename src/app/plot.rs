@@ -90,7 +90,7 @@ fn is_plane(shape: &Shape) -> bool {
         Shape::Mass { at, .. } | Shape::Trace { at } => flat(at),
         Shape::Vector { at, components } => flat(at) && flat(components),
         Shape::Path { points } => points.iter().all(flat),
-        Shape::Plane { .. } => false,
+        Shape::Plane { .. } | Shape::Body { .. } => false,
     }
 }
 

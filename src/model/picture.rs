@@ -23,6 +23,10 @@ pub struct View {
     pub x: Option<Channel>,
     /// What runs up the axis; several in one time series.
     pub y: Vec<Channel>,
+    /// The frame a picture in space is seen from; the axes of `[space]` where there is none.
+    pub frame: Option<usize>,
+    /// What a picture in space draws in place of the model's shapes.
+    pub shapes: Option<Vec<Shape>>,
 }
 
 /// The kinds of panes this version draws.
@@ -98,5 +102,10 @@ pub enum Shape {
         normal: Point,
         /// Its edge.
         size: Expr,
+    },
+    /// The pieces of the model's body, turned by its attitude, with the principal axes.
+    Body {
+        /// Its centre of mass.
+        at: Point,
     },
 }

@@ -6,11 +6,13 @@
 //! the file claims of itself is true.
 
 mod body;
-mod claims;
 mod comparison;
 mod constraint;
+mod expect;
+mod frame;
 mod motion;
 mod names;
+mod observable;
 mod occurrence;
 mod parameters;
 mod picture;
@@ -65,8 +67,10 @@ pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Optio
     check.observables(&draft.observables, &mut names);
     check.events(&draft.events);
     check.expect(&draft.expect);
-    check.views(&draft.views);
-    check.shapes(&draft.shapes);
+    check.frames(&draft.frames);
+    let mut nodes = 0;
+    check.views(&draft.views, &mut nodes);
+    check.model.space = check.shapes(&draft.shapes, &mut nodes);
     if !check.mistakes.any_error() {
         check.unused(draft);
     }
@@ -144,7 +148,13 @@ impl Check<'_> {
         let values = draft.expect.values.iter().map(|v| v.place.clone()).collect();
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
-        let shapes = draft.shapes.iter().map(|s| s.place.clone()).collect();
+        let frames = draft.frames.iter().map(|f| f.place.clone()).collect();
+        let particles = draft.frames.iter().map(|f| vec![f.place.clone(); f.particles.len()]);
+        let own = draft.views.iter().flat_map(|v| v.shapes.iter().flatten());
+        let shapes = own.chain(&draft.shapes).map(|s| s.place.clone()).collect();
+        let events_claimed = draft.expect.events.iter().map(|e| e.place.clone()).collect();
+        let counts = draft.expect.counts.iter().map(|c| c.place.clone()).collect();
+        let brackets_claimed = draft.expect.brackets.iter().map(|b| b.place.clone()).collect();
         let pieces = draft.body.iter().flat_map(|body| &body.pieces);
         let pieces = pieces.map(|piece| piece.place.clone()).collect();
         let brackets = draft.mechanics.iter().flat_map(|m| &m.brackets);
@@ -166,6 +176,11 @@ impl Check<'_> {
             named(pieces, 1024, "pieces of a body"),
             named(values, 1024, "expected values"),
             named(conserved, 1024, "conserved quantities"),
+            named(events_claimed, 1024, "expected events"),
+            named(counts, 1024, "expected counts"),
+            named(brackets_claimed, 256, "expected brackets"),
+            named(frames, 64, "frames"),
+            named(particles.flatten().collect(), 256, "particles of frames"),
             named(views, 64, "views"),
             named(shapes, 1024, "shapes"),
         ];

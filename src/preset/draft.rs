@@ -8,6 +8,7 @@
 mod body;
 mod claims;
 mod constraint;
+mod frame;
 mod law;
 mod occurrence;
 mod picture;
@@ -26,8 +27,11 @@ use crate::model::{Info, Place};
 use table::Table;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
-pub(super) use claims::{DraftExpect, DraftObservable, DraftValue};
+pub(super) use claims::{
+    DraftBracketClaim, DraftCount, DraftExpect, DraftObservable, DraftOccurrence, DraftValue,
+};
 pub(super) use constraint::DraftConstraint;
+pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind};
@@ -67,6 +71,8 @@ pub(super) struct Draft {
     pub(super) observables: Vec<DraftObservable>,
     /// What the file claims.
     pub(super) expect: DraftExpect,
+    /// Frames a picture may be seen from.
+    pub(super) frames: Vec<DraftFrame>,
     /// What the screen opens with.
     pub(super) views: Vec<DraftView>,
     /// The picture in space.
@@ -112,6 +118,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draf
         comparison: body::comparison(&mut top, mistakes),
         observables: claims::observables(&mut top, mistakes),
         expect: claims::expect(&mut top, mistakes),
+        frames: frame::frames(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),
         shapes: picture::shapes(&mut top, mistakes),
         run: run::read(&mut top, mistakes),

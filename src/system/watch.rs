@@ -70,7 +70,8 @@ impl List {
                 list.add_hidden(&c.written, c.expression);
             }
         }
-        for e in model.space.iter().flat_map(numbers_of) {
+        let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
+        for e in model.space.iter().chain(own).flat_map(numbers_of) {
             list.add_hidden("", e);
         }
         list
@@ -236,7 +237,7 @@ fn numbers_of(shape: &Shape) -> Vec<Expr> {
         Shape::Line { from, to } | Shape::Spring { from, to } => [*from, *to].concat(),
         Shape::Circle { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
         Shape::Mass { at, radius } => at.iter().copied().chain(*radius).collect(),
-        Shape::Trace { at } => at.to_vec(),
+        Shape::Trace { at } | Shape::Body { at } => at.to_vec(),
         Shape::Vector { at, components } => [*at, *components].concat(),
         Shape::Path { points } => points.concat(),
         Shape::Plane { at, normal, size } => [&at[..], &normal[..], &[*size]].concat(),

@@ -108,6 +108,8 @@ impl Artist<'_> {
                 let points: Vec<_> = points.iter().map(|point| self.q.point(point)).collect();
                 self.curve(&points, &ground);
             }
+            // no body is drawn yet
+            Shape::Body { .. } => {}
             Shape::Plane { at, normal, size } => {
                 let (at, normal) = (self.q.point(at), self.q.point(normal));
                 let edge = self.q.number(*size);

@@ -10,6 +10,7 @@ use crate::model::{Allowed, Channel, Point, Scope, Shape, View, ViewKind};
 use crate::preset::draft::{
     DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formula, Formulas,
 };
+use crate::preset::mistake::Mistake;
 
 /// Into how many pieces a path is cut where the file does not say.
 const SAMPLES: usize = 96;
@@ -18,8 +19,8 @@ const SAMPLES: usize = 96;
 const PATHS_LIMIT: usize = 1_000_000;
 
 impl Check<'_> {
-    /// What the screen opens with.
-    pub(super) fn views(&mut self, written: &[DraftView]) {
+    /// What the screen opens with. `nodes` counts those of all paths.
+    pub(super) fn views(&mut self, written: &[DraftView], nodes: &mut usize) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
         for view in written {
             let mut channel = |check: &mut Self, formula: &Formula| {
@@ -34,24 +35,36 @@ impl Check<'_> {
                 DraftViewKind::Time => ViewKind::Time,
                 DraftViewKind::NotYet => continue,
             };
-            self.model.views.push(View { kind, title: view.title.clone(), x, y });
+            let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
+            let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
+            self.model.views.push(View { kind, title: view.title.clone(), x, y, frame, shapes });
         }
     }
 
-    /// The picture in space.
-    pub(super) fn shapes(&mut self, written: &[DraftShape]) {
+    /// A picture in space. `nodes` counts those of all paths.
+    pub(super) fn shapes(&mut self, written: &[DraftShape], nodes: &mut usize) -> Vec<Shape> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a shape");
-        let mut nodes = 0;
+        let mut shapes = Vec::new();
         for written in written {
-            let shape = match &written.kind {
-                DraftShapeKind::Path { .. } => self.path(written, &mut nodes, &mut scope),
+            shapes.extend(match &written.kind {
+                DraftShapeKind::Path { .. } => self.path(written, nodes, &mut scope),
+                DraftShapeKind::Body { at } => {
+                    let at = self.point(at.as_ref(), &mut scope);
+                    if self.model.body.is_none() {
+                        let message = "there is no [body] to draw";
+                        let help = "put it together from pieces in [body]";
+                        let mistake = Mistake::error(written.place.clone(), message);
+                        self.mistakes.push(mistake.with_help(help));
+                    }
+                    at.map(|at| Shape::Body { at })
+                }
                 _ => self.shape(&written.kind, &mut scope),
-            };
-            self.model.space.extend(shape);
+            });
         }
+        shapes
     }
 
-    /// A shape that is no path. All parts are read, also where one of them is missing or wrong.
+    /// A shape that is neither path nor body. All parts are read, also where one of them is missing or wrong.
     fn shape(&mut self, written: &DraftShapeKind, scope: &mut Scope) -> Option<Shape> {
         match written {
             DraftShapeKind::Line { from, to } => {
@@ -76,7 +89,7 @@ impl Check<'_> {
                     (self.point(at.as_ref(), scope), self.size(radius.as_ref(), scope));
                 Some(Shape::Mass { at: at?, radius: read })
             }
-            DraftShapeKind::Path { .. } => None,
+            DraftShapeKind::Path { .. } | DraftShapeKind::Body { .. } => None,
             DraftShapeKind::Vector { at, components } => {
                 let (at, components) =
                     (self.point(at.as_ref(), scope), self.point(components.as_ref(), scope));

@@ -17,6 +17,40 @@ pub(in crate::preset) struct DraftObservable {
 pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) conserves: Vec<Spanned<String>>,
     pub(in crate::preset) values: Vec<DraftValue>,
+    pub(in crate::preset) events: Vec<DraftOccurrence>,
+    pub(in crate::preset) counts: Vec<DraftCount>,
+    pub(in crate::preset) brackets: Vec<DraftBracketClaim>,
+}
+
+/// When something is to happen, as written.
+pub(in crate::preset) struct DraftOccurrence {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    pub(in crate::preset) nth: Option<Spanned<f64>>,
+    pub(in crate::preset) at: Option<Spanned<f64>>,
+    pub(in crate::preset) within: Option<Spanned<f64>>,
+    pub(in crate::preset) source: String,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+/// How often something is to happen, as written.
+pub(in crate::preset) struct DraftCount {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    pub(in crate::preset) until: Option<Spanned<f64>>,
+    pub(in crate::preset) is: Option<Spanned<f64>>,
+    pub(in crate::preset) source: String,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+/// What a bracket is to be, as written.
+pub(in crate::preset) struct DraftBracketClaim {
+    pub(in crate::preset) f: Option<Formula>,
+    pub(in crate::preset) g: Option<Formula>,
+    pub(in crate::preset) is: Option<Formula>,
+    pub(in crate::preset) source: String,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
 }
 
 /// A value claimed, as written.
@@ -59,8 +93,74 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftExpec
         let entry = Table::of(item, "this expected value", item.span(), shape, mistakes);
         values.extend(entry.map(|entry| expected(entry, mistakes)));
     }
+    let events = entries(&mut table, "events", "this expected event", mistakes, occurrence);
+    let counts = entries(&mut table, "count", "this expected count", mistakes, count);
+    let brackets = entries(&mut table, "brackets", "this expected bracket", mistakes, bracket);
     table.finish(mistakes);
-    DraftExpect { conserves, values }
+    DraftExpect { conserves, values, events, counts, brackets }
+}
+
+/// A list of claims of one kind.
+fn entries<T>(
+    table: &mut Table<'_>,
+    key: &'static str,
+    called: &str,
+    mistakes: &mut Mistakes,
+    read: fn(Table<'_>, &mut Mistakes) -> T,
+) -> Vec<T> {
+    let shape = match key {
+        "events" => "{ name = \"...\", at = 1.0 }",
+        "count" => "{ name = \"...\", until = 10.0, is = 3 }",
+        _ => "{ f = \"...\", g = \"...\", is = \"...\" }",
+    };
+    let mut all = Vec::new();
+    for item in table.list(key, mistakes) {
+        let entry = Table::of(item, called, item.span(), shape, mistakes);
+        all.extend(entry.map(|entry| read(entry, mistakes)));
+    }
+    all
+}
+
+fn occurrence(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftOccurrence {
+    let name = table.name(mistakes);
+    let at = table.require("at", "give the time: at = 1.0");
+    let claim = DraftOccurrence {
+        name,
+        nth: table.number("nth", mistakes),
+        at: at.and_then(|(_, v)| value::number(v, "`at`", mistakes)),
+        within: table.number("within", mistakes),
+        source: table.line("source", mistakes),
+        place: table.place.clone(),
+    };
+    table.finish(mistakes);
+    claim
+}
+
+fn count(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftCount {
+    let name = table.name(mistakes);
+    let until = table.require("until", "give the time: until = 10.0");
+    let is = table.require("is", "give the number: is = 3");
+    let claim = DraftCount {
+        name,
+        until: until.and_then(|(_, v)| value::number(v, "`until`", mistakes)),
+        is: is.and_then(|(_, v)| value::number(v, "`is`", mistakes)),
+        source: table.line("source", mistakes),
+        place: table.place.clone(),
+    };
+    table.finish(mistakes);
+    claim
+}
+
+fn bracket(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftBracketClaim {
+    let mut side = |key, mistakes: &mut Mistakes| {
+        let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
+        value::formula(found, &format!("`{key}`"), mistakes)
+    };
+    let (f, g, is) = (side("f", mistakes), side("g", mistakes), side("is", mistakes));
+    let source = table.line("source", mistakes);
+    let place = table.place.clone();
+    table.finish(mistakes);
+    DraftBracketClaim { f, g, is, source, place }
 }
 
 fn expected(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftValue {

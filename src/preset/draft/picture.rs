@@ -16,6 +16,10 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) title: String,
     pub(in crate::preset) x: Option<Formula>,
     pub(in crate::preset) y: Vec<Formula>,
+    /// From which frame the picture in space is seen.
+    pub(in crate::preset) frame: Option<Spanned<String>>,
+    /// What is drawn in place of the shapes of `[space]`.
+    pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
 }
 
 /// The kinds of views.
@@ -73,6 +77,9 @@ pub(in crate::preset) enum DraftShapeKind {
         normal: Option<Formulas>,
         size: Option<Formula>,
     },
+    Body {
+        at: Option<Formulas>,
+    },
 }
 
 const VIEWS: [(&str, DraftViewKind); 3] = [
@@ -82,7 +89,8 @@ const VIEWS: [(&str, DraftViewKind); 3] = [
 ];
 const VIEWS_NOT_YET: [&str; 6] =
     ["section", "potential", "spectrum", "ensemble", "transformation", "action"];
-const SHAPES: [&str; 8] = ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane"];
+const SHAPES: [&str; 9] =
+    ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
 
 pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftView> {
     let tables = top.tables("views", "this view", mistakes);
@@ -92,7 +100,7 @@ pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftVi
 fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
     let help = "write kind = \"phase\", \"space\" or \"time\"";
     let Some((_, found)) = table.require("kind", help) else {
-        for key in ["title", "x", "y"] {
+        for key in ["title", "x", "y", "frame", "shapes"] {
             table.take(key);
         }
         table.finish(mistakes);
@@ -114,11 +122,16 @@ fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
         DraftViewKind::Time => (Vec::new(), axis("y", mistakes)),
         DraftViewKind::Phase | DraftViewKind::NotYet => (axis("x", mistakes), axis("y", mistakes)),
     };
+    let (mut frame, mut shapes) = (None, None);
+    if kind == DraftViewKind::Space {
+        frame = table.text("frame", mistakes);
+        shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
+    }
     let place = table.place.clone();
     if kind != DraftViewKind::NotYet {
         table.finish(mistakes);
     }
-    Some(DraftView { place, kind, title, x: x.into_iter().next(), y })
+    Some(DraftView { place, kind, title, x: x.into_iter().next(), y, frame, shapes })
 }
 
 /// What runs up the axis: one expression, or a list of them in a time series.
@@ -162,6 +175,13 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Draft
 
 pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
     let Some(mut table) = top.table("space", mistakes) else { return Vec::new() };
+    let all = shapes_of(&mut table, mistakes);
+    table.finish(mistakes);
+    all
+}
+
+/// The list of shapes of a table.
+fn shapes_of(table: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
     let mut all = Vec::new();
     for item in table.list("shapes", mistakes) {
         let shape = "{ line = [\"0\", \"0\", \"0\"], to = [\"x\", \"y\", \"0\"] }";
@@ -169,7 +189,6 @@ pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftS
             all.extend(self::shape(entry, mistakes));
         }
     }
-    table.finish(mistakes);
     all
 }
 
@@ -207,6 +226,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
             radius: size(&mut table, "radius", mistakes),
             normal: optional_point(&mut table, "normal", mistakes),
         },
+        "body" => DraftShapeKind::Body { at: first },
         "mass" => DraftShapeKind::Mass { at: first, radius: table.formula("radius", mistakes) },
         "path" => DraftShapeKind::Path {
             curve: first,

@@ -68,7 +68,7 @@ impl Scene {
                 let radius = radius.map_or(0.0, |radius| q.number(radius));
                 self.add(grown(reach(q, at, reached), radius, is_flat(q, at)));
             }
-            Shape::Trace { at } => self.add(reach(q, at, reached)),
+            Shape::Trace { at } | Shape::Body { at } => self.add(reach(q, at, reached)),
             Shape::Circle { centre, radius, normal } => {
                 let middle = q.point(centre);
                 let normal = q.point(normal);

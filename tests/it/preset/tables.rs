@@ -2,8 +2,8 @@
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
-    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Solid, Turn,
-    multiplier_name,
+    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Shape, Solid,
+    Turn, multiplier_name,
 };
 
 use super::good::{checked, model, text, with};
@@ -393,4 +393,139 @@ fn a_comparison_has_names_for_the_other_motion() {
     assert!(
         symbols.contains(&comparison.symbols[0].0) && symbols.contains(&comparison.symbols[1].1)
     );
+}
+
+#[test]
+fn a_picture_may_be_seen_from_a_frame() {
+    let file = format!(
+        r#"{HAMMER}
+[[frames]]
+name = "table"
+angle = "phi + a*t"
+[[frames]]
+name = "tilted"
+axis = ["0", "a", "1"]
+angle = "2*t"
+origin = ["t", "sin(theta)", "0"]
+particles = [ {{ at = ["cos(phi)", "0", "t"], mass = "m" }} ]
+[[frames]]
+name = "body"
+attitude = true
+origin = ["0", "0", "1"]
+[[views]]
+kind = "space"
+title = "from the table"
+frame = "tilted"
+shapes = [ {{ body = ["0", "0", "A33"] }}, {{ trace = ["A31", "A32", "A33"] }} ]
+[[views]]
+kind = "space"
+[space]
+shapes = [ {{ body = ["0", "0"] }} ]
+"#
+    );
+    let hammer = model(&file);
+    let of = |point: [Expr; 3]| point.map(|e| text(&hammer, e));
+    let [table, tilted, body] = &hammer.frames[..] else { panic!("{:?}", hammer.frames) };
+    assert_eq!((table.name.as_str(), text(&hammer, table.angle)), ("table", "phi + a*t".into()));
+    assert_eq!((of(table.axis), of(table.origin)), (of(body.axis), of([Expr::ZERO; 3])));
+    assert_eq!(of(table.axis), ["0", "0", "1"]);
+    assert_eq!(of(tilted.axis), ["0", "a", "1"]);
+    assert_eq!(of(tilted.origin), ["t", "sin(theta)", "0"]);
+    let (at, mass) = tilted.particles[0];
+    assert_eq!(
+        (of(at), text(&hammer, mass)),
+        (["cos(phi)", "0", "t"].map(String::from), "m".into())
+    );
+    assert!(body.attitude && !table.attitude && !tilted.attitude);
+    let [seen, plain] = &hammer.views[..] else { panic!("{:?}", hammer.views) };
+    assert_eq!((seen.title.as_str(), seen.frame), ("from the table", Some(1)));
+    let Some([Shape::Body { at }, Shape::Trace { .. }]) = seen.shapes.as_deref() else {
+        panic!("{:?}", seen.shapes)
+    };
+    assert_eq!(of(*at), ["0", "0", "A33"]);
+    assert!(plain.frame.is_none() && plain.shapes.is_none());
+    assert!(matches!(hammer.space[..], [Shape::Body { .. }]));
+}
+
+#[test]
+fn a_file_expects_events_counts_and_brackets() {
+    let file = with(
+        r#"
+[[impulses]]
+name = "kick"
+change = { p_x = 1 }
+[[events]]
+name = "lift-off"
+when = "x"
+[expect]
+events = [ { name = "lift-off", at = 0.5, within = 1e-6, source = "book" },
+           { name = "kick", nth = 3, at = 2 } ]
+count = [ { name = "lift-off", until = 4.0, is = 15, source = "§ 3" } ]
+brackets = [ { f = "x ", g = "x'*m", is = "1", source = "3.2.3" }, { f = "energy", g = "t", is = 0 } ]
+"#,
+    );
+    let model = model(&file);
+    let [first, second] = &model.expect.events[..] else { panic!("{:?}", model.expect) };
+    assert_eq!((first.name.as_str(), first.nth, first.at), ("lift-off", 1, 0.5));
+    assert_eq!((first.within, first.source.as_str()), (1e-6, "book"));
+    assert_eq!(&file[first.place.clone()], "0.5");
+    assert_eq!(
+        (second.name.as_str(), second.nth, second.at, second.within),
+        ("kick", 3, 2.0, 1e-10)
+    );
+    let count = &model.expect.counts[0];
+    assert_eq!((count.name.as_str(), count.until, count.is), ("lift-off", 4.0, 15));
+    assert_eq!(&file[count.place.clone()], "15");
+    let bracket = &model.expect.brackets[0];
+    assert_eq!((bracket.written.as_str(), bracket.source.as_str()), ("[x, x'*m]", "3.2.3"));
+    assert_eq!((text(&model, bracket.f), text(&model, bracket.is)), ("x".into(), "1".into()));
+    assert_eq!(text(&model, bracket.g), "m*x'");
+    assert_eq!(&file[bracket.place.clone()], "\"1\"");
+}
+
+/// What is used in the new tables alone is used.
+#[test]
+fn names_used_in_new_tables_only_are_used() {
+    let used = r#"title = "used"
+[coordinates]
+x = { initial = 1 }
+y = { initial = 0 }
+[parameters]
+a = 1
+b = 1
+c = 1
+d = 1
+e = 1
+f = 1
+g = 1
+h = 1
+[definitions]
+circle = "x^2 + y^2 - a"
+[lagrangian]
+L = "x'^2 + y'^2"
+[[constraints]]
+name = "circle"
+expression = "circle"
+[[impulses]]
+name = "kick"
+every = "b"
+change = { p_x = "c" }
+[[events]]
+name = "turn"
+when = "x - d/4"
+[body]
+pieces = [ { point = true, mass = "e" } ]
+[attitude]
+euler = [0, 0, "f*t"]
+[[frames]]
+name = "table"
+angle = "g*t"
+[expect]
+brackets = [ { f = "h*x", g = "p_x", is = "h" } ]
+"#;
+    assert!(checked(used).warnings.is_empty(), "{:?}", checked(used).warnings);
+    let unused = used.replace("\"h*x\"", "\"x\"").replace("is = \"h\"", "is = 1");
+    let warnings = checked(&unused).warnings;
+    assert_eq!(warnings.len(), 1);
+    assert_eq!(warnings[0].message, "the parameter `h` is not used");
 }

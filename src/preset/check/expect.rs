@@ -1,0 +1,216 @@
+//! What the file claims: read and kept with its places, to be verified by whoever has the motion.
+
+use toml::Spanned;
+
+use super::Check;
+use crate::expr::{Expr, nearest};
+use crate::model::{
+    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics,
+    Place, Scope,
+};
+use crate::preset::draft::{
+    DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
+};
+use crate::preset::mistake::Mistake;
+
+/// The absolute tolerance of a claimed number where the file gives none.
+const TOLERANCE: f64 = 1e-10;
+
+impl Check<'_> {
+    /// What the file claims of the motion.
+    pub(super) fn expect(&mut self, written: &DraftExpect) {
+        let mut scope = Scope::new(&self.model, Allowed::Observable, "an expectation");
+        let mut expect = Expect::default();
+        for claim in &written.conserves {
+            if let Some(e) = self.conserved(claim, &mut scope) {
+                expect.conserves.push((claim.get_ref().clone(), e, claim.span()));
+            }
+        }
+        for value in &written.values {
+            expect.values.extend(self.expected(value, &mut scope));
+        }
+        for claim in &written.events {
+            expect.events.extend(self.expected_event(claim));
+        }
+        for claim in &written.counts {
+            expect.counts.extend(self.expected_count(claim));
+        }
+        let mut sides = Scope::new(&self.model, Allowed::Bracket, "a side of a bracket");
+        for claim in &written.brackets {
+            expect.brackets.extend(self.expected_bracket(claim, &mut sides));
+        }
+        self.model.expect = expect;
+    }
+
+    /// When something is to happen.
+    fn expected_event(&mut self, written: &DraftOccurrence) -> Option<ExpectedEvent> {
+        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        let nth = match &written.nth {
+            None => Some(1),
+            Some(nth) => self.whole(nth, 1, "`nth` counts from 1 in whole numbers"),
+        };
+        self.not_before_the_start(written.at.as_ref());
+        self.tolerance(written.within.as_ref());
+        let at = written.at.as_ref()?;
+        Some(ExpectedEvent {
+            name: name?,
+            nth: nth?,
+            at: *at.get_ref(),
+            within: written.within.as_ref().map_or(TOLERANCE, |w| *w.get_ref()),
+            source: written.source.clone(),
+            place: at.span(),
+        })
+    }
+
+    /// How often something is to happen.
+    fn expected_count(&mut self, written: &DraftCount) -> Option<ExpectedCount> {
+        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        self.not_before_the_start(written.until.as_ref());
+        let is = written.is.as_ref()?;
+        let count = self.whole(is, 0, "`is` counts in whole numbers from 0");
+        Some(ExpectedCount {
+            name: name?,
+            until: *written.until.as_ref()?.get_ref(),
+            is: count?,
+            source: written.source.clone(),
+            place: is.span(),
+        })
+    }
+
+    /// What a bracket is to be.
+    fn expected_bracket(
+        &mut self,
+        written: &DraftBracketClaim,
+        scope: &mut Scope,
+    ) -> Option<ExpectedBracket> {
+        let sides = [&written.f, &written.g, &written.is].map(|formula| {
+            let formula = formula.as_ref()?;
+            let e = self.formula(scope, "a side of a bracket", formula)?;
+            Some((e, formula))
+        });
+        let [Some((f, f_written)), Some((g, g_written)), Some((is, is_written))] = sides else {
+            return None;
+        };
+        Some(ExpectedBracket {
+            f,
+            g,
+            is,
+            written: format!("[{}, {}]", f_written.get_ref().trim(), g_written.get_ref().trim()),
+            source: written.source.clone(),
+            place: is_written.span(),
+        })
+    }
+
+    /// The name of an event or impulse, or a complaint.
+    fn happening(&mut self, name: &Spanned<String>) -> Option<String> {
+        let impulses = self.model.impulses.iter().map(|impulse| impulse.name.as_str());
+        let events = self.model.events.iter().map(|event| event.name.as_str());
+        let known: Vec<&str> = events.chain(impulses).collect();
+        if known.contains(&name.get_ref().as_str()) {
+            return Some(name.get_ref().clone());
+        }
+        let help = match nearest(name.get_ref(), known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if known.is_empty() => "the file has no [[events]] and no [[impulses]]".to_owned(),
+            None => format!("what may happen is {}", known.join(", ")),
+        };
+        let message = format!("there is no event or impulse `{}`", name.get_ref());
+        self.mistakes.push(Mistake::error(name.span(), message).with_help(help));
+        None
+    }
+
+    /// A whole number that is not below the least one.
+    fn whole(&mut self, written: &Spanned<f64>, least: u32, otherwise: &str) -> Option<usize> {
+        let number = *written.get_ref();
+        let fits = number.fract() == 0.0 && (f64::from(least)..=1e9).contains(&number);
+        if !fits {
+            self.error(written.span(), otherwise);
+        }
+        fits.then_some(number as usize)
+    }
+
+    fn not_before_the_start(&mut self, at: Option<&Spanned<f64>>) {
+        let start = self.model.run.start;
+        if let Some(at) = at.filter(|at| *at.get_ref() < start) {
+            self.error(at.span(), format!("this is before the start, t = {start}"));
+        }
+    }
+
+    fn tolerance(&mut self, within: Option<&Spanned<f64>>) {
+        if let Some(within) = within.filter(|w| *w.get_ref() < 0.0) {
+            self.error(within.span(), "`within` is an absolute tolerance and must not be below 0");
+        }
+    }
+
+    /// What a name in `conserves` stands for: `energy`, a momentum, an observable; or an
+    /// expression.
+    fn conserved(&mut self, claim: &Spanned<String>, scope: &mut Scope) -> Option<Expr> {
+        let name = claim.get_ref().as_str();
+        if let Some(observable) = self.model.observables.iter().find(|o| o.name == name) {
+            return Some(observable.expression);
+        }
+        if let Some((_, e, _)) = self.casimirs_by_name().iter().find(|(known, ..)| known == name) {
+            return Some(*e);
+        }
+        let mut trial = scope.clone();
+        if let Some(e) = trial.read(&mut self.model.pool, name) {
+            self.used.append(&mut trial.used);
+            return Some(e);
+        }
+        let momenta: Vec<String> = match self.model.mechanics {
+            Mechanics::Poisson { .. } => Vec::new(),
+            _ => self.model.coordinates.iter().map(|c| format!("p_{}", c.name)).collect(),
+        };
+        let known = ["energy"].into_iter().chain(momenta.iter().map(String::as_str));
+        let known = known.chain(self.casimirs_by_name().iter().map(|(name, ..)| name.as_str()));
+        let known = known.chain(self.model.observables.iter().map(|o| o.name.as_str()));
+        let is_expression = name.contains(['+', '-', '*', '/', '^', '(']);
+        match nearest(name, known) {
+            None if is_expression => {
+                self.formula(scope, "what is conserved", claim);
+            }
+            near => {
+                let message = format!("`{name}` names nothing that could be conserved");
+                let help = match near {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None if self.model.is_poisson() => {
+                        let mut names = vec!["`energy`".to_owned()];
+                        let casimirs = self.casimirs_by_name().iter();
+                        names.extend(casimirs.map(|(name, ..)| format!("`{name}`")));
+                        format!("name {}, or an observable", names.join(", "))
+                    }
+                    None => "name `energy`, a momentum p_..., or an observable".to_owned(),
+                };
+                self.mistakes.push(Mistake::error(claim.span(), message).with_help(help));
+            }
+        }
+        None
+    }
+
+    /// The Casimirs of the file.
+    fn casimirs_by_name(&self) -> &[(String, Expr, Place)] {
+        match &self.model.mechanics {
+            Mechanics::Poisson { casimirs, .. } => casimirs,
+            _ => &[],
+        }
+    }
+
+    fn expected(&mut self, written: &DraftValue, scope: &mut Scope) -> Option<ExpectedValue> {
+        let formula = written.expression.as_ref();
+        let expression = formula.and_then(|f| self.formula(scope, "an expected value", f));
+        self.not_before_the_start(written.at.as_ref());
+        self.tolerance(written.within.as_ref());
+        let (formula, is) = (formula?, written.is.as_ref()?);
+        let name =
+            if written.name.is_empty() { formula.get_ref().clone() } else { written.name.clone() };
+        Some(ExpectedValue {
+            name,
+            expression: expression?,
+            at: *written.at.as_ref()?.get_ref(),
+            is: *is.get_ref(),
+            within: written.within.as_ref().map_or(TOLERANCE, |w| *w.get_ref()),
+            source: written.source.clone(),
+            place: is.span(),
+        })
+    }
+}

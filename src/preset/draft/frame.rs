@@ -1,0 +1,64 @@
+//! Frames a picture may be seen from, as written.
+
+use toml::Spanned;
+
+use super::table::Table;
+use super::vector::{self, Formulas};
+use super::{Formula, Mistake, Mistakes, Place, value};
+
+/// A frame as written.
+pub(in crate::preset) struct DraftFrame {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    pub(in crate::preset) axis: Option<Formulas>,
+    pub(in crate::preset) angle: Option<Formula>,
+    pub(in crate::preset) origin: Option<Formulas>,
+    /// Where each particle is, and its mass.
+    pub(in crate::preset) particles: Vec<(Option<Formulas>, Option<Formula>)>,
+    /// Where the file says that it is the frame of the body.
+    pub(in crate::preset) attitude: Option<Place>,
+    /// Where it stands.
+    pub(in crate::preset) place: Place,
+}
+
+pub(super) fn frames(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftFrame> {
+    let tables = top.tables("frames", "this frame", mistakes);
+    tables.into_iter().map(|table| frame(table, mistakes)).collect()
+}
+
+fn frame(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftFrame {
+    let name = table.name(mistakes);
+    let attitude = table.flag("attitude", mistakes).filter(|flag| *flag.get_ref());
+    let (axis_key, _) = table.take("axis").unzip();
+    let axis = vector::optional_triple(&mut table, "axis", mistakes);
+    let (angle_key, found) = match &attitude {
+        Some(_) => table.take("angle"),
+        None => {
+            let help = "write angle = \"...\", or attitude = true for the frame of the body";
+            table.require("angle", help)
+        }
+    }
+    .unzip();
+    let angle = found.and_then(|found| value::formula(found, "`angle`", mistakes));
+    if attitude.is_some() {
+        for key in [axis_key, angle_key].into_iter().flatten() {
+            let message = "the frame of the body turns with [attitude]; it has no axis and angle";
+            mistakes.push(Mistake::error(key, message));
+        }
+    }
+    let origin = vector::optional_triple(&mut table, "origin", mistakes);
+    let mut particles = Vec::new();
+    for item in table.list("particles", mistakes) {
+        let shape = "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }";
+        let Some(mut entry) = Table::of(item, "this particle", item.span(), shape, mistakes) else {
+            continue;
+        };
+        let at = vector::triple(&mut entry, "at", mistakes);
+        let found = entry.require("mass", "write mass = \"...\"");
+        particles.push((at, found.and_then(|(_, v)| value::formula(v, "`mass`", mistakes))));
+        entry.finish(mistakes);
+    }
+    let place = table.place.clone();
+    table.finish(mistakes);
+    let attitude = attitude.map(|flag| flag.span());
+    DraftFrame { name, axis, angle, origin, particles, attitude, place }
+}
