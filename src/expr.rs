@@ -26,6 +26,7 @@ mod simplify;
 mod sum;
 mod symbol;
 mod syntax;
+mod terms;
 mod text;
 mod token;
 mod trigonometry;

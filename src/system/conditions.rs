@@ -8,27 +8,21 @@ use std::sync::Arc;
 use super::motion::Writer;
 use super::program::Program;
 use super::value::Values;
-use crate::expr::{Double, Expr, FunctionId, Number, Symbol};
+use crate::expr::{Double, Expr, Symbol};
 
 /// A row whose part independent of the rows before it is smaller than this, measured by the row,
 /// says nothing new.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The program of (q, t): of each constraint A, A₀, f and the size of f's terms.
+/// The program of (q, t): of each constraint A, A₀ and f, then the sizes of their terms.
 pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
     let mut outputs = Vec::new();
     for row in &writer.equations.constraints {
-        outputs.extend_from_slice(&row.row);
-        outputs.push(row.rate);
-        let f = row.position.unwrap_or(Expr::ZERO);
-        outputs.push(f);
-        let pool = &mut writer.pool;
-        let terms: Vec<(Number, Expr)> = pool.summands(f);
-        let sizes: Vec<(Number, Expr)> = terms
-            .into_iter()
-            .map(|(c, term)| (c.abs(), pool.call(FunctionId::Abs, &[term])))
-            .collect();
-        outputs.push(pool.linear(Number::ZERO, &sizes));
+        let mut values = row.row.clone();
+        values.push(row.rate);
+        values.push(row.position.unwrap_or(Expr::ZERO));
+        outputs.extend_from_slice(&values);
+        outputs.extend(values.into_iter().map(|e| writer.pool.size_of_terms(e)));
     }
     let equations = writer.equations;
     let mut lowering = writer.lowering();
@@ -89,7 +83,12 @@ impl Conditions {
     }
 
     fn output(&self, constraint: usize, place: usize) -> Double {
-        self.values.output(constraint * (self.degrees + 3) + place)
+        self.values.output(constraint * 2 * (self.degrees + 2) + place)
+    }
+
+    /// The size of the terms of what stands at this place.
+    fn size(&self, constraint: usize, place: usize) -> f64 {
+        self.output(constraint, self.degrees + 2 + place).high
     }
 
     /// A of one constraint and one coordinate.
@@ -105,17 +104,16 @@ impl Conditions {
     /// f of a holonomic constraint, zero of others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
         let value = self.output(constraint, self.degrees + 1);
-        Residual { value, size: self.output(constraint, self.degrees + 2).high }
+        Residual { value, size: self.size(constraint, self.degrees + 1) }
     }
 
     /// A q̇ + A₀.
     pub(super) fn velocity(&self, constraint: usize, velocities: &[Double]) -> Residual {
         let mut value = self.output(constraint, self.degrees);
-        let mut size = value.high.abs();
+        let mut size = self.size(constraint, self.degrees);
         for (i, &v) in velocities.iter().enumerate() {
-            let term = self.entry(constraint, i) * v;
-            value = value + term;
-            size += term.high.abs();
+            value = value + self.entry(constraint, i) * v;
+            size += self.size(constraint, i) * v.high.abs();
         }
         Residual { value, size }
     }

@@ -1,5 +1,6 @@
 //! Dense linear equations, factored with pivoting: `P M = L U` by rows of comparable scale
-//! (Golub & Van Loan, Matrix Computations, 3.4).
+//! (Golub & Van Loan, Matrix Computations, 3.4), the columns measured by the units of their
+//! unknowns.
 
 use crate::expr::Real;
 
@@ -12,6 +13,8 @@ pub(super) struct Factored<R> {
     size: usize,
     entries: Vec<R>,
     rows: Vec<usize>,
+    /// The unit of each unknown, and the size of each row in these.
+    units: Vec<f64>,
     scales: Vec<f64>,
     scratch: Vec<R>,
 }
@@ -22,6 +25,7 @@ impl<R: Real> Factored<R> {
             size,
             entries: vec![R::ZERO; size * size],
             rows: (0..size).collect(),
+            units: vec![1.0; size],
             scales: vec![0.0; size],
             scratch: vec![R::ZERO; size],
         }
@@ -35,20 +39,19 @@ impl<R: Real> Factored<R> {
         let mut finite = true;
         for i in 0..n {
             self.rows[i] = i;
-            let mut scale = 0.0_f64;
             for j in 0..n {
                 let x = entry(i, j);
                 finite &= x.value().is_finite();
                 self.entries[i * n + j] = x;
-                scale = scale.max(x.value().abs());
             }
-            self.scales[i] = scale;
         }
         if !finite {
             return true;
         }
+        self.measure();
         for k in 0..n {
-            let size = |i: &usize| self.entries[i * n + k].value().abs() / self.scales[*i];
+            let unit = self.units[k];
+            let size = |i: &usize| self.entries[i * n + k].value().abs() * unit / self.scales[*i];
             let Some(best) =
                 (k..n).max_by(|&a, &b| size(&self.rows[a]).total_cmp(&size(&self.rows[b])))
             else {
@@ -72,6 +75,33 @@ impl<R: Real> Factored<R> {
             }
         }
         true
+    }
+
+    /// Finds units in which the diagonal is 1: in a mass matrix 1/√Mᵢᵢ, whatever the masses are
+    /// measured in (van der Sluis, Numer. Math. 14, 1969: nearly the best scaling of a symmetric
+    /// matrix). What has no diagonal entry, a constraint or a coordinate without mass, takes its
+    /// unit from the largest entry that ties it to one that has.
+    fn measure(&mut self) {
+        let n = self.size;
+        let at = |i: usize, j: usize| self.entries[i * n + j].value().abs();
+        let unit = |size: f64| Some(1.0 / size).filter(|x| x.is_normal());
+        let mut units: Vec<Option<f64>> = (0..n).map(|i| unit(at(i, i).sqrt())).collect();
+        while units.contains(&None) {
+            let known = units.clone();
+            for i in (0..n).filter(|&i| known[i].is_none()) {
+                let ties = (0..n).filter_map(|j| known[j].map(|c| at(i, j) * c));
+                units[i] = unit(ties.fold(0.0, f64::max));
+            }
+            if units == known {
+                break;
+            }
+        }
+        for (i, found) in units.iter().enumerate() {
+            self.units[i] = found.unwrap_or(1.0);
+        }
+        for i in 0..n {
+            self.scales[i] = (0..n).map(|j| at(i, j) * self.units[j]).fold(0.0, f64::max);
+        }
     }
 
     /// Solves for a right-hand side, in place.

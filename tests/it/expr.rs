@@ -45,6 +45,19 @@ fn canonical_forms() {
 }
 
 #[test]
+fn the_size_of_terms_sees_what_cancels() {
+    let check = |source: &str, size: &str| {
+        assert_eq!(text(source, |pool, e| pool.size_of_terms(e)), size, "{source}");
+    };
+    check("q - u", "abs(q) + abs(u)");
+    check("2*q^2 - 3", "2*q^2 + 3");
+    check("a*(q - u)", "abs(a)*(abs(q) + abs(u))");
+    check("(q - u)/(a - b)", "(abs(q) + abs(u))/abs(a - b)");
+    check("sin(q) - u", "abs(sin(q)) + abs(u)");
+    check("sin(q - u)", "abs(q)*abs(cos(q - u)) + abs(u)*abs(cos(q - u)) + abs(sin(q - u))");
+}
+
+#[test]
 fn derivatives() {
     let check = |source: &str, slope: &str| {
         let derived = text(source, |pool, e| {

@@ -1,0 +1,60 @@
+//! The size of the terms an expression is made of: what its value is to be measured by where the
+//! terms may cancel, inside a product or a function as well as in the sum itself.
+//!
+//! In: an expression. Out: another one, nowhere negative. Never here: numbers.
+
+use rustc_hash::FxHashMap;
+
+use super::function::FunctionId;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+
+impl Pool {
+    /// The size of an expression's terms: |c| + Σ|cᵢ|·size of a sum, the product of the sizes of
+    /// a product's factors, |f(u)| + |f'(u)|·size of a function of a sum u, and |e| of all else.
+    /// Never less than |e|.
+    pub fn size_of_terms(&mut self, e: Expr) -> Expr {
+        let mut sizes: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let size = self.size_of_node(part, &sizes);
+            sizes.insert(part, size);
+        }
+        sizes[&e]
+    }
+
+    fn size_of_node(&mut self, e: Expr, sizes: &FxHashMap<Expr, Expr>) -> Expr {
+        match &*self.shared(e) {
+            Node::Sum(constant, terms) => {
+                let terms: Vec<(Number, Expr)> =
+                    terms.iter().map(|(c, t)| (c.abs(), sizes[t])).collect();
+                self.linear(constant.abs(), &terms)
+            }
+            Node::Product(c, factors) => {
+                let mut parts = Vec::with_capacity(factors.len());
+                for &(base, exponent) in factors {
+                    let base = if exponent.is_negative() {
+                        self.call(FunctionId::Abs, &[base])
+                    } else {
+                        sizes[&base]
+                    };
+                    parts.push((base, exponent));
+                }
+                self.monomial(c.abs(), &parts)
+            }
+            Node::Call(function, arguments) => {
+                let mut parts = vec![self.call(FunctionId::Abs, &[e])];
+                for (i, argument) in arguments.iter().enumerate() {
+                    if matches!(self.node(*argument), Node::Sum(..)) {
+                        let slope = (function.row().derivative)(self, arguments, i);
+                        let slope = self.call(FunctionId::Abs, &[slope]);
+                        parts.push(self.mul(slope, sizes[argument]));
+                    }
+                }
+                self.sum(&parts)
+            }
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Power(..) => {
+                self.call(FunctionId::Abs, &[e])
+            }
+        }
+    }
+}
