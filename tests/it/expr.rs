@@ -51,10 +51,10 @@ fn the_size_of_terms_sees_what_cancels() {
     };
     check("q - u", "abs(q) + abs(u)");
     check("2*q^2 - 3", "2*q^2 + 3");
-    check("a*(q - u)", "abs(a)*(abs(q) + abs(u))");
+    check("a*(q - u)", "(abs(q) + abs(u))*abs(a)");
     check("(q - u)/(a - b)", "(abs(q) + abs(u))/abs(a - b)");
     check("sin(q) - u", "abs(sin(q)) + abs(u)");
-    check("sin(q - u)", "abs(q)*abs(cos(q - u)) + abs(u)*abs(cos(q - u)) + abs(sin(q - u))");
+    check("sin(q - u)", "abs(sin(q - u)) + (abs(q) + abs(u))*abs(cos(q - u))");
 }
 
 #[test]
