@@ -3,6 +3,7 @@
 //! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
 //! of its change, what is conserved and why. Never here: numbers in motion.
 
+mod comparison;
 mod constrain;
 mod equations;
 mod hamilton;
@@ -19,7 +20,8 @@ use crate::model::{Mechanics, Model};
 
 pub use constrain::{augmented, with_reactions};
 pub use equations::{
-    Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason, Separable, WhyNot,
+    Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason,
+    Separable, Twin, WhyNot,
 };
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 
@@ -44,6 +46,13 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
         }
     };
     equations.pool = pool;
+    if let Some(comparison) = &model.comparison {
+        equations.twin = Some(comparison::twin(&mut equations, model, comparison));
+    }
+    if !equations.carried.is_empty() {
+        let why = "numbers are carried along that do not follow from H";
+        equations.separable = Err(WhyNot(why.to_owned()));
+    }
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
         return Err(WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes")));

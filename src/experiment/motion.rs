@@ -153,7 +153,7 @@ impl Motion {
 
     /// What the gauges look at.
     pub(super) fn present<'a>(&'a self, parameter: &'a dyn Fn(Symbol) -> f64) -> Present<'a> {
-        let action = self.state().values.get(self.system().moving());
+        let action = self.state().values.get(self.system().driven());
         Present {
             time: self.time(),
             steps: self.steps(),

@@ -38,6 +38,10 @@ pub struct Equations {
     pub constraints: Vec<ConstraintRow>,
     /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
     pub multipliers: Result<Vec<Expr>, WhyNot>,
+    /// Numbers that are integrated beside the motion and do not act on it.
+    pub carried: Vec<Carried>,
+    /// The wrong mechanics beside the right, where the file asks for it.
+    pub twin: Option<Twin>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// What is conserved, and why.
@@ -74,6 +78,36 @@ pub struct ConstraintRow {
     pub bias: Expr,
     /// f(q, t), where the constraint is holonomic.
     pub position: Option<Expr>,
+}
+
+/// Numbers that are integrated beside the motion: functions of the state, of themselves and of t.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    /// What they are called, in the order in which a state carries them.
+    pub symbols: Vec<Symbol>,
+    /// Their rates of change.
+    pub rates: CarriedRates,
+    /// Their values at the start, of the state there and the parameters.
+    pub initial: CarriedRates,
+}
+
+/// As many expressions as there are numbers: some as they stand, then the solution of linear
+/// equations.
+#[derive(Clone, Debug)]
+pub struct CarriedRates {
+    /// The first ones.
+    pub plain: Vec<Expr>,
+    /// The matrix of the others.
+    pub matrix: Vec<Vec<Expr>>,
+    /// Its right side.
+    pub right: Vec<Expr>,
+}
+
+/// The wrong mechanics beside the right.
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// L with the constraints put into it.
+    pub lagrangian: Result<Expr, WhyNot>,
 }
 
 /// The equations of motion as they are integrated.

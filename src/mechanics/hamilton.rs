@@ -59,6 +59,8 @@ pub(super) fn equations(
         solved: Ok(solved),
         constraints: Vec::new(),
         multipliers: Ok(Vec::new()),
+        carried: Vec::new(),
+        twin: None,
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,

@@ -105,6 +105,8 @@ pub(super) fn equations(
         solved,
         constraints,
         multipliers,
+        carried: Vec::new(),
+        twin: None,
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,

@@ -49,6 +49,8 @@ pub(super) fn equations(
         solved: Ok(rates),
         constraints: Vec::new(),
         multipliers: Ok(Vec::new()),
+        carried: Vec::new(),
+        twin: None,
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),

@@ -34,6 +34,8 @@ struct Shared {
     watch: Watch,
     occasions: Occasions,
     legendre: Arc<Program>,
+    /// Of a state in the native form: the numbers carried along, as they start.
+    carried: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
     initial: Arc<Program>,
     constraints: Option<Constrained>,
@@ -137,6 +139,7 @@ impl System {
             legendre: legendre::program(writer)?,
             initial,
             constraints,
+            carried: writer.carried_start()?,
             known: coordinates.iter().map(known).collect(),
             energy,
             occasions: Occasions::of(model, writer)?,
@@ -155,9 +158,15 @@ impl System {
         if self.form() == Form::Variables { self.degrees() } else { 2 * self.degrees() }
     }
 
-    /// How many numbers a state has: those that say where it is, and the integrals carried along.
+    /// The same and the numbers that are carried along beside the motion: all that rates of change
+    /// depend on.
+    pub fn driven(&self) -> usize {
+        self.moving() + self.shared.carried.outputs()
+    }
+
+    /// How many numbers a state has: those that rates depend on, and the integrals.
     pub fn state_len(&self) -> usize {
-        self.moving() + self.shared.quadratures.count()
+        self.driven() + self.shared.quadratures.count()
     }
 
     /// The form its states have where no method asks for another: velocities for a Lagrangian,
@@ -208,6 +217,24 @@ impl System {
 
     /// The initial state at these parameters; `given` values take the place of the file's.
     pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+        let mut state = self.begin(start, parameters, given)?;
+        let program = &self.shared.carried;
+        if program.outputs() > 0 {
+            let mut values: Values<Double> = Values::new(Arc::clone(program));
+            values.set_parameters(&self.inputs(parameters));
+            let numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+            let found = values.evaluate(state.exact_time(), &numbers);
+            found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
+            for i in 0..program.outputs() {
+                state.set(self.moving() + i, values.output(i));
+            }
+            self.check_finite(&state)?;
+        }
+        Ok(state)
+    }
+
+    /// The initial state but for the numbers carried along.
+    fn begin(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let values = self.initial_program(&inputs);
@@ -326,13 +353,13 @@ impl System {
     /// The inputs of programs that look at states: a state in the system's own form, then action
     /// and work, zero where they are not carried.
     pub(super) fn inputs_of(&self, state: &State, out: &mut [Double]) {
-        let moving = self.moving();
-        for (i, x) in out[..moving].iter_mut().enumerate() {
+        let driven = self.driven();
+        for (i, x) in out[..driven].iter_mut().enumerate() {
             *x = state.exact(i);
         }
         let quadratures = self.quadratures();
-        let mut next = moving;
-        for (carried, place) in [(quadratures.action, moving), (quadratures.work, moving + 1)] {
+        let mut next = driven;
+        for (carried, place) in [(quadratures.action, driven), (quadratures.work, driven + 1)] {
             out[place] = Double::ZERO;
             if carried {
                 out[place] = state.exact(next);
@@ -344,7 +371,7 @@ impl System {
     /// Where a state carries the work done on it.
     pub(super) fn work_place(&self) -> Option<usize> {
         let quadratures = self.quadratures();
-        quadratures.work.then(|| self.moving() + usize::from(quadratures.action))
+        quadratures.work.then(|| self.driven() + usize::from(quadratures.action))
     }
 
     /// The energy of a state in the system's own form.

@@ -9,7 +9,7 @@ use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::state::Form;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::{CoordinateSymbols, Equations, Flow};
+use crate::mechanics::{CarriedRates, CoordinateSymbols, Equations, Flow};
 
 /// Which integrals along the motion a state carries behind its coordinates and rates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -76,11 +76,30 @@ impl Writer<'_> {
         lowering
     }
 
+    /// The same, with the numbers carried along behind them.
+    pub(super) fn on_full_state(&mut self) -> Lowering<'_> {
+        let equations = self.equations;
+        let mut lowering = self.on_native_state();
+        bind_carried(&mut lowering, equations);
+        lowering
+    }
+
+    /// The numbers carried along at the start, of a state in the native form.
+    pub(super) fn carried_start(&mut self) -> Result<Arc<Program>, Symbol> {
+        let equations = self.equations;
+        let mut lowering = self.on_native_state();
+        let mut outputs = Vec::new();
+        for carried in &equations.carried {
+            outputs.extend(lower_carried(&mut lowering, &carried.initial));
+        }
+        lowering.finish(outputs)
+    }
+
     /// Rates of change of a state in the native form.
     pub(super) fn native_rates(&mut self) -> Result<Arc<Program>, Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
         let hold = self.hold.clone();
-        let mut lowering = self.on_native_state();
+        let mut lowering = self.on_full_state();
         let mut outputs = match &equations.flow {
             Flow::Lagrange { force, .. } => {
                 let accelerations = hold.bind(&mut lowering, equations, force);
@@ -95,6 +114,7 @@ impl Writer<'_> {
             }
             Flow::Poisson { rates } => lowering.lower_all(rates),
         };
+        outputs.extend(carried_rates(&mut lowering, equations));
         outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
         lowering.finish(outputs)
     }
@@ -159,13 +179,15 @@ impl Writer<'_> {
             }
             let mut outputs = velocities(&mut lowering, &equations.coordinates);
             outputs.extend(lowering.lower_all(momentum_rates));
+            outputs.extend(carried_rates(&mut lowering, equations));
             outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
             lowering.finish(outputs)
         };
-        if let Some(lowering) = self.on_canonical_state() {
+        if let Some(mut lowering) = self.on_canonical_state() {
+            bind_carried(&mut lowering, equations);
             return Ok((finish(lowering)?, true));
         }
-        Ok((finish(self.on_native_state())?, false))
+        Ok((finish(self.on_full_state())?, false))
     }
 
     /// The two halves of a separable system. The action splits with H: Σ p ∂T/∂p − T and −V.
@@ -222,6 +244,26 @@ fn bind_state(
         register
     });
     rates.collect()
+}
+
+/// Makes the numbers carried along the next inputs.
+fn bind_carried(lowering: &mut Lowering<'_>, equations: &Equations) {
+    for &symbol in equations.carried.iter().flat_map(|carried| &carried.symbols) {
+        let register = lowering.input();
+        lowering.bind(symbol, register);
+    }
+}
+
+fn carried_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
+    let all = equations.carried.iter();
+    all.flat_map(|carried| lower_carried(lowering, &carried.rates)).collect()
+}
+
+fn lower_carried(lowering: &mut Lowering<'_>, rates: &CarriedRates) -> Vec<Register> {
+    let mut outputs = lowering.lower_all(&rates.plain);
+    let right = lowering.lower_all(&rates.right);
+    outputs.extend(lowering.solve(&rates.matrix, &right));
+    outputs
 }
 
 fn velocities(lowering: &mut Lowering<'_>, coordinates: &[CoordinateSymbols]) -> Vec<Register> {

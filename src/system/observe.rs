@@ -22,7 +22,7 @@ pub struct Observer {
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = system.moving() + 2;
+        let inputs = system.driven() + 2;
         let mut observer = Observer {
             precise: Values::new(Arc::clone(&watch.precise)),
             drawn: Values::new(Arc::clone(&watch.drawn)),

@@ -165,7 +165,7 @@ impl System {
         if program.outputs() == 0 {
             return None;
         }
-        let inputs = self.moving() + 2;
+        let inputs = self.driven() + 2;
         let mut triggers = Triggers {
             system: self.clone(),
             quick: Values::new(Arc::clone(program)),
@@ -210,7 +210,7 @@ impl System {
         let program = &self.occasions().change;
         let mut values: Values<Double> = Values::new(Arc::clone(program));
         values.set_parameters(&inputs);
-        let mut seen = vec![Double::ZERO; self.moving() + 2];
+        let mut seen = vec![Double::ZERO; self.driven() + 2];
         self.inputs_of(state, &mut seen);
         let found = values.evaluate(state.exact_time(), &seen);
         found.map_err(|why| self.singular(program, why, state.time, &state.values))?;

@@ -50,7 +50,7 @@ impl System {
                 legendre: self.blank_legendre(),
                 native: vec![Double::ZERO; 2 * n],
                 targets: vec![None; n],
-                rounded: vec![0.0; 2 * n],
+                rounded: vec![0.0; self.driven()],
             });
         }
         rates
@@ -110,12 +110,14 @@ impl Rates {
     /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
     /// numbers that do not move are left alone.
     pub fn evaluate(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
-        let numbers = &numbers[..self.system.moving()];
+        let numbers = &numbers[..self.system.driven()];
         let inputs = match &mut self.solver {
             None => numbers,
             Some(solver) => {
                 let outcome = solver.solve(time, numbers);
                 outcome.map_err(|why| self.system.unsolved(why, time, &solver.native))?;
+                let moving = solver.native.len();
+                solver.rounded[moving..].copy_from_slice(&numbers[moving..]);
                 &solver.rounded
             }
         };

@@ -33,7 +33,7 @@ impl System {
     /// Room for series up to an order; orders up to `exact` in double-double (none for zero).
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
-        let (inputs, len) = (self.moving(), self.state_len());
+        let (inputs, len) = (self.driven(), self.state_len());
         let low = (exact > 0).then(|| Growth::new(Arc::clone(program), inputs, len, exact));
         Series {
             system: self.clone(),

@@ -24,8 +24,8 @@ pub struct State {
     pub time_carry: f64,
     /// What the second part of `values` is.
     pub form: Form,
-    /// The coordinates, then their velocities or momenta, then the quadratures that the system
-    /// carries along: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
+    /// The coordinates, then their velocities or momenta, then numbers carried along beside the
+    /// motion, then its quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
     pub values: Vec<f64>,
     /// What rounding cut off.
     pub carry: Vec<f64>,

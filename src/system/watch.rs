@@ -157,7 +157,7 @@ impl List {
     }
 }
 
-/// A program of (q, native rates, action, work) for channels' expressions: p, q̈ and the energy
+/// A program of (q, native rates, numbers carried along, action, work) for channels' expressions: p, q̈ and the energy
 /// are computed first and stand for their symbols.
 pub(super) fn program(
     writer: &mut Writer<'_>,
@@ -174,7 +174,7 @@ pub(super) fn program(
         _ => Vec::new(),
     };
     let hold = writer.hold.clone();
-    let mut lowering = writer.on_native_state();
+    let mut lowering = writer.on_full_state();
     let (action, work) = (lowering.input(), lowering.input());
     lowering.bind(equations.symbols.action, action);
     bind_derived(&mut lowering, equations, &hold, accelerated, &accelerations);

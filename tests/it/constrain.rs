@@ -188,6 +188,80 @@ fn a_knife_edge_on_a_slope_draws_a_cycloid() {
     }
 }
 
+/// Rosenberg's particle, z' = y x' (R. M. Rosenberg, Analytical Dynamics of Discrete Systems, 1977).
+const ROSENBERG: &str = r#"
+title = "Rosenberg's particle"
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 0.5, velocity = 0.7 }
+z = { initial = 0.0 }
+[lagrangian]
+L = "1/2*(x'^2 + y'^2 + z'^2) - 1/4*x^2"
+[[constraints]]
+name = "edge"
+expression = "z' - y*x'"
+[comparison]
+eliminate = ["z"]
+[[observables]]
+name = "twin x"
+expression = "other_x"
+[[observables]]
+name = "twin y"
+expression = "other_y"
+[[observables]]
+name = "twin z'"
+expression = "other_z' - other_y*other_x'"
+"#;
+
+#[test]
+fn the_wrong_mechanics_is_that_of_the_shorter_lagrangian() {
+    // put into L, the constraint leaves ½((1 + y²) x'² + y'²) − ¼x²
+    let short = r#"
+title = "the shorter Lagrangian"
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 0.5, velocity = 0.7 }
+[lagrangian]
+L = "1/2*((1 + y^2)*x'^2 + y'^2) - 1/4*x^2"
+"#;
+    let mut both = crate::experiment::build(ROSENBERG, |_| ());
+    let mut twin = crate::experiment::build(short, |_| ());
+    for time in [0.5, 3.0, 12.0] {
+        run(&mut both, time);
+        run(&mut twin, time);
+        assert!((value(&both, "twin x") - value(&twin, "x")).abs() < 2e-14, "x at {time}");
+        assert!((value(&both, "twin y") - value(&twin, "y")).abs() < 2e-14, "y at {time}");
+        assert!(value(&both, "twin z'").abs() < 1e-14, "the twin keeps the constraint, too");
+    }
+    // and it is wrong: the right motion has y'' = 0
+    assert!((value(&both, "y") - (0.5 + 0.7 * 12.0)).abs() < 1e-14);
+    assert!((value(&both, "y") - value(&both, "twin y")).abs() > 0.1);
+}
+
+#[test]
+fn for_a_holonomic_constraint_both_mechanics_are_one() {
+    let text = r#"
+title = "hoop"
+[coordinates]
+x = { initial = 0.0, velocity = 0.0 }
+theta = { initial = 0.0 }
+[lagrangian]
+L = "1/2*x'^2 + 1/2*theta'^2 + x"
+[[constraints]]
+name = "no slip"
+expression = "theta' - x'"
+[comparison]
+eliminate = ["theta"]
+[[observables]]
+name = "twin"
+expression = "other_x"
+"#;
+    let mut hoop = crate::experiment::build(text, |_| ());
+    run(&mut hoop, 8.0);
+    assert!((value(&hoop, "x") - 16.0).abs() < 1e-14);
+    assert!((value(&hoop, "twin") - 16.0).abs() < 1e-14);
+}
+
 #[test]
 fn what_is_said_twice_is_told_and_shared_evenly() {
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");

@@ -36,6 +36,7 @@ pub(super) fn write(model: &Model, equations: &Equations, script: Script) -> Str
     page.momenta(model);
     page.motion(model);
     page.multipliers();
+    page.twin(model);
     page.happenings(model);
     page.energy();
     page.conserved(model);
@@ -123,6 +124,25 @@ impl Page<'_> {
             }
         }
         self.section("Forces of constraint", &rows);
+    }
+
+    /// The Lagrangian that has the constraints put into it, and what it is not.
+    fn twin(&mut self, model: &Model) {
+        let (Some(twin), Some(comparison)) = (&self.equations.twin, &model.comparison) else {
+            return;
+        };
+        let title =
+            "The wrong mechanics, for comparison: the constraints put into L before it varies";
+        match &twin.lagrangian {
+            Ok(l) => {
+                let eliminated = comparison.eliminate.iter();
+                let eliminated: Vec<String> =
+                    eliminated.map(|&i| self.symbol(model.coordinates[i].velocity)).collect();
+                let name = format!("L without {}", eliminated.join(", "));
+                self.section(title, &[(name, self.math(*l))]);
+            }
+            Err(why) => self.why_not(title, why),
+        }
     }
 
     fn happenings(&mut self, model: &Model) {
