@@ -9,6 +9,9 @@ use super::pool::{Expr, Node, Pool};
 /// An expression heavier than this is only joined and factored, not multiplied out for trial.
 const TRIAL_LIMIT: u64 = 400;
 
+/// The most sums that are brought below one line.
+const MOST_DENOMINATORS: usize = 3;
+
 /// The most terms tried for: what is longer would not be chosen.
 const TRIAL_TERMS: usize = 120;
 
@@ -25,8 +28,45 @@ impl Pool {
             let opened = self.reduce_squares(opened, TRIAL_TERMS);
             let candidate = self.simplify_parts(opened);
             best = self.lighter(best, candidate);
+            if let Some(candidate) = self.over_one_line(expanded) {
+                best = self.lighter(best, candidate);
+            }
         }
         self.lighter(e, best)
+    }
+
+    /// A sum of fractions as one fraction: `a − a/(1 + b) → a b/(1 + b)`. `None` where nothing
+    /// stands below a line that is itself a sum, or too much.
+    fn over_one_line(&mut self, e: Expr) -> Option<Expr> {
+        let terms = self.summands(e);
+        if terms.len() < 2 {
+            return None;
+        }
+        let mut below: Vec<(Expr, Number)> = Vec::new();
+        for &(_, term) in &terms {
+            let Node::Product(_, factors) = self.node(term) else { continue };
+            for &(base, n) in factors.iter().filter(|(_, n)| n.is_negative()) {
+                if n.as_integer().is_none() || !matches!(self.node(base), Node::Sum(..)) {
+                    continue;
+                }
+                match below.iter_mut().find(|(known, _)| *known == base) {
+                    Some((_, least)) => *least = (*least).min(n),
+                    None => below.push((base, n)),
+                }
+            }
+        }
+        if below.is_empty() || below.len() > MOST_DENOMINATORS {
+            return None;
+        }
+        let raised: Vec<(Expr, Number)> = below.iter().map(|&(base, n)| (base, -n)).collect();
+        let above = self.monomial(Number::ONE, &raised);
+        let lifted: Vec<(Number, Expr)> =
+            terms.into_iter().map(|(c, term)| (c, self.mul(term, above))).collect();
+        let numerator = self.linear(Number::ZERO, &lifted);
+        let numerator = self.expand(numerator, TRIAL_TERMS);
+        let numerator = self.simplify_parts(numerator);
+        let line = self.monomial(Number::ONE, &below);
+        Some(self.mul(numerator, line))
     }
 
     /// An equal sum whose terms are simplified one by one, so that a kinetic and a potential part

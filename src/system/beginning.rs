@@ -50,15 +50,7 @@ pub(super) fn begin(
     known: &[Known],
 ) -> Result<(), NoBeginning> {
     let n = known.len();
-    let in_rows = |i: usize| (0..conditions.count()).any(|k| conditions.entry(k, i).high != 0.0);
-    let unknown: Vec<usize> = (0..n)
-        .filter(|&i| match known[i] {
-            Known::Given => false,
-            Known::Momentum(_) => true,
-            // what no constraint speaks of rests, as it would without any
-            Known::LeftOut => in_rows(i),
-        })
-        .collect();
+    let unknown: Vec<usize> = (0..n).filter(|&i| !matches!(known[i], Known::Given)).collect();
     let mut problem = Problem { conditions, momenta, time, known, unknown };
     let (missing, _) = problem.missing(state)?;
     let (_, free) = problem.step(&missing);

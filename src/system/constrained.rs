@@ -15,7 +15,7 @@ use super::motion::Writer;
 use super::program::Program;
 use super::value::Values;
 use super::{Form, State, System};
-use crate::expr::{Double, Symbol};
+use crate::expr::{Double, Expr, Symbol};
 use crate::model::{Action, Model};
 
 /// What is known of the constraints before any state.
@@ -23,6 +23,8 @@ use crate::model::{Action, Model};
 pub(super) struct Constrained {
     program: Arc<Program>,
     pub(super) names: Vec<String>,
+    /// Whether any constraint speaks of each coordinate's velocity.
+    touched: Vec<bool>,
     /// Whether the programs take two switches for each constraint.
     pub(super) switched: bool,
 }
@@ -67,6 +69,9 @@ impl Constrained {
         writer.hold = hold;
         let constrained = Constrained {
             program,
+            touched: (0..model.coordinates.len())
+                .map(|i| rows.iter().any(|row| row.row[i] != Expr::ZERO))
+                .collect(),
             names: rows.iter().map(|row| row.name.clone()).collect(),
             switched,
         };
@@ -274,7 +279,16 @@ impl System {
         momenta.set_parameters(&self.inputs(parameters));
         let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let time = state.exact_time();
-        let found = beginning::begin(&conditions, &mut momenta, time, &mut numbers, known);
+        // what no constraint speaks of rests, as it would without any
+        let known: Vec<Known> = known
+            .iter()
+            .zip(&constrained.touched)
+            .map(|(&known, &touched)| match known {
+                Known::LeftOut if !touched => Known::Given,
+                other => other,
+            })
+            .collect();
+        let found = beginning::begin(&conditions, &mut momenta, time, &mut numbers, &known);
         found.map_err(|why| match why {
             NoBeginning::Missed(k, part) => missed(k, part),
             NoBeginning::Free(free) => {

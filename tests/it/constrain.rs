@@ -319,6 +319,18 @@ fn velocities_left_out_follow_from_the_constraints() {
 }
 
 #[test]
+fn a_velocity_that_happens_to_be_free_at_the_start_is_not_guessed() {
+    // at (1, 0) the rod fixes x' and says nothing of y'; z is no part of any constraint and rests
+    let mut model = lagrangian(&["x", "y", "z"], &[], "1/2*(x'^2 + y'^2 + z'^2)");
+    constrain(&mut model, &[("rod", "x^2 + y^2 - 1")]);
+    start(&mut model, &[("1", None), ("0", None), ("0", None)]);
+    let free = initial(&model, &[]).unwrap_err();
+    assert_eq!(free, FaultKind::FreeVelocities(vec!["y'".to_owned()]));
+    let state = initial(&model, &[Given::Velocity(1, 2.0)]).expect("nothing is left to choose");
+    assert_eq!(state, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+}
+
+#[test]
 fn a_start_off_the_constraint_is_refused_and_one_by_rounding_is_put_right() {
     let mut model = pendulum();
     start(&mut model, &[("1", Some("0")), ("1e-3", None)]);
