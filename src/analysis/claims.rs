@@ -9,7 +9,7 @@ use crate::integrate::{self, Happening, Reached, Settings, method_named};
 use crate::mechanics::{Conserved, Equations, Reason};
 use crate::model::{ExpectedValue, Model, Place};
 use crate::preset::Mistake;
-use crate::system::{ChannelKind, Fault, Observer, System};
+use crate::system::{ChannelKind, Fault, FaultKind, Observer, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
@@ -36,9 +36,15 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
     };
     match Motion::begin(model, &system) {
         Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
-        Err(why) => {
-            mistakes.push(Mistake::error(0..0, format!("the motion cannot begin: {why}")));
+        Err((place, why)) => {
+            mistakes.push(Mistake::error(place, format!("the motion cannot begin: {why}")));
         }
+    }
+    for name in system.redundant() {
+        let constraint = model.constraints.iter().find(|c| c.name == name);
+        let message = format!("the constraint `{name}` repeats what those before it say");
+        let warning = Mistake::warning(constraint.map_or(0..0, |c| c.place.clone()), message);
+        mistakes.push(warning.with_help("their multipliers are those of least norm"));
     }
     mistakes
 }
@@ -114,15 +120,27 @@ impl std::fmt::Display for Short {
     }
 }
 
+/// Where in the file to look for the reason of a start that is none.
+fn place_of(model: &Model, fault: &Fault) -> Place {
+    let constraint = match &fault.kind {
+        FaultKind::ConstraintMissed(name, _) => model.constraints.iter().find(|c| c.name == *name),
+        FaultKind::FreeVelocities(_) => model.constraints.first(),
+        _ => None,
+    };
+    constraint.map_or(0..0, |c| c.place.clone())
+}
+
 impl<'a> Motion<'a> {
-    fn begin(model: &Model, system: &'a System) -> Result<Motion<'a>, String> {
+    fn begin(model: &Model, system: &'a System) -> Result<Motion<'a>, (Place, String)> {
+        let nowhere = |why: String| (0..0, why);
         let parameters = model.parameter_values();
-        let method = method_named("auto").ok_or("there is no method")?;
+        let method = method_named("auto").ok_or_else(|| nowhere("there is no method".into()))?;
         let course = integrate::Motion::new(system, method, Settings::default(), &parameters);
-        let mut course = course.map_err(|refusal| refusal.to_string())?;
+        let mut course = course.map_err(|refusal| nowhere(refusal.to_string()))?;
         let state = system.initial(model.run.start, &parameters, &[]);
-        let state = state.map_err(|fault| fault.to_string())?;
-        course.begin(&state, &parameters).map_err(|fault| fault.to_string())?;
+        let state = state.map_err(|fault| (place_of(model, &fault), fault.to_string()))?;
+        let begun = course.begin(&state, &parameters);
+        begun.map_err(|fault| nowhere(fault.to_string()))?;
         let observer = system.observer(&parameters);
         let values = vec![f64::NAN; system.channels().len()];
         let happenings = Vec::new();

@@ -12,10 +12,10 @@ use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
 use super::failure::Failure;
-use super::open;
 use super::output::Output;
 use super::report::{Closing, Header, Status};
 use super::rows::{Format, Rows};
+use super::{open, stderr};
 use crate::experiment::{self, Experiment, Progress, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
@@ -99,6 +99,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let system = System::compile(&model, &equations, &columns)
         .map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
     refuse_twins(&system)?;
+    for name in system.redundant() {
+        stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
+    }
     let name = arguments.method.as_deref().unwrap_or(&model.run.method);
     let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
 

@@ -501,7 +501,9 @@ impl System {
     ) -> Fault {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
-        Fault { time, kind: FaultKind::SingularMass, place: place.take(4).collect() }
+        let held = self.constraints() > 0;
+        let kind = if held { FaultKind::SingularConstraints } else { FaultKind::SingularMass };
+        Fault { time, kind, place: place.take(4).collect() }
     }
 
     /// The fault of a relation between velocities and momenta that was not solved.

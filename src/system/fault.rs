@@ -46,7 +46,10 @@ impl fmt::Display for Fault {
         match &self.kind {
             FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
             FaultKind::SingularConstraints => {
-                write!(f, "the constraints say the same thing twice at t = {time}")?;
+                write!(
+                    f,
+                    "the constraints and the masses leave no motion, or many, at t = {time}"
+                )?;
             }
             FaultKind::ConstraintLost(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
@@ -81,7 +84,7 @@ impl fmt::Display for Fault {
         f.write_str(match self.kind {
             FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
             FaultKind::SingularConstraints => {
-                ": a configuration in which their directions coincide, or one has none"
+                ": a configuration in which constraints coincide or have no direction"
             }
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
             FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => "",
