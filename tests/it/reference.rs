@@ -3,7 +3,8 @@
 //! Each `tests/reference/NAME.toml` is a system; `NAME.expected.toml` beside it holds what is known
 //! at given times, the typical size of each (`scale`), and by how much the motion magnifies
 //! a relative error of its beginning (`condition`). Known are q, q̇ and p, the multipliers
-//! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`).
+//! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`);
+//! `events` are all that happens up to the last row, `status` how it ends.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
+use phaselab::integrate::{Happening, Kind as happening};
 use phaselab::mechanics;
 use phaselab::preset::Document;
 use phaselab::system::{ChannelKind, System};
@@ -21,6 +23,8 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 struct Expected {
     condition: f64,
+    status: Option<String>,
+    events: Option<Vec<Happened>>,
     scale: BTreeMap<Kind, Vec<f64>>,
     reference: Vec<Known>,
 }
@@ -31,6 +35,17 @@ struct Known {
     at: f64,
     #[serde(flatten)]
     values: BTreeMap<Kind, Vec<String>>,
+}
+
+/// Something that happens, and what a blow does to momenta and asks of constraints.
+#[derive(Deserialize)]
+struct Happened {
+    name: String,
+    t: String,
+    #[serde(default)]
+    jump: BTreeMap<String, String>,
+    #[serde(default)]
+    reaction: BTreeMap<String, String>,
 }
 
 /// A kind of values in a row; an unknown one is refused.
@@ -64,6 +79,26 @@ struct Worst {
     place: String,
 }
 
+impl Worst {
+    /// Holds a value against its digits, measured by `size`.
+    fn look(
+        &mut self,
+        value: f64,
+        digits: &str,
+        size: f64,
+        place: impl Fn() -> String,
+    ) -> Result<(), String> {
+        let truth: f64 = digits.parse().map_err(|_| format!("{digits} is not a number"))?;
+        let error = (value - truth).abs() / (size * f64::EPSILON);
+        // written so that an error that is not a number is the worst of all
+        if error.is_nan() || error > self.error {
+            self.error = if error.is_nan() { f64::INFINITY } else { error };
+            self.place = place();
+        }
+        Ok(())
+    }
+}
+
 /// The error allowed, in units in the last place of the size: rounding a result, and a little of
 /// what rounding the beginning would make.
 fn allowed(condition: f64) -> f64 {
@@ -91,6 +126,59 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
     Experiment::new(&model, &equations, &system, setup).map_err(|why| why.to_string())
 }
 
+/// Holds what happened against what is known; times are measured by themselves, jumps by the sizes
+/// of what jumps, reactions by the largest of them.
+fn happenings(
+    experiment: &mut Experiment,
+    expected: &Expected,
+    events: &[Happened],
+    worst: &mut Worst,
+) -> Result<(), String> {
+    if expected.status.as_deref() == Some("stopped") {
+        while experiment.advance(1e3 * (1.0 + experiment.time()), 1_000_000) == Progress::Underway {
+        }
+        if !matches!(experiment.status(), Status::Ended(_)) {
+            return Err("it is not stopped".into());
+        }
+    }
+    let model = Arc::clone(experiment.model());
+    let mut found: Vec<Happening> = experiment.happenings().to_vec();
+    if found.len() != events.len() {
+        let names: Vec<String> = found.iter().map(|h| format!("{} {}", h.name, h.time)).collect();
+        return Err(format!("{} events, not {}: {names:?}", found.len(), events.len()));
+    }
+    let of_digits = |digits: &String| digits.parse::<f64>().map_or(0.0, f64::abs);
+    let largest = events.iter().flat_map(|e| e.reaction.values()).map(of_digits).fold(0.0, f64::max);
+    let (kind, prefix) = if model.is_poisson() { (Kind::X, "") } else { (Kind::P, "p_") };
+    for (known, found) in events.iter().zip(&mut found) {
+        let Happening { name, time, kind: what } = found;
+        if *name != known.name {
+            return Err(format!("{name} at {time} in place of {} at {}", known.name, known.t));
+        }
+        let time = *time;
+        worst.look(time, &known.t, of_digits(&known.t), || format!("time of {name}, {time}"))?;
+        let (jumps, reactions) = match what {
+            happening::Blow { jump, reaction } => (jump.as_slice(), reaction.as_slice()),
+            _ => (&[][..], &[][..]),
+        };
+        if jumps.len() != known.jump.len() || reactions.len() != known.reaction.len() {
+            return Err(format!("{name} has {} jumps, {} reactions", jumps.len(), reactions.len()));
+        }
+        for (i, (&jump, c)) in jumps.iter().zip(&model.coordinates).enumerate() {
+            let key = format!("{prefix}{}", c.name);
+            let digits = known.jump.get(&key).ok_or_else(|| format!("no jump of {key}"))?;
+            let size = expected.scale[&kind][i];
+            worst.look(jump, digits, size, || format!("jump of {key} at {time}"))?;
+        }
+        for (&reaction, constraint) in reactions.iter().zip(&model.constraints) {
+            let key = &model.pool.symbol_info(constraint.multiplier).name;
+            let digits = known.reaction.get(key).ok_or_else(|| format!("no {key}"))?;
+            worst.look(reaction, digits, largest, || format!("reaction {key} at {time}"))?;
+        }
+    }
+    Ok(())
+}
+
 /// The present value of a channel, and its name.
 fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), String> {
     let mut channels = experiment.system().channels().iter().zip(experiment.values());
@@ -112,22 +200,22 @@ fn worst(file: &Path) -> Result<Worst, String> {
         if let Status::Faulted(fault) = experiment.status() {
             return Err(fault.message);
         }
+        if experiment.time() != known.at {
+            return Err(format!("it ended at {}", experiment.time()));
+        }
         for (&kind, digits) in &known.values {
             let sizes = expected.scale.get(&kind).ok_or(format!("no scale of {kind:?}"))?;
             if sizes.len() != digits.len() {
                 return Err(format!("{kind:?}: {} values, {} sizes", digits.len(), sizes.len()));
             }
-            for (place, (digits, size)) in digits.iter().zip(sizes).enumerate() {
+            for (place, (digits, &size)) in digits.iter().zip(sizes).enumerate() {
                 let (value, shown) = find(&experiment, kind.channel(place))?;
-                let truth: f64 = digits.parse().map_err(|_| format!("{digits} is not a number"))?;
-                let error = (value - truth).abs() / (size * f64::EPSILON);
-                // written so that an error that is not a number is the worst of all
-                if error.is_nan() || error > worst.error {
-                    worst.error = if error.is_nan() { f64::INFINITY } else { error };
-                    worst.place = format!("{shown} at t = {}", known.at);
-                }
+                worst.look(value, digits, size, || format!("{shown} at t = {}", known.at))?;
             }
         }
+    }
+    if let Some(events) = &expected.events {
+        happenings(&mut experiment, &expected, events, &mut worst)?;
     }
     Ok(worst)
 }
