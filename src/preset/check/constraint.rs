@@ -12,6 +12,10 @@ use crate::model::{Allowed, Constraint, Scope, multiplier_name};
 use crate::preset::draft::{Draft, DraftConstraint, Formula};
 use crate::preset::mistake::Mistake;
 
+/// How many nodes may be walked to prove all constraints of a file linear: each of a constraint
+/// once for each velocity in it.
+const PROOF_LIMIT: usize = 4_000_000;
+
 impl Check<'_> {
     /// The constraints by their names, so that their multipliers are known to all expressions; what
     /// they say is read by [`Check::constraints`].
@@ -56,15 +60,32 @@ impl Check<'_> {
             return;
         }
         let mut scope = Scope::new(&self.model, Allowed::Lagrangian, "a constraint");
+        let mut walked = 0;
         for (index, constraint) in written.iter().enumerate() {
             let Some(formula) = &constraint.expression else { continue };
             let name = constraint.name.as_ref().map_or("", |name| name.get_ref());
             let called = format!("the constraint `{name}`");
-            let read = self.formula(&mut scope, &called, formula);
-            if let Some(e) = read.and_then(|e| self.linear(e, &called, formula)) {
+            let Some(e) = self.formula(&mut scope, &called, formula) else { continue };
+            walked += self.effort(e);
+            if walked > PROOF_LIMIT {
+                let message = "with this, the constraints of the file are too long to be proved \
+                               linear in the velocities";
+                self.error(formula.span(), message);
+                return;
+            }
+            if let Some(e) = self.linear(e, &called, formula) {
                 self.model.constraints[index].expression = e;
             }
         }
+    }
+
+    /// How many nodes are walked to prove a constraint linear.
+    fn effort(&self, e: Expr) -> usize {
+        let parts = self.model.pool.reachable(&[e]);
+        let velocities: Vec<Symbol> = self.model.coordinates.iter().map(|c| c.velocity).collect();
+        let present = parts.iter().filter_map(|&part| self.model.pool.as_symbol(part));
+        let present = present.filter(|symbol| velocities.contains(symbol)).count();
+        parts.len() * (1 + present)
     }
 
     /// A constraint proved to be Σ A_α(q, t) q̇_α + A(q, t), in that form where it is not evident

@@ -242,3 +242,25 @@ fn expressions_may_not_outgrow_their_pool() {
     let message = "with this, the file's expressions grow beyond a million nodes";
     assert_eq!(only(&text).message, message);
 }
+
+/// To prove constraints linear takes a walk through them for each velocity.
+#[test]
+fn constraints_have_a_limit_together() {
+    let mut text = "title = \"long\"\n[coordinates]\n".to_owned();
+    for i in 0..64 {
+        writeln!(text, "x{i} = {{ initial = 1 }}").unwrap();
+    }
+    let long: Vec<String> =
+        (0..40_000).map(|i| format!("sin(x{}+{i})*x{}'", i % 64, i % 64)).collect();
+    writeln!(text, "[definitions]\nD = \"{}\"\n[lagrangian]\nL = \"x0'^2\"", long.join("+"))
+        .unwrap();
+    for i in 0..128 {
+        writeln!(text, "[[constraints]]\nname = \"c{i}\"\nexpression = \"D + {i}\"").unwrap();
+    }
+    let mistakes = read(&text).unwrap_err();
+    assert_eq!(mistakes.len(), 1);
+    assert_eq!(
+        mistakes[0].message,
+        "with this, the constraints of the file are too long to be proved linear in the velocities"
+    );
+}
