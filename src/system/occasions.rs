@@ -115,6 +115,7 @@ impl Occasions {
 #[derive(Clone, Debug)]
 pub struct Triggers {
     system: System,
+    parameters: Vec<f64>,
     quick: Values<f64>,
     exact: Values<Double>,
     rounded: Vec<f64>,
@@ -124,14 +125,28 @@ pub struct Triggers {
 impl Triggers {
     /// Takes these parameters from now on.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
         let inputs = self.system.inputs(parameters);
         self.quick.set_parameters(&inputs);
         self.exact.set_parameters(&inputs);
     }
 
-    /// The value of every event's function at a state in the system's own form.
+    /// The inputs for a state, which may have either form.
+    fn take_in(&mut self, state: &State) -> Result<(), Fault> {
+        let form = self.system.form();
+        if state.form == form {
+            self.system.inputs_of(state, &mut self.inputs);
+        } else {
+            let own = self.system.convert(state, form, &self.parameters)?;
+            self.system.inputs_of(&own, &mut self.inputs);
+        }
+        Ok(())
+    }
+
+    /// The value of every event's function at a state.
     pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
-        self.system.inputs_of(state, &mut self.inputs);
+        self.take_in(state)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
             *rounded = x.high;
         }
@@ -148,7 +163,7 @@ impl Triggers {
 
     /// The value of one event's function, in all digits.
     pub fn exactly(&mut self, event: usize, state: &State) -> Result<Double, Fault> {
-        self.system.inputs_of(state, &mut self.inputs);
+        self.take_in(state)?;
         let found = self.exact.evaluate(state.exact_time(), &self.inputs);
         found.map_err(|why| {
             let program = &self.system.occasions().when;
@@ -168,6 +183,7 @@ impl System {
         let inputs = self.driven() + 2;
         let mut triggers = Triggers {
             system: self.clone(),
+            parameters: parameters.to_vec(),
             quick: Values::new(Arc::clone(program)),
             exact: Values::new(Arc::clone(program)),
             rounded: vec![0.0; inputs],

@@ -229,7 +229,7 @@ title = 'oscillator'
 [coordinates]
 x = { initial = 1.0, velocity = 0.0 }
 [lagrangian]
-L = \"1/2*x'^2 - 1/2*x^2\"
+L = \"3/2*x'^2 - 3/2*x^2\"
 [[events]]
 name = 'down'
 when = 'x'
@@ -241,6 +241,10 @@ when = 'x'
 name = 'top'
 when = \"x'\"
 direction = 'falling'
+[[events]]
+name = 'speed'
+when = \"x' - sqrt(0.5)\"
+direction = 'rising'
 ";
     let pi = std::f64::consts::PI;
     for (method, step, within) in
@@ -262,6 +266,7 @@ direction = 'falling'
         };
         check("down", pi / 2.0, 2.0 * pi, 7);
         check("either", pi / 2.0, pi, 13);
+        check("speed", 1.25 * pi, 2.0 * pi, 6);
         // it is at rest at the start, and does not fire there
         check("top", 2.0 * pi, 2.0 * pi, 6);
     }

@@ -148,7 +148,8 @@ fn happenings(
         return Err(format!("{} events, not {}: {names:?}", found.len(), events.len()));
     }
     let of_digits = |digits: &String| digits.parse::<f64>().map_or(0.0, f64::abs);
-    let largest = events.iter().flat_map(|e| e.reaction.values()).map(of_digits).fold(0.0, f64::max);
+    let largest =
+        events.iter().flat_map(|e| e.reaction.values()).map(of_digits).fold(0.0, f64::max);
     let (kind, prefix) = if model.is_poisson() { (Kind::X, "") } else { (Kind::P, "p_") };
     for (known, found) in events.iter().zip(&mut found) {
         let Happening { name, time, kind: what } = found;
