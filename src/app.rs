@@ -21,6 +21,7 @@ mod perform;
 mod picker;
 mod plot;
 mod speed;
+mod strike;
 mod update;
 mod value;
 
@@ -118,6 +119,11 @@ impl App {
     /// The newest snapshot of the loaded system.
     pub fn snapshot(&self) -> Option<&Snapshot> {
         self.lab.as_ref()?.snapshot.as_deref()
+    }
+
+    /// Whether an action can do something with the loaded system; most always can.
+    pub fn offers(&self, action: Action) -> bool {
+        action != Action::Strike || self.lab.as_ref().is_some_and(|lab| !lab.blows().is_empty())
     }
 
     /// Whether text is being typed, so that a paste means something.

@@ -30,6 +30,7 @@ pub use trail::Trail;
 use crate::integrate::{Happening, Kind, Reached};
 use gauges::{Gauges, Present};
 use motion::Motion;
+use obey::short;
 use recorder::Recorder;
 
 /// A system in motion, with its gauges and its recorded past.
@@ -48,6 +49,8 @@ pub struct Experiment {
     notices: Vec<String>,
     /// What happened since the last restart.
     happenings: Arc<Vec<Happening>>,
+    /// The names of those that were told of.
+    told: Vec<String>,
     /// The event that ended the motion.
     ended: Option<String>,
 }
@@ -90,6 +93,7 @@ impl Experiment {
             epoch: 0,
             notices: Vec::new(),
             happenings: Arc::default(),
+            told: Vec::new(),
             ended: None,
             setup,
         };
@@ -203,6 +207,8 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.happenings = Arc::default();
+        self.told.clear();
+        self.notices.clear();
         self.motion.forget(self.setup.start);
         self.recorder.restart(self.setup.start);
         let state = self.initial_state();
@@ -239,8 +245,10 @@ impl Experiment {
         let reached = loop {
             match self.motion.reach(time, limit, budget) {
                 Ok(Reached::Happened(happening)) => {
-                    if let Err(fault) = self.note(happening) {
-                        break Err(fault);
+                    let name = happening.name.clone();
+                    match self.note(happening) {
+                        Ok(sentence) => self.tell_once(name, sentence),
+                        Err(fault) => break Err(fault),
                     }
                 }
                 other => break other,
@@ -260,28 +268,43 @@ impl Experiment {
     }
 
     /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
-    /// from what a blow left.
-    fn note(&mut self, happening: Happening) -> Result<(), system::Fault> {
-        match &happening.kind {
-            Kind::Mark => {}
-            Kind::Stop => self.ended = Some(happening.name.clone()),
-            Kind::Release(_) => {
-                let name = &happening.name;
-                self.tell(format!("{name}: a constraint is let go"));
+    /// from what a blow left. Returns a sentence on it.
+    fn note(&mut self, happening: Happening) -> Result<String, system::Fault> {
+        let lead = format!("{} at t = {}", happening.name, short(happening.time));
+        let sentence = match &happening.kind {
+            Kind::Mark => lead,
+            Kind::Stop => {
+                self.ended = Some(happening.name.clone());
+                format!("{lead}: the motion ends")
+            }
+            Kind::Release(constraint) => {
+                let name = &self.model.constraints[*constraint].name;
+                format!("{lead}: the constraint {name} holds no longer")
             }
             Kind::Blow { .. } => {
                 let before = self.motion.values_before()?;
                 self.recorder.insert(happening.time, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
+                let given = self.energy_of(after) - self.energy_of(&before);
+                let sign = if given < 0.0 { '−' } else { '+' };
+                format!("{lead}: energy {sign}{}", short(given.abs()))
             }
-        }
+        };
         self.recorder.insert(happening.time, self.motion.values());
         let happenings = Arc::make_mut(&mut self.happenings);
         if happenings.len() < MOST_HAPPENINGS {
             happenings.push(happening);
         }
-        Ok(())
+        Ok(sentence)
+    }
+
+    /// Tells of what happens by itself: of what happens again and again only the first time.
+    fn tell_once(&mut self, name: String, sentence: String) {
+        if !self.told.contains(&name) {
+            self.told.push(name);
+            self.tell(sentence);
+        }
     }
 
     /// Records the present as the row that is due.

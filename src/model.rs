@@ -11,6 +11,7 @@ mod occurrence;
 mod parameter;
 mod picture;
 mod scope;
+mod unit;
 
 use crate::expr::{Expr, Pool, Symbol};
 

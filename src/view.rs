@@ -22,6 +22,7 @@ mod equations;
 mod gauges;
 mod help;
 mod layout;
+mod marks;
 mod menu;
 mod notes;
 mod numbers;

@@ -39,6 +39,8 @@ pub enum Action {
     Undo,
     /// Do it again.
     Redo,
+    /// Strike a blow that waits for a key.
+    Strike,
     /// Choose a method of integration.
     ChooseMethod,
     /// Type the step of a method of fixed step.

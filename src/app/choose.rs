@@ -35,8 +35,9 @@ impl App {
 
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         let places = self.places();
-        let rows =
-            KEYS.iter().filter(|row| places.contains(&row.place) && row.place != Place::Typing);
+        let rows = KEYS.iter().filter(|row| {
+            places.contains(&row.place) && row.place != Place::Typing && self.offers(row.action)
+        });
         let item = |row: &super::keymap::Binding| Item {
             label: if row.hint.is_empty() {
                 row.help.to_owned()
@@ -47,7 +48,10 @@ impl App {
             refusal: None,
             choice: Choice::Action(row.action),
         };
-        let items = rows.map(item).collect();
+        let mut items: Vec<Item> = rows.map(item).collect();
+        if places.contains(&Place::Lab) {
+            items.extend(self.lab.iter().flat_map(Lab::blow_lines));
+        }
         self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
@@ -118,6 +122,7 @@ impl App {
         }
         match (menu.purpose, item.choice) {
             (_, Choice::Method(name)) => vec![Effect::Tell(Command::Method(name.to_owned()))],
+            (_, Choice::Blow(index)) => self.strike_by(index),
             (_, Choice::Action(action)) => self.perform(action),
             (Choosing::Across { plot }, Choice::Space) => {
                 self.put(plot, |lab| Plot::Space(Eye::for_shapes(&lab.loaded)))
@@ -198,10 +203,10 @@ fn line(label: &str, about: &str, choice: Choice) -> Item {
 /// A line for every channel that can be told from the others.
 fn channels(lab: &Lab) -> Vec<Item> {
     let all = lab.loaded.system.channels();
-    let named = all
-        .iter()
-        .enumerate()
-        .filter(|(index, channel)| !all[..*index].iter().any(|before| before.name == channel.name));
+    let named =
+        all.iter().enumerate().filter(|(_, channel)| !channel.name.is_empty()).filter(
+            |(index, channel)| !all[..*index].iter().any(|before| before.name == channel.name),
+        );
     named
         .map(|(index, channel)| {
             let unit = if channel.unit.is_empty() {

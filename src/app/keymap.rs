@@ -192,6 +192,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
+    row(Place::Lab, &[c('b')], Action::Strike, "strike", "strike a blow of the file that waits for a key"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
     row(Place::Space, &[LEFT, c('h')], Action::Move(Way::Left), "turn", "turn the picture to the left"),

@@ -31,6 +31,8 @@ pub enum Choosing {
     Method,
     /// Any action.
     Action,
+    /// A blow.
+    Blow,
     /// What runs along the axis of the plot of this index.
     Across {
         /// Its place among the plots.
@@ -65,6 +67,8 @@ pub enum Choice {
     Method(&'static str),
     /// An action.
     Action(Action),
+    /// The blow of this index.
+    Blow(usize),
     /// The picture in space.
     Space,
     /// Time.
@@ -76,7 +80,8 @@ pub enum Choice {
 impl Menu {
     /// A list on its first line.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let filter = (purpose != Choosing::Method).then(Input::default);
+        let plain = matches!(purpose, Choosing::Method | Choosing::Blow);
+        let filter = (!plain).then(Input::default);
         Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
     }
 

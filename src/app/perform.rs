@@ -60,13 +60,20 @@ impl App {
                 lab.speed_wish = Some(speed);
                 vec![Effect::Tell(Command::Speed(speed))]
             }
-            Action::Reset => vec![Effect::Tell(Command::Reset)],
-            Action::FullReset => lab.full_reset(),
+            Action::Reset | Action::FullReset => {
+                // What was told of the motion before is no longer so.
+                self.notice = None;
+                if action == Action::FullReset {
+                    return lab.full_reset();
+                }
+                vec![Effect::Tell(Command::Reset)]
+            }
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => {
                 lab.undo().unwrap_or_else(|| self.say("There is nothing to take back."))
             }
             Action::Redo => lab.redo().unwrap_or_else(|| self.say("There is nothing to do again.")),
+            Action::Strike => self.strike(),
             Action::ChooseMethod => self.open_methods(),
             Action::TypeStep => self.open_field(Purpose::Step),
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),

@@ -109,6 +109,7 @@ impl App {
     fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.lab = Some(Lab::new(loaded));
+        self.notice = None;
         self.meter.forget();
         self.picker.failure = None;
         if answered == Some(true) {

@@ -64,7 +64,10 @@ impl Lab {
                 };
                 let info = model.pool.symbol_info(symbol);
                 let unit = match what {
-                    "velocity" if !c.unit.is_empty() => format!("{}/s", c.unit),
+                    "velocity" if !c.unit.is_empty() => match model.time_unit() {
+                        "" => String::new(),
+                        time => format!("{}/{time}", c.unit),
+                    },
                     "momentum" => String::new(),
                     _ => c.unit.clone(),
                 };

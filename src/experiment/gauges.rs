@@ -4,6 +4,7 @@
 //! In: what follows from the law of motion, and the values of the channels at even times. Out:
 //! [`Gauge`]s. Never here: how the values were computed.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Gauge;
@@ -57,6 +58,7 @@ impl Gauges {
     /// The gauges of what `equations` finds conserved in `model`; where the energy is not, the
     /// energy with the law of its change, and the energy ledger, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
+        let equations = &Arc::new(with_energy_opened(equations));
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
         let mut needles = Vec::new();
         let mut add = |name: &str, reason: String, broken, kind, expression| {
@@ -190,6 +192,18 @@ impl Gauges {
             }
         }
     }
+}
+
+/// The same with the energy opened in what is conserved: the size of an invariant's terms is that of the terms of the
+/// energy in it, which may nearly cancel.
+fn with_energy_opened(equations: &Equations) -> Equations {
+    let mut equations = equations.clone();
+    let energy = HashMap::from([(equations.symbols.energy, equations.energy)]);
+    for i in 0..equations.conserved.len() {
+        let e = equations.conserved[i].expression;
+        equations.conserved[i].expression = equations.pool.substitute(e, &energy);
+    }
+    equations
 }
 
 /// What the gauges look at.

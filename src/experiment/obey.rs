@@ -62,17 +62,8 @@ impl Experiment {
         if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
             return;
         }
-        let before = self.energy();
-        let struck = self.motion.strike(index).and_then(|happening| {
-            let name = happening.name.clone();
-            self.note(happening).map(|()| name)
-        });
-        match struck {
-            Ok(name) => {
-                let given = self.energy() - before;
-                let sign = if given < 0.0 { '−' } else { '+' };
-                self.tell(format!("{name}: energy {sign}{}", short(given.abs())));
-            }
+        match self.motion.strike(index).and_then(|happening| self.note(happening)) {
+            Ok(sentence) => self.tell(sentence),
             Err(fault) => self.fault = Some(fault.into()),
         }
     }
@@ -119,9 +110,14 @@ impl Experiment {
     }
 
     fn energy(&self) -> f64 {
+        self.energy_of(self.motion.values())
+    }
+
+    /// The energy among the values of all channels.
+    pub(super) fn energy_of(&self, values: &[f64]) -> f64 {
         let kinds = self.system().channels().iter().map(|c| c.kind);
         let place = kinds.into_iter().position(|kind| kind == ChannelKind::Energy);
-        place.map_or(f64::NAN, |i| self.motion.values()[i])
+        place.map_or(f64::NAN, |i| values[i])
     }
 
     fn change_initial(&mut self, index: usize, value: f64) {
@@ -189,7 +185,7 @@ impl Experiment {
 }
 
 /// A number in a notice: four significant digits.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.3e}");
     let value: f64 = digits.parse().unwrap_or(x);
     if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {

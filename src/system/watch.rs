@@ -61,13 +61,15 @@ impl List {
         for (name, e, _) in &model.expect.conserves {
             list.add_hidden(name, *e);
         }
+        // A quantity is not called as what is expected of it at one moment: a view names it, or nobody.
         for value in &model.expect.values {
-            list.add_hidden(&value.name, value.expression);
+            list.add_hidden("", value.expression);
         }
         list.precise = list.channels.len();
         for view in &model.views {
             for c in view.x.iter().chain(&view.y) {
                 list.add_hidden(&c.written, c.expression);
+                list.name(c);
             }
         }
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
@@ -88,8 +90,15 @@ impl List {
         }
         let moving = if model.is_poisson() { &[] } else { &model.coordinates[..] };
         let symbols: Vec<_> = moving.iter().map(|c| (c.velocity, c.momentum)).collect();
+        let time = model.time_unit();
         for (i, &(velocity, _)) in symbols.iter().enumerate() {
             self.add_symbol(ChannelKind::Velocity(i), equations, velocity);
+            let unit = &model.coordinates[i].unit;
+            if let (Some(channel), false, false) =
+                (self.channels.last_mut(), unit.is_empty(), time.is_empty())
+            {
+                channel.unit = format!("{unit}/{time}");
+            }
         }
         for (i, &(_, momentum)) in symbols.iter().enumerate() {
             self.add_symbol(ChannelKind::Momentum(i), equations, momentum);
@@ -125,6 +134,15 @@ impl List {
     fn add_hidden(&mut self, name: &str, e: Expr) {
         if !self.index.contains_key(&e) {
             self.add(ChannelKind::Expression, name, name, e);
+        }
+    }
+
+    /// Gives a channel that has no name yet that of a view.
+    fn name(&mut self, shown: &model::Channel) {
+        let channel = self.index.get(&shown.expression).map(|&i| &mut self.channels[i]);
+        if let Some(channel) = channel.filter(|channel| channel.name.is_empty()) {
+            channel.name.clone_from(&shown.written);
+            channel.shown.clone_from(&shown.written);
         }
     }
 

@@ -140,10 +140,13 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         canvas.left(area, role, &notice.text);
         return;
     }
+    let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
     let meaning = match (&app.over, &app.lab, app.page) {
+        (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),
         (None, Some(lab), Page::Lab) => meaning(canvas, lab),
         _ => String::new(),
     };
+    let role = if ended.is_some() { Role::Warn } else { Role::Text };
     let mut hints = hints(canvas, app);
     let wide = |hints: &[Vec<Span>]| -> usize {
         hints.iter().flatten().map(|(text, _)| text.width()).sum::<usize>() + 3 * hints.len()
@@ -155,12 +158,18 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         hints.remove(hints.len() - 3);
     }
     let long = (wide(&hints) as u16).saturating_sub(3).min(area.width);
-    canvas.left(columns(area, 0, area.width.saturating_sub(long + 2)), Role::Text, &meaning);
+    canvas.left(columns(area, 0, area.width.saturating_sub(long + 2)), role, &meaning);
     let gap = ("   ".to_owned(), ratatui::style::Style::new());
     let row: Vec<Span> =
         hints.into_iter().flat_map(|hint| hint.into_iter().chain([gap.clone()])).collect();
     let start = if meaning.is_empty() { 0 } else { area.width - long };
     canvas.spans(columns(area, start, area.width), &row);
+}
+
+/// What ended the motion, and how to go on.
+fn ended(snapshot: &Snapshot) -> Option<String> {
+    let Status::Ended(event) = &snapshot.status else { return None };
+    Some(format!("{event} ended the motion: r begins it again"))
 }
 
 /// Meaning, unit and range of what is selected.
@@ -188,7 +197,9 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
 /// The keys worth a hint here, the innermost place first; the ones for help and quitting come last.
 fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Vec<Span>> {
     let rows = app.places().iter().flat_map(|place| {
-        KEYS.iter().filter(move |row| row.place == *place && !row.hint.is_empty())
+        KEYS.iter().filter(move |row| {
+            row.place == *place && !row.hint.is_empty() && app.offers(row.action)
+        })
     });
     let hint = |row: &crate::app::keymap::Binding| {
         let keys = keys(row, canvas.look);

@@ -5,13 +5,19 @@
 use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
+use super::marks::Marks;
 use super::number::readable;
 use super::plot::Frame;
 use super::theme::Role;
 use crate::app::Lens;
 
-/// Draws the cursor, if there is one, and reads its coordinates in the upper right corner of the area.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, frame: &Frame, lens: Lens) {
+/// Draws the cursor, if there is one, and reads its coordinates, and what happened there, in the upper right corner of the area.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    frame: &Frame,
+    (lens, marks): (Lens, &Marks<'_>),
+) {
     let Some([across, upwards]) = lens.cursor else { return };
     if frame.area.is_empty() {
         return;
@@ -35,6 +41,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, frame: &Frame, lens: Len
     }
     canvas.write(at, 1, glyphs.pick("┼", "+"), style);
     let [x, y] = frame.at(at);
-    let reading = format!(" {}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
+    let what = marks.at(frame, at).map_or_else(String::new, |name| format!("{name}: "));
+    let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
     canvas.right(Rect { height: 1, ..area }, Role::Focus, &reading);
 }

@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::canvas::{Canvas, columns, row};
+use super::layout::split_rows;
 use super::number::{self, fitted};
 use super::plot::Scale;
 use super::strip::History;
@@ -22,6 +23,9 @@ const VALUE: u16 = 9;
 /// The most columns of a history.
 const STRIP: u16 = 24;
 
+/// The least columns in which heads over them can be told apart.
+const HEADED: u16 = 34;
+
 /// The drifts that the strip's height spans.
 const FLOOR: f64 = 1e-17;
 const CEILING: f64 = 1.0;
@@ -33,6 +37,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         return;
     }
     let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
+    let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
+    if headed {
+        heads(canvas, columns(area, 2, area.width.saturating_sub(3)), height);
+    }
+    let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
     let first = window(selected.unwrap_or(0), gauges.len(), shown);
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
@@ -47,6 +56,21 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         } else {
             in_one_row(canvas, at, gauge, here);
         }
+    }
+}
+
+/// What the columns are.
+fn heads(canvas: &mut Canvas<'_>, area: Rect, height: usize) {
+    let verdict = area.width.saturating_sub(VERDICT);
+    canvas.left(columns(area, verdict, VERDICT), Role::Dim, "verdict");
+    if height == 2 {
+        canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
+        canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "drift");
+    } else {
+        let drift = verdict.saturating_sub(DRIFT + 1);
+        canvas.right(columns(area, drift, DRIFT), Role::Dim, "drift");
+        let value = drift.saturating_sub(VALUE + 1);
+        canvas.right(columns(area, value, VALUE), Role::Dim, "value");
     }
 }
 

@@ -79,7 +79,7 @@ fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 /// Two plots above, values and gauges below.
 fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
-    let wanted = (lab.count(Target::Parameter) as u16).max(gauges) + 2;
+    let wanted = (lab.count(Target::Parameter) as u16).max(gauges + 1) + 2;
     let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
     let (above, below) = split_rows(area, area.height - below);
     let (left, right) = split_columns(below, below.width / 2);
@@ -108,8 +108,8 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(Target::Parameter) as u16;
-    // A frame takes two rows; a gauge two; the meaning of the selected parameter two.
-    let wants = [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 2];
+    // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two.
+    let wants = [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 3];
     let mut heights = wants.map(|want| want.max(4));
     let mut total: u16 = heights.iter().sum();
     while total > area.height {

@@ -23,11 +23,13 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     let mut page = Document::default();
     let glyphs = q.look.glyphs;
     page.heading("State");
-    page.row(line("t", &readable(q.snapshot.time, 10, glyphs), ""));
-    let groups: [Group; 4] = [
+    let unit = q.lab.loaded.model.time_unit();
+    page.row(line("t", &readable(q.snapshot.time, 10, glyphs), unit));
+    let groups: [Group; 5] = [
         ("", |kind| matches!(kind, ChannelKind::Position(_))),
         ("Velocities", |kind| matches!(kind, ChannelKind::Velocity(_))),
         ("Momenta", |kind| matches!(kind, ChannelKind::Momentum(_))),
+        ("Multipliers", |kind| matches!(kind, ChannelKind::Multiplier(_))),
         ("Observables", |kind| {
             matches!(
                 kind,
@@ -50,6 +52,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
             page.row(line(&q.name(index), &value, &channel.unit));
         }
     }
+    happenings(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -61,6 +64,27 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
         page.row(row);
     }
     page
+}
+
+/// Each event and blow: how often it has happened, and when last.
+fn happenings(page: &mut Document, q: &Quantities<'_>) {
+    let mut seen: Vec<(&str, usize, f64)> = Vec::new();
+    for happening in q.snapshot.happenings.iter() {
+        match seen.iter_mut().find(|(name, ..)| *name == happening.name) {
+            Some((_, count, last)) => (*count, *last) = (*count + 1, happening.time),
+            None => seen.push((&happening.name, 1, happening.time)),
+        }
+    }
+    if seen.is_empty() {
+        return;
+    }
+    page.heading("What happened");
+    for (name, count, last) in seen {
+        let mut row = line(name, &count.to_string(), if count == 1 { "time" } else { "times" });
+        let last = readable(last, 10, q.look.glyphs);
+        row.push((Role::Dim, format!(", last at t = {last}")));
+        page.row(row);
+    }
 }
 
 fn line(name: &str, value: &str, unit: &str) -> Vec<(Role, String)> {

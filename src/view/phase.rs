@@ -7,6 +7,7 @@ use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span};
 use super::cursor;
+use super::marks::{self, Marks};
 use super::number::readable;
 use super::plot::{Axes, Marker, Pen, Raster};
 use super::quantity::Quantities;
@@ -17,7 +18,8 @@ use crate::app::Plot;
 const LEVELS: u8 = 0;
 const SEPARATRIX: u8 = 1;
 const TRAIL: u8 = 2;
-const NOW: u8 = 3;
+const MARK: u8 = 3;
+const NOW: u8 = 4;
 
 /// The heading: what is shown, and the present values.
 pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, [x, y]: [usize; 2]) -> Vec<Span> {
@@ -27,6 +29,7 @@ pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, [x, y]: [usize; 2])
         spans.push(canvas.span(Role::Dim, format!("  {}", q.name(channel))));
         spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
     }
+    spans.extend(marks::legend(canvas, q));
     spans
 }
 
@@ -65,6 +68,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, plot
     points.push(now);
     raster.trail(&frame, &points, look.theme.trail(0), TRAIL);
     raster.marker(&frame, now, Marker::Disc, &Pen::new(look.theme[Role::Accent], NOW));
+    let marks = Marks::of(q, |row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+    marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, *lens);
+    cursor::draw(canvas, area, &frame, (*lens, &marks));
 }

@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span};
 use super::cursor;
+use super::marks::{self, Marks};
 use super::number::readable;
 use super::plot::{Axes, Axis, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
@@ -14,6 +15,10 @@ use crate::app::Lens;
 
 /// For how many seconds of the wall clock, at the file's own speed, the window reaches back.
 const SECONDS: f64 = 20.0;
+
+/// The layer of marks, above all curves but below where they are now.
+const MARK: u8 = 201;
+const NOW: u8 = 202;
 
 /// The heading: each quantity in its colour with its present value.
 pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, channels: &[usize]) -> Vec<Span> {
@@ -25,6 +30,7 @@ pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, channels: &[usize])
         spans.push(canvas.span(Role::Dim, q.name(*channel)));
         spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
     }
+    spans.extend(marks::legend(canvas, q));
     spans
 }
 
@@ -36,7 +42,7 @@ pub(super) fn draw(
     (channels, lens): (&[usize], Lens),
 ) {
     let look = canvas.look;
-    let time = Axis::new("t", "", window(q, lens));
+    let time = Axis::new("t", q.lab.loaded.model.time_unit(), window(q, lens));
     let axes = Axes::new(time, common_axis(q, channels, lens));
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
@@ -48,10 +54,13 @@ pub(super) fn draw(
         let shown = points.filter(|point| point[0] >= frame.x.lo - (frame.x.hi - frame.x.lo));
         let pen = Pen::shaded(look.theme.series(index), layer);
         raster.polyline(&frame, shown.chain([now]), &pen);
-        raster.marker(&frame, now, Marker::Disc, &Pen::new(look.theme.curve(index), layer));
+        raster.marker(&frame, now, Marker::Disc, &Pen::new(look.theme.curve(index), NOW));
     }
+    let first = channels.first().copied().unwrap_or_default();
+    let marks = Marks::of(q, |row| Some([*row.first()?, *row.get(1 + first)?]));
+    marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, lens);
+    cursor::draw(canvas, area, &frame, (lens, &marks));
 }
 
 /// The stretch of time shown: it stands still until it is full, then moves along.

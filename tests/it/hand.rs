@@ -7,7 +7,7 @@ use std::time::Duration;
 use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::Catalog;
+use phaselab::preset::{self, Catalog};
 use phaselab::system::{ChannelKind, Given, System};
 
 /// The shipped presets, without the user's.
@@ -18,8 +18,16 @@ pub(crate) fn catalog() -> &'static Catalog {
 
 /// A shipped preset, lowered.
 pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
-    let document = catalog().find(name).unwrap();
-    let model = document.read().unwrap().model;
+    lower(name, epoch, catalog().find(name).unwrap().read().unwrap().model)
+}
+
+/// The text of a file, lowered; epoch 1.
+pub(crate) fn lowered(text: &str) -> Loaded {
+    let read = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
+    lower("test", 1, read.model)
+}
+
+fn lower(name: &str, epoch: u64, model: phaselab::model::Model) -> Loaded {
     let equations = derive(&model).unwrap();
     let system = System::compile(&model, &equations, &[]).unwrap();
     let (model, equations, system) = (Arc::new(model), Arc::new(equations), Arc::new(system));

@@ -148,10 +148,8 @@ change = { p_x1 = '3', p_y1 = '1' }
     assert!((jump[0] - 1.5).abs() < 1e-15 && (jump[2] - 1.5).abs() < 1e-15, "{jump:?}");
 }
 
-#[test]
-fn a_ball_bounces_at_the_times_of_its_parabolas() {
-    // from rest at h = 1 with g = 2: the first bounce at 1, then after 2 e, 2 e², …
-    let text = "
+/// From rest at x = 1 with g = 2.
+const BALL: &str = "
 title = 'ball'
 [coordinates]
 x = { initial = 1.0, velocity = 0.0 }
@@ -168,7 +166,11 @@ when = 'x'
 direction = 'falling'
 action = 'impulse:floor'
 ";
-    let mut ball = file(text);
+
+#[test]
+fn a_ball_bounces_at_the_times_of_its_parabolas() {
+    // from rest at h = 1 with g = 2: the first bounce at 1, then after 2 e, 2 e², …
+    let mut ball = file(BALL);
     run(&mut ball, 7.0);
     let mut time = 1.0;
     for (n, found) in times(&ball, "bounce").into_iter().enumerate() {
@@ -338,4 +340,18 @@ fn a_blow_waits_for_its_key() {
     let snapshot = free.snapshot();
     assert!(snapshot.notices.last().is_some_and(|n| n.contains("push")), "{:?}", snapshot.notices);
     assert!(gauge(&snapshot, "energy").max_drift < 1e-15, "it is told from the blow");
+}
+
+#[test]
+fn what_happens_is_told_once_and_forgotten_at_a_reset() {
+    let mut ball = file(BALL);
+    run(&mut ball, 4.0);
+    let told = ball.snapshot().notices;
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("bounce at t = 1:"), "{told:?}");
+    assert!(told[0].contains("energy −"), "a bounce takes energy: {told:?}");
+    ball.obey(Command::Reset);
+    assert!(ball.snapshot().notices.is_empty());
+    run(&mut ball, 1.5);
+    assert_eq!(ball.snapshot().notices.len(), 1, "and told again of the new motion");
 }

@@ -7,6 +7,7 @@ use phaselab::app::keymap::{self, Binding, CHAINS, KEYS, Place};
 use phaselab::app::{App, Drawn, Event, Page};
 use phaselab::experiment::Status;
 
+use super::scripts::with_blows;
 use crate::hand::{at_picker, in_lab, pendulum, press, snapshot};
 
 #[test]
@@ -45,7 +46,8 @@ fn states(place: Place) -> Vec<App> {
         app
     };
     match place {
-        Place::Always | Place::Anywhere | Place::Lab => vec![lab("")],
+        Place::Always | Place::Anywhere => vec![lab("")],
+        Place::Lab => vec![lab(""), with_blows(&["push"])],
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
         Place::Experiment => vec![lab("Right Wait Right u"), lab("4")],

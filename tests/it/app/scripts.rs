@@ -6,7 +6,7 @@ use std::time::Duration;
 use phaselab::app::{App, Effect, Event, LoadFailure, Over, Page, Pane, Plot};
 use phaselab::experiment::Command;
 
-use crate::hand::{at_picker, catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
 
 /// Where the keys go, in a few words.
 fn place(app: &App) -> String {
@@ -235,4 +235,51 @@ fn a_page_of_text_does_not_scroll_beyond_its_end() {
     assert_eq!(app.scroll, 2);
     press(&mut app, "End g");
     assert_eq!(app.scroll, 0);
+}
+
+/// The lab with a free particle that so many blows wait for, beside one that falls by itself.
+pub(super) fn with_blows(names: &[&str]) -> App {
+    let impulse = |name: &&str| {
+        format!("[[impulses]]\nname = '{name}'\nchange = {{ p_x = '1' }}\nabout = 'a {name}'\n")
+    };
+    let blows: String = names.iter().map(impulse).collect();
+    let text = format!(
+        "title = 'a test'\n[coordinates]\nx = {{ initial = 0.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
+         [[impulses]]\nname = 'tick'\nevery = 1.0\nchange = {{ p_x = '1' }}\n{blows}"
+    );
+    let loaded = lowered(&text);
+    let mut app = in_lab();
+    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    let seen = snapshot(&loaded, 1.0);
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    app
+}
+
+#[test]
+fn a_blow_is_struck_by_its_key_or_by_its_name() {
+    let mut app = in_lab();
+    assert_eq!(asked(&press(&mut app, "b")), "");
+    assert!(app.notice.is_some_and(|notice| notice.text.contains("no blows")));
+    let mut app = with_blows(&[]);
+    assert_eq!(asked(&press(&mut app, "b")), "");
+    assert!(app.notice.is_some_and(|notice| notice.text.contains("by themselves")));
+    let mut app = with_blows(&["push"]);
+    assert_eq!(asked(&press(&mut app, "b")), "Strike(1)");
+    let mut app = with_blows(&["push", "kick"]);
+    assert_eq!(asked(&press(&mut app, "b")), "");
+    assert!(place(&app).ends_with("+ menu \"Strike\""), "{}", place(&app));
+    assert_eq!(asked(&press(&mut app, "Down Enter")), "Strike(2)");
+    assert_eq!(asked(&press(&mut app, ": k i c k Enter")), "Strike(2)");
+}
+
+#[test]
+fn a_reset_takes_back_what_was_told_before() {
+    for key in ["r", "R"] {
+        let mut app = in_lab();
+        press(&mut app, "b");
+        assert!(app.notice.is_some());
+        press(&mut app, key);
+        assert_eq!(app.notice, None, "{key}");
+    }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use phaselab::app::{Event, Lens, Plot};
 use phaselab::experiment::{Growth, Status, Verdict};
+use phaselab::integrate::{Happening, Kind};
 use phaselab::view::theme::Role;
 use ratatui::style::Modifier;
 use unicode_width::UnicodeWidthStr;
@@ -198,5 +199,46 @@ fn the_equations_are_written_in_mathematics() {
         "∂L/∂t = 0",
     ] {
         assert!(text.contains(line), "{line} in\n{text}");
+    }
+}
+
+#[test]
+fn what_happened_is_marked_where_it_was_and_named() {
+    let mut seen = snapshot(&pendulum(), 2.0);
+    let blow = |time: f64| Happening { name: "push".to_owned(), time, kind: Kind::Mark };
+    seen.happenings = Arc::new(vec![blow(0.5), blow(1.0), blow(1.0005)]);
+    let mut app = in_lab();
+    let look = rich();
+    let signs = |buffer: &ratatui::buffer::Buffer| {
+        let warn = look.theme[Role::Warn].fg.unwrap();
+        buffer.content.iter().filter(|c| c.symbol() == "◆" && c.fg == warn).count()
+    };
+    assert_eq!(signs(&screen(&app, &look, (120, 40))), 0);
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let buffer = screen(&app, &look, (120, 40));
+    // on the phase portrait and on the time series, and in the heading that has room; two that fall together are one
+    assert_eq!(signs(&buffer), 2 + 2 + 1, "{:#?}", rows(&buffer));
+    assert!(find(&buffer, "◆ push").is_some());
+    // the mark of t = 1 in the time series stands above that time
+    press(&mut app, "Shift-Tab z");
+    let buffer = screen(&app, &look, (120, 40));
+    let columns: Vec<u16> =
+        (1..120).filter(|&x| (2..38).any(|y| buffer[(x, y)].symbol() == "◆")).collect();
+    let zero = find(&buffer, "└").unwrap().0 + 1;
+    let width = 118 - zero;
+    let wanted = [0.5, 1.0].map(|t: f64| zero + (t / 20.0 * f64::from(width)) as u16);
+    assert_eq!(columns.len(), 2, "{columns:?}");
+    assert!(columns.iter().zip(wanted).all(|(x, w)| x.abs_diff(w) <= 1), "{columns:?} {wanted:?}");
+}
+
+#[test]
+fn an_ended_motion_says_by_what_and_how_to_go_on() {
+    let mut seen = snapshot(&pendulum(), 2.0);
+    seen.status = Status::Ended("ground".to_owned());
+    let mut app = in_lab();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let buffer = screen(&app, &rich(), size);
+        assert!(find(&buffer, "ground ended the motion: r begins it again").is_some(), "{size:?}");
     }
 }

@@ -1,0 +1,89 @@
+//! Marks of what happened to a motion: one sign on a plot for each event and blow that has room.
+//!
+//! In: happenings and the trail. Out: points of a plot with names, a legend. Never here: what an event does.
+
+use ratatui::layout::Position;
+
+use super::canvas::{Canvas, Span};
+use super::plot::{Frame, Marker, Pen, Raster};
+use super::quantity::Quantities;
+use super::theme::Role;
+
+/// The newest happenings are marked; of very many the older ones are not.
+const MOST: usize = 256;
+
+/// More names than this are not told in a heading.
+const NAMES: usize = 3;
+
+/// Cells between two marks.
+const APART: [u16; 2] = [3, 2];
+
+/// The points of a plot at which something happened, the newest first.
+pub(super) struct Marks<'a> {
+    points: Vec<(&'a str, [f64; 2])>,
+}
+
+impl<'a> Marks<'a> {
+    /// Where a plot's two quantities were, read from a row of the trail (time, then the channels), when something
+    /// happened; just after it, if it was a blow.
+    pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
+        let mut points = Vec::new();
+        let mut rows = q.snapshot.trail.rows().rev().peekable();
+        let mut later: Option<&[f64]> = None;
+        for happening in q.snapshot.happenings.iter().rev().take(MOST) {
+            while let Some(row) = rows.next_if(|row| row[0] > happening.time) {
+                later = Some(row);
+            }
+            // What is older than the trail has no place any more.
+            let Some(earlier) = rows.peek() else { break };
+            let share = later.map_or(0.0, |later| {
+                ((happening.time - earlier[0]) / (later[0] - earlier[0])).clamp(0.0, 1.0)
+            });
+            let point = place(earlier).and_then(|a| {
+                let b = if share > 0.0 { place(later?)? } else { a };
+                Some([0, 1].map(|k| a[k] + share * (b[k] - a[k])))
+            });
+            points.extend(point.map(|point| (happening.name.as_str(), point)));
+        }
+        Self { points }
+    }
+
+    /// Draws those that have room beside each other, the newest first.
+    pub(super) fn draw(&self, raster: &mut Raster, frame: &Frame, pen: &Pen) {
+        let mut taken: Vec<Position> = Vec::new();
+        for (_, point) in &self.points {
+            let Some(cell) = frame.cell(*point) else { continue };
+            let near = |other: &Position| {
+                other.x.abs_diff(cell.x) < APART[0] && other.y.abs_diff(cell.y) < APART[1]
+            };
+            if !taken.iter().any(near) {
+                raster.marker(frame, *point, Marker::Diamond, pen);
+                taken.push(cell);
+            }
+        }
+    }
+
+    /// What happened in a cell or beside it.
+    pub(super) fn at(&self, frame: &Frame, at: Position) -> Option<&'a str> {
+        let here = |(_, point): &&(&str, [f64; 2])| {
+            let cell = frame.cell(*point);
+            cell.is_some_and(|cell| cell.x.abs_diff(at.x) <= 1 && cell.y.abs_diff(at.y) <= 1)
+        };
+        self.points.iter().find(here).map(|(name, _)| *name)
+    }
+}
+
+/// The names of what happened lately, for a plot's heading.
+pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<Span> {
+    let mut names: Vec<&str> = Vec::new();
+    for happening in q.snapshot.happenings.iter().rev().take(MOST) {
+        if names.len() < NAMES && !names.contains(&happening.name.as_str()) {
+            names.push(&happening.name);
+        }
+    }
+    if names.is_empty() {
+        return Vec::new();
+    }
+    let sign = Marker::Diamond.symbol(canvas.look.glyphs);
+    vec![canvas.span(Role::Warn, format!("  {sign} {}", names.join(", ")))]
+}
