@@ -1,5 +1,5 @@
 //! Where along a step a function of the state crosses zero: looked for on the dense output, located
-//! to the last digits of time.
+//! beyond the last digit of time: what a blow there does shows in the last digits after it.
 //!
 //! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
 //! here: what follows from it.
@@ -41,6 +41,8 @@ pub(super) struct Crossings {
     sides: Vec<f64>,
     /// Whether a blow has just changed the state.
     fresh: bool,
+    /// When the last blow fell: the motion after it is not to be asked about earlier times.
+    begun: Option<Double>,
     values: Vec<f64>,
     state: State,
 }
@@ -49,7 +51,8 @@ pub(super) struct Crossings {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Found {
     pub(super) event: usize,
-    pub(super) time: f64,
+    /// Of this the nearest `f64` is the time.
+    pub(super) exact: Double,
 }
 
 /// A look at one function.
@@ -63,7 +66,7 @@ struct Look {
 /// A crossing of one function.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
-    time: f64,
+    exact: Double,
     /// The side it leads to.
     side: f64,
 }
@@ -76,6 +79,7 @@ impl Crossings {
             directions,
             sides: vec![0.0; count],
             fresh: false,
+            begun: None,
             values: vec![0.0; count],
             state: blank,
         }
@@ -89,6 +93,7 @@ impl Crossings {
     pub(super) fn forget(&mut self) {
         self.sides.fill(0.0);
         self.fresh = false;
+        self.begun = None;
     }
 
     /// A blow has led from one state to another, by the event given or by none: functions that
@@ -108,6 +113,7 @@ impl Crossings {
             }
         }
         self.fresh = true;
+        self.begun = Some(after.exact_time());
         Ok(())
     }
 
@@ -142,16 +148,16 @@ impl Crossings {
             let crossings = self.follow(stepper, event, looks, (from, to))?;
             let counts = crossings.last().filter(|c| self.counts(event, c));
             if let Some(crossing) = counts
-                && found.is_none_or(|first| crossing.time < first.time)
+                && found.is_none_or(|first| earlier(crossing.exact, first.exact))
             {
-                found = Some(Found { event, time: crossing.time });
+                found = Some(Found { event, exact: crossing.exact });
             }
             passed.push(crossings);
         }
-        let until = found.map_or(to, |found| found.time);
+        let until = found.map_or(to, |found| found.exact.high);
         for (event, crossings) in passed.iter().enumerate() {
             let mine = found.is_some_and(|found| found.event == event);
-            let mut gone = crossings.iter().filter(|c| c.time < until || mine);
+            let mut gone = crossings.iter().filter(|c| c.exact.high < until || mine);
             if let Some(last) = gone.next_back() {
                 self.sides[event] = last.side;
             }
@@ -168,19 +174,27 @@ impl Crossings {
         width: f64,
         (from, to): (f64, f64),
     ) -> Result<Vec<Look>, Fault> {
-        stepper.at(time, &mut self.state)?;
+        self.move_to(stepper, time)?;
         self.triggers.look(&self.state, &mut self.values)?;
         let here = self.values.clone();
         // not so small that the clock's last digit decides
         let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
         let beside = if time + step <= to { time + step } else { (time - step).max(from) };
-        stepper.at(beside, &mut self.state)?;
+        self.move_to(stepper, beside)?;
         self.triggers.look(&self.state, &mut self.values)?;
         let looks = here.iter().zip(&self.values).map(|(&value, &next)| {
             let slope = if beside == time { 0.0 } else { (next - value) / (beside - time) };
             Look { time, value, slope }
         });
         Ok(looks.collect())
+    }
+
+    /// The state at a time within the last step, though not before the last blow.
+    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), Fault> {
+        match self.begun.filter(|&begun| earlier(Double::written(time), begun)) {
+            Some(begun) => stepper.at_exactly(begun, &mut self.state),
+            None => stepper.at(time, &mut self.state),
+        }
     }
 
     /// Whether a crossing is one the event waits for.
@@ -300,16 +314,16 @@ impl Crossings {
             self.sides[walk.event] = side;
             return Ok(false);
         }
-        let time = self.locate(stepper, walk.event, side, a.time, b.time)?;
+        let exact = self.locate(stepper, walk.event, side, a.time, b.time)?;
         walk.side = side;
-        let crossing = Crossing { time, side };
+        let crossing = Crossing { exact, side };
         walk.found.push(crossing);
         Ok(self.counts(walk.event, &crossing))
     }
 
     /// The time of a crossing between two, after which the function is on `side`: halving, mixed
     /// with the secant's step kept inside (R. P. Brent, Algorithms for Minimization without
-    /// Derivatives, ch. 4, has the reasons), down to neighbouring times.
+    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these.
     fn locate(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -317,11 +331,11 @@ impl Crossings {
         side: f64,
         mut left: f64,
         mut right: f64,
-    ) -> Result<f64, Fault> {
+    ) -> Result<Double, Fault> {
         let mut low = self.exactly(stepper, event, left)?;
         let mut high = self.exactly(stepper, event, right)?;
         if low.high * side > 0.0 {
-            return Ok(left);
+            return Ok(Double::written(left));
         }
         for round in 0..200 {
             let middle = 0.5 * (left + right);
@@ -333,7 +347,7 @@ impl Crossings {
             let time = if inside { secant } else { middle };
             let value = self.exactly(stepper, event, time)?;
             if value.high == 0.0 {
-                return Ok(time);
+                return Ok(Double::written(time));
             }
             if value.high * side > 0.0 {
                 (right, high) = (time, value);
@@ -341,7 +355,10 @@ impl Crossings {
                 (left, low) = (time, value);
             }
         }
-        Ok(if low.high.abs() < high.high.abs() { left } else { right })
+        // the states looked at were those at these times
+        let (left, right) = (Double::written(left), Double::written(right));
+        let part = low / (low - high);
+        Ok(if part.is_finite() { left + (right - left) * part } else { left })
     }
 
     fn exactly(
@@ -350,9 +367,13 @@ impl Crossings {
         event: usize,
         time: f64,
     ) -> Result<Double, Fault> {
-        stepper.at(time, &mut self.state)?;
+        self.move_to(stepper, time)?;
         self.triggers.exactly(event, &self.state)
     }
+}
+
+fn earlier(a: Double, b: Double) -> bool {
+    (a - b).high < 0.0
 }
 
 /// One function on its way through a step.

@@ -259,7 +259,7 @@ impl Motion {
         if let Some(crossings) = &mut self.crossings {
             self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
         }
-        self.clear = self.waiting.map_or(end, |found| found.time);
+        self.clear = self.waiting.map_or(end, |found| found.exact.high);
         Ok(())
     }
 
@@ -273,6 +273,21 @@ impl Motion {
             if let (Some(keeper), Form::Velocity) = (&mut self.keeper, self.state.form) {
                 keeper.project(&mut self.state)?;
             }
+        }
+        Ok(())
+    }
+
+    /// The present becomes the state at a time of something that happens, known beyond the last
+    /// digit of an `f64`.
+    fn look_exactly(&mut self, time: Double) -> Result<(), Fault> {
+        let (begin, end) = self.stepper.interval();
+        if begin == end {
+            self.state.copy_from(self.stepper.state());
+            return Ok(());
+        }
+        self.stepper.at_exactly(time, &mut self.state)?;
+        if let (Some(keeper), Form::Velocity) = (&mut self.keeper, self.state.form) {
+            keeper.project(&mut self.state)?;
         }
         Ok(())
     }
@@ -324,7 +339,7 @@ impl Motion {
 
     fn fall(&mut self, impulse: usize) -> Result<Happening, Fault> {
         let time = self.clear;
-        self.look(time)?;
+        self.look_exactly(self.schedule[impulse].exactly(self.start, time))?;
         self.fallen = Some((time, impulse));
         self.strike(impulse, None)
     }
@@ -361,7 +376,7 @@ impl Motion {
 
     /// An event is passed, and what it does is done.
     fn meet(&mut self, found: Found) -> Result<Happening, Fault> {
-        self.look(found.time)?;
+        self.look_exactly(found.exact)?;
         self.note_haste(found)?;
         let trigger = self.system.occasions().events[found.event].clone();
         let kind = match trigger.action {
@@ -383,20 +398,21 @@ impl Motion {
             }
             Action::Impulse(impulse) => return self.strike(impulse, Some(found.event)),
         };
-        Ok(Happening { name: trigger.name, time: found.time, kind })
+        Ok(Happening { name: trigger.name, time: found.exact.high, kind })
     }
 
     /// An event that comes again and again without end stops the motion with a reason.
     fn note_haste(&mut self, found: Found) -> Result<(), Fault> {
         let (last, before, count) = &mut self.hurried[found.event];
-        let gap = found.time - *last;
+        let time = found.exact.high;
+        let gap = time - *last;
         *count = if gap <= FASTER * *before { *count + 1 } else { 0 };
-        (*last, *before) = (found.time, gap);
-        if *count < PATIENCE || gap > HASTE * (found.time - self.start).abs() {
+        (*last, *before) = (time, gap);
+        if *count < PATIENCE || gap > HASTE * (time - self.start).abs() {
             return Ok(());
         }
         let name = self.system.occasions().events[found.event].name.clone();
-        Err(self.system.fault(FaultKind::PilesUp(name), found.time, &self.state.values))
+        Err(self.system.fault(FaultKind::PilesUp(name), time, &self.state.values))
     }
 }
 

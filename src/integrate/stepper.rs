@@ -1,5 +1,6 @@
 //! What every method can do.
 
+use crate::expr::Double;
 use crate::system::{Fault, Form, State};
 
 /// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
@@ -32,6 +33,12 @@ pub trait Stepper: Send {
     /// sequence of equal steps, on which the good behaviour of symplectic methods rests, is not
     /// disturbed.
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault>;
+
+    /// The same at a time that is known beyond the last digit of an `f64`, as that of a crossing
+    /// is. A method that cannot tell such times apart gives the state at the nearest.
+    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+        self.at(time.high, out)
+    }
 
     /// The step in use: the fixed one, or the last one taken (zero before the first).
     fn step_size(&self) -> f64 {

@@ -213,6 +213,14 @@ impl Stepper for Taylor {
         Ok(())
     }
 
+    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+        out.copy_from(&self.state);
+        if time != self.state.exact_time() {
+            self.series.state_after(time - self.series.time(), out);
+        }
+        Ok(())
+    }
+
     fn form(&self) -> Form {
         self.system.form()
     }

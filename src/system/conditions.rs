@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::motion::Writer;
 use super::program::Program;
+use super::solve::Factored;
 use super::value::Values;
 use crate::expr::{Double, Expr, Symbol};
 
@@ -116,6 +117,41 @@ impl Conditions {
             size += self.size(constraint, i) * v.high.abs();
         }
         Residual { value, size }
+    }
+
+    /// The multipliers of least norm of all `active` constraints that do what those of the `held`
+    /// ones do: λ = B (BᵀB)⁻¹ G ν, as in `hold`.
+    pub(super) fn least(
+        &self,
+        active: &[bool],
+        held: &[bool],
+        held_only: Vec<Double>,
+    ) -> Vec<Double> {
+        if active == held {
+            return held_only;
+        }
+        let rows = |which: &[bool]| (0..self.count).filter(|&k| which[k]).collect::<Vec<_>>();
+        let (all, independent) = (rows(active), rows(held));
+        let product = |a: usize, b: usize| {
+            let terms = (0..self.degrees).map(|i| self.entry(a, i) * self.entry(b, i));
+            terms.fold(Double::ZERO, |sum, x| sum + x)
+        };
+        let sum = |terms: &mut dyn Iterator<Item = Double>| terms.fold(Double::ZERO, |s, x| s + x);
+        let b: Vec<Vec<Double>> =
+            all.iter().map(|&k| independent.iter().map(|&j| product(k, j)).collect()).collect();
+        let force =
+            |&j: &usize| sum(&mut independent.iter().map(|&k| product(j, k) * held_only[k]));
+        let mut weights: Vec<Double> = independent.iter().map(force).collect();
+        let mut factored = Factored::new(independent.len());
+        if !factored.factor(|i, j| sum(&mut b.iter().map(|row| row[i] * row[j]))) {
+            return held_only;
+        }
+        factored.solve(&mut weights);
+        let mut least = vec![Double::ZERO; self.count];
+        for (&k, row) in all.iter().zip(&b) {
+            least[k] = sum(&mut row.iter().zip(&weights).map(|(&x, &w)| x * w));
+        }
+        least
     }
 
     /// Which of the `active` constraints are independent of those before them, by Gram and

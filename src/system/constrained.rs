@@ -248,6 +248,8 @@ impl System {
         keeper.load(state);
         let outcome = keeper.kept.strike(state.exact_time(), &mut keeper.numbers, target);
         let reactions = outcome.map_err(|why| self.unsolved(why, state.time, &keeper.numbers))?;
+        let Holding { active, held } = self.holding();
+        let reactions = keeper.kept.conditions().least(active, held, reactions);
         let mut after = state.clone();
         after.form = Form::Velocity;
         for (i, &x) in keeper.numbers.iter().enumerate() {

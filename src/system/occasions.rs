@@ -64,6 +64,20 @@ pub struct Schedule {
     pub interval: Option<Double>,
 }
 
+impl Schedule {
+    /// The time of a blow beyond the last digit of an `f64`, by its nearest one.
+    pub fn exactly(&self, start: f64, time: f64) -> Double {
+        let periodic = || {
+            let interval = self.interval?;
+            let count = ((time - start) / interval.high).round();
+            Some(Double::written(start) + interval * count)
+        };
+        let listed = self.times.iter().copied().find(|x| x.high == time);
+        let found = listed.or_else(|| periodic().filter(|x| x.high == time));
+        found.unwrap_or_else(|| Double::written(time))
+    }
+}
+
 /// What a blow did.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Struck {
