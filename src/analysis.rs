@@ -4,12 +4,13 @@
 //! In: histories of values, a [`Model`](crate::model::Model) with its claims, a compiled system.
 //! Out: a [`Verdict`], mistakes at their places, curves. Never here: threads, clocks, terminals, files.
 
+mod brackets;
 mod claims;
 mod history;
 mod landscape;
 mod verdict;
 
-pub use claims::false_claims;
+pub use claims::{false_claims, flaws};
 pub use history::{History, Stretch};
 pub use landscape::{Curve, Grid, Landscape, Plane};
 pub use verdict::{Growth, Verdict, rounding_floor};

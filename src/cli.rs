@@ -6,6 +6,7 @@
 //! command quietly, as done. Never here: mechanics, numbers in motion.
 
 mod assignment;
+mod bracket;
 mod check;
 mod decimal;
 mod derive;
@@ -18,6 +19,7 @@ mod output;
 mod report;
 mod rows;
 mod run;
+mod script;
 mod stderr;
 
 use std::ffi::OsString;
@@ -63,6 +65,8 @@ enum Command {
     Derive(derive::Arguments),
     /// Tell every mistake in files, and whether what they claim is true.
     Check(check::Arguments),
+    /// Take Poisson's bracket of two expressions.
+    Bracket(bracket::Arguments),
     /// Integrate without a screen.
     Run(Box<run::Arguments>),
     /// List the integrators: order, what they preserve, what they need.
@@ -98,6 +102,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::List(arguments)) => list::perform(&arguments),
         Some(Command::Derive(arguments)) => derive::perform(&arguments),
         Some(Command::Check(arguments)) => check::perform(&arguments),
+        Some(Command::Bracket(arguments)) => bracket::perform(&arguments),
         Some(Command::Run(arguments)) => run::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
         None => lab::perform(&arguments.lab),

@@ -334,12 +334,14 @@ impl Experiment {
 
     /// Has the gauges look at the present.
     fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
-        let parameter = |symbol| self.setup.parameter(&self.model, symbol);
+        let body = self.motion.system().body_values(&self.setup.parameters);
+        let parameter = |symbol| self.setup.constant(&self.model, &body, symbol);
         look(&mut self.gauges, &self.motion.present(&parameter));
     }
 
     fn show_gauges(&self) -> Arc<[Gauge]> {
-        let parameter = |symbol| self.setup.parameter(&self.model, symbol);
+        let body = self.motion.system().body_values(&self.setup.parameters);
+        let parameter = |symbol| self.setup.constant(&self.model, &body, symbol);
         self.gauges.show(&self.motion.present(&parameter))
     }
 

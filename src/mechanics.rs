@@ -3,6 +3,8 @@
 //! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
 //! of its change, what is conserved and why. Never here: numbers in motion.
 
+mod bracket;
+mod class;
 mod comparison;
 mod constrain;
 mod equations;
@@ -11,19 +13,30 @@ mod invariants;
 mod lagrange;
 mod legendre;
 mod linear;
+mod nearby;
 mod observe;
 mod poisson;
+mod rigid_body;
+mod structure;
 mod symmetry;
 
 use crate::expr::NODE_LIMIT;
-use crate::model::{Mechanics, Model};
+use crate::model::{AttitudeSource, Mechanics, Model};
 
+pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
+pub use class::{Class, Classed, classes};
 pub use constrain::{augmented, with_reactions};
 pub use equations::{
     Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason,
     Separable, Twin, WhyNot,
 };
+pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
+pub use nearby::{POINTS, Point, TRIES};
+pub use rigid_body::{
+    COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
+};
+pub use structure::{Flaw, flaws};
 
 /// The most pieces a solved or transformed expression may have and still be worth writing down.
 pub const CLOSED_FORM_LIMIT: u64 = 10_000;
@@ -44,6 +57,11 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
         Mechanics::Poisson { hamiltonian, brackets, forces, .. } => {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
+    };
+    equations.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.attitude = match model.attitude.as_ref().map(|attitude| &attitude.source) {
+        Some(AttitudeSource::Euler(angles)) => Some(rigid_body::attitude(&mut pool, *angles)),
+        _ => None,
     };
     equations.pool = pool;
     if let Some(comparison) = &model.comparison {

@@ -150,6 +150,15 @@ impl Mechanics {
         }
     }
 
+    /// The brackets {x_i, x_j}, i < j, that do not vanish; none where there are coordinates and
+    /// momenta.
+    pub fn brackets(&self) -> Vec<(usize, usize, Expr)> {
+        let Mechanics::Poisson { brackets, .. } = self else { return Vec::new() };
+        let rows = brackets.iter().enumerate();
+        let all = rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &e)| (i, j, e)));
+        all.filter(|&(i, j, e)| i < j && e != Expr::ZERO).collect()
+    }
+
     /// What acts beside it on each coordinate or variable.
     pub fn forces(&self) -> &[Expr] {
         match self {

@@ -18,6 +18,7 @@ mod jet;
 mod kept;
 mod legendre;
 mod lower;
+mod moments;
 mod motion;
 mod observe;
 mod occasions;

@@ -4,9 +4,10 @@
 //! In: a model and what follows from it. Out: a mistake for each claim that is false, at its
 //! place. What is proved symbolically is not integrated. Never here: how claims are written.
 
+use super::brackets::false_brackets;
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Happening, Reached, Settings, method_named};
-use crate::mechanics::{Conserved, Equations, Reason};
+use crate::mechanics::{self, Conserved, Equations, Reason};
 use crate::model::{ExpectedValue, Model, Place};
 use crate::preset::Mistake;
 use crate::system::{ChannelKind, Fault, FaultKind, Observer, System};
@@ -25,7 +26,13 @@ const MOST_STEPS: u64 = 5_000_000;
 
 /// The claims of a model that are false, as mistakes at their places.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
-    let mut mistakes = denied(model, equations);
+    let mut mistakes = flaws(model, equations);
+    if !mistakes.is_empty() {
+        // the motion of what is no Poisson structure says nothing
+        return mistakes;
+    }
+    mistakes.extend(denied(model, equations));
+    mistakes.extend(false_brackets(model, equations));
     let claims = open_claims(model, equations);
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
@@ -47,6 +54,12 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
         mistakes.push(warning.with_help("their multipliers are those of least norm"));
     }
     mistakes
+}
+
+/// What is false in the brackets and Casimirs of a file: with such a mistake it has no motion.
+pub fn flaws(model: &Model, equations: &Equations) -> Vec<Mistake> {
+    let flaws = mechanics::flaws(model, equations).into_iter();
+    flaws.map(|flaw| Mistake::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
 }
 
 /// Observables said not to be conserved that are.
@@ -259,6 +272,8 @@ impl<'a> Motion<'a> {
     fn look(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
         let kind = |kind| self.system.channels().iter().position(|c| c.kind == kind);
         let value = |wanted| kind(wanted).map_or(f64::NAN, |i| self.values[i]);
+        let body = self.system.body_values(&model.parameter_values());
+        let of_body = |symbol| body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
         let at = |symbol: Symbol| {
             let place = |i: usize| {
                 let c = &equations.coordinates[i];
@@ -275,7 +290,10 @@ impl<'a> Motion<'a> {
                 Some(value) => value,
                 None if symbol == equations.symbols.time => self.course.state().time,
                 None if symbol == equations.symbols.energy => value(ChannelKind::Energy),
-                None => parameter().map_or(f64::NAN, |p| p.value),
+                None => match parameter() {
+                    Some(p) => p.value,
+                    None => of_body(symbol).unwrap_or(f64::NAN),
+                },
             }
         };
         for claim in claims {

@@ -57,6 +57,7 @@ impl Lab {
                 let count = model.coordinates.len();
                 let c = model.coordinates.get(index % count.max(1))?;
                 let (symbol, what) = match (index / count, model.is_lagrangian()) {
+                    (0, _) if model.is_poisson() => (c.position, "value"),
                     (0, _) => (c.position, "coordinate"),
                     (1, true) => (c.velocity, "velocity"),
                     (1, false) => (c.momentum, "momentum"),

@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use crate::expr::{Expr, Pool, nearest};
+use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
 use crate::preset::{Mistake, report};
 use crate::system::Given;
@@ -110,9 +111,11 @@ fn initial_value(
     let e = scope
         .read(&mut pool, &assignment.value)
         .ok_or_else(|| wrong(assignment, &first_mistake(&scope)))?;
+    let body = body_constants(model, parameters);
     let parameter = |symbol| {
         let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        index.map_or(f64::NAN, |i| parameters[i])
+        let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
+        index.map(|i| parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
     };
     let value = pool.evaluate(e, &parameter);
     if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
@@ -120,8 +123,10 @@ fn initial_value(
 
 /// Which initial value a name means.
 fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
-    let find = |name: &str| model.coordinate(name);
-    let plain = find(name).map(|i| Given::Position(i, value));
+    let coordinate = |name: &str| model.coordinate(name);
+    let plain = coordinate(name).map(|i| Given::Position(i, value));
+    // variables of brackets have neither velocities nor momenta at their start
+    let find = |name: &str| coordinate(name).filter(|_| !model.is_poisson());
     let primed = || Some(Given::Velocity(find(name.strip_suffix('\'')?)?, value));
     let momentum = || Some(Given::Momentum(find(name.strip_prefix("p_")?)?, value));
     plain.or_else(primed).or_else(momentum).ok_or_else(|| {
@@ -129,6 +134,7 @@ fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
             .coordinates
             .iter()
             .flat_map(|c| [c.name.clone(), format!("{}'", c.name), format!("p_{}", c.name)])
+            .filter(|written| !model.is_poisson() || coordinate(written).is_some())
             .chain(["t".to_owned()])
             .collect();
         unknown("initial value", name, &names.iter().map(String::as_str).collect::<Vec<_>>())
@@ -153,11 +159,18 @@ pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Chann
     if name.is_empty() {
         return Err(Failure::WrongUse(format!("--observe {text}: a name stands before the =")));
     }
-    let expression = expression(model, pool, written)?;
+    let expression = expression(model, pool, written, "--observe")?;
     Ok(Channel { written: name.to_owned(), expression })
 }
 
-fn expression(model: &Model, pool: &mut Pool, written: &str) -> Result<Expr, Failure> {
+/// An expression in whatever an observable may use; `called` is how its mistakes name it. `pool` is
+/// the one the equations live in.
+pub(super) fn expression(
+    model: &Model,
+    pool: &mut Pool,
+    written: &str,
+    called: &str,
+) -> Result<Expr, Failure> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     if let Some(e) = scope.read(pool, written) {
         return Ok(e);
@@ -170,8 +183,8 @@ fn expression(model: &Model, pool: &mut Pool, written: &str) -> Result<Expr, Fai
             Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
         })
         .collect();
-    stderr::show(&report(written, "--observe", &mistakes, stderr::has_colour()));
-    Err(Failure::WrongUse(format!("cannot observe `{written}`")))
+    stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
+    Err(Failure::WrongUse(format!("{called}: `{written}` is no expression of this system")))
 }
 
 fn wrong(assignment: &Assignment, why: &str) -> Failure {

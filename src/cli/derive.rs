@@ -1,6 +1,7 @@
 //! `phaselab derive`: what follows from a law of motion, to be read, typeset or checked by another
 //! program.
 
+mod body;
 mod json;
 mod latex;
 mod text;
@@ -12,6 +13,8 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use super::open;
 use super::output::Output;
+use super::script::Script;
+use crate::mechanics;
 
 /// Show what follows from L or H.
 #[derive(Debug, clap::Args)]
@@ -38,11 +41,12 @@ enum Format {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
-    let equations = open::derive(&document, &model)?;
+    let mut equations = open::derive(&document, &model)?;
+    let classes = mechanics::classes(&model, &mut equations);
     let text = match arguments.format {
-        Format::Text => text::write(&model, &equations, text::Script::of_locale()),
+        Format::Text => text::write(&model, &equations, &classes, Script::of_locale()),
         Format::Latex => latex::write(&model, &equations),
-        Format::Json => json::write(&model, &equations),
+        Format::Json => json::write(&model, &equations, &classes),
     };
     let mut out = Output::open(None)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;

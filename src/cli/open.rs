@@ -1,5 +1,6 @@
 //! From a name on the command line to a model and what follows from it.
 
+use crate::analysis::flaws;
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
 use crate::preset::{Catalog, Document};
@@ -23,9 +24,18 @@ pub(super) fn read(document: &Document) -> Result<Model, Failure> {
     }
 }
 
-/// Derives what follows from a model.
+/// Derives what follows from a model. Brackets that are no Poisson structure are shown where they
+/// stand.
 pub(super) fn derive(document: &Document, model: &Model) -> Result<Equations, Failure> {
-    mechanics::derive(model).map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))
+    let derived = mechanics::derive(model);
+    let equations =
+        derived.map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+    let mistakes = flaws(model, &equations);
+    if mistakes.is_empty() {
+        return Ok(equations);
+    }
+    stderr::show(&document.report(&mistakes, stderr::has_colour()));
+    Err(Failure::WrongFile(count(mistakes.len(), &document.path)))
 }
 
 /// `2 mistakes in pendulum.toml`.

@@ -8,12 +8,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Gauge;
-use super::law::EnergyLaw;
+use super::law::{EnergyLaw, LONGEST};
 use super::residual::Residual;
 use crate::analysis::{History, Stretch, Verdict, rounding_floor};
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::Equations;
-use crate::model::Model;
+use crate::mechanics::{Equations, casimir_rate};
+use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System};
 
 /// The gauge that is constant by the law of the energy's change.
@@ -83,6 +83,10 @@ impl Gauges {
             };
             let reason = conserved.reason.to_string();
             add(&conserved.name, reason, None, kind, conserved.expression);
+        }
+        for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
+            let reason = "Casimir; a force acts".to_owned();
+            add(&name, reason, Some(law), ChannelKind::Casimir(i), casimir);
         }
         // the energy first, whatever else there is
         needles.sort_by_key(|needle| needle.channel != find(ChannelKind::Energy).unwrap_or(0));
@@ -204,6 +208,22 @@ fn with_energy_opened(equations: &Equations) -> Equations {
         equations.conserved[i].expression = equations.pool.substitute(e, &energy);
     }
     equations
+}
+
+/// The Casimirs that forces change: which, its name, itself and the law of its change.
+fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (String, Expr, String))> {
+    let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics else { return Vec::new() };
+    let mut equations = equations.clone();
+    let mut changing = Vec::new();
+    for (i, (name, casimir, _)) in casimirs.iter().enumerate() {
+        let rate = casimir_rate(&mut equations, *casimir, forces);
+        if rate != Expr::ZERO {
+            let rate = equations.pool.unicode(rate);
+            let rate = if rate.chars().count() > LONGEST { "∇C·f".to_owned() } else { rate };
+            changing.push((i, (name.clone(), *casimir, format!("dC/dt = {rate}"))));
+        }
+    }
+    changing
 }
 
 /// What the gauges look at.

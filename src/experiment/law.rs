@@ -7,7 +7,7 @@ use crate::mechanics::Equations;
 use crate::model::{Mechanics, Model};
 
 /// A formula longer than this is given by its general form.
-const LONGEST: usize = 48;
+pub(super) const LONGEST: usize = 48;
 
 /// Why the energy changes.
 pub(super) struct EnergyLaw {
@@ -29,10 +29,15 @@ impl EnergyLaw {
                 (any(forces), "forces", "+ q̇·Q"),
                 (moved, "a moving constraint", "− Σ λ A₀"),
             ],
-            Mechanics::Hamiltonian { hamiltonian, forces }
-            | Mechanics::Poisson { hamiltonian, forces, .. } => [
+            Mechanics::Hamiltonian { hamiltonian, forces } => [
                 (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
                 (any(forces), "forces", "+ q̇·Q"),
+                (false, "", ""),
+                (false, "", ""),
+            ],
+            Mechanics::Poisson { hamiltonian, forces, .. } => [
+                (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
+                (any(forces), "forces", "+ ∇H·f"),
                 (false, "", ""),
                 (false, "", ""),
             ],

@@ -46,10 +46,12 @@ impl Setup {
         }
     }
 
-    /// The value of a parameter's symbol; not a number for any other.
-    pub(super) fn parameter(&self, model: &Model, symbol: Symbol) -> f64 {
+    /// The value of the symbol of a parameter, or of what follows from a body; not a number for any
+    /// other.
+    pub(super) fn constant(&self, model: &Model, body: &[(Symbol, f64)], symbol: Symbol) -> f64 {
         let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        index.map_or(f64::NAN, |i| self.parameters[i])
+        let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
+        index.map(|i| self.parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
     }
 }
 

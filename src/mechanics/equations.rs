@@ -1,5 +1,6 @@
 //! What follows from a law of motion.
 
+use super::rigid_body::{RigidBody, Tensor};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{CommonSymbols, Model};
 
@@ -48,6 +49,12 @@ pub struct Equations {
     pub conserved: Vec<Conserved>,
     /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
     pub separable: Result<Separable, WhyNot>,
+    /// The body of the file, put together.
+    pub body: Option<RigidBody>,
+    /// The matrix of its attitude, where that follows from Euler's angles.
+    pub attitude: Option<Tensor>,
+    /// The symbols of the matrix, by rows.
+    pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
 }
 
 /// The symbols of one coordinate.
@@ -158,6 +165,8 @@ pub enum Reason {
     Translation(String),
     /// Turning all points about this axis changes nothing.
     Rotation(char),
+    /// It has zero bracket with everything, and no force changes it.
+    Casimir,
     /// dG/dt = 0 along the motion, proved symbolically.
     Proved,
     /// dG/dt = 0 to rounding at many points of phase space, no proof found.
@@ -207,6 +216,7 @@ impl std::fmt::Display for Reason {
             Reason::TimeTranslation(law) => write!(f, "∂{law}/∂t = 0"),
             Reason::Translation(names) => write!(f, "translation of {names}"),
             Reason::Rotation(axis) => write!(f, "rotation about {axis}"),
+            Reason::Casimir => f.write_str("Casimir, B ∇C = 0"),
             Reason::Proved => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("declared"),

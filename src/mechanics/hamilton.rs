@@ -64,6 +64,9 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
+        body: None,
+        attitude: None,
+        attitude_symbols: model.attitude.as_ref().map(|a| a.matrix),
     }
 }
 

@@ -6,7 +6,7 @@
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::model::{Model, Observable};
+use crate::model::{Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
@@ -46,11 +46,31 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         }
         Zero::No => {}
     }
-    if !model.is_poisson() {
+    if let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics {
+        for (name, casimir, _) in casimirs {
+            let rate = casimir_rate(equations, *casimir, forces);
+            if rate == Expr::ZERO {
+                let (name, reason) = (name.clone(), Reason::Casimir);
+                equations.conserved.push(Conserved { name, expression: *casimir, reason });
+            }
+        }
+    } else {
         symmetry::find(equations, model, &rates);
     }
     for observable in &model.observables {
         name_observable(equations, observable);
+    }
+}
+
+/// dC/dt = ∇C · f for a Casimir: H does not move it. Zero exactly where it vanishes.
+pub fn casimir_rate(equations: &mut Equations, casimir: Expr, forces: &[Expr]) -> Expr {
+    let variables = equations.coordinates.iter().map(|c| c.position);
+    let seeds: Vec<(Symbol, Expr)> = variables.zip(forces.iter().copied()).collect();
+    let rate = equations.pool.derivation(casimir, &seeds);
+    if equations.pool.is_zero(rate) == Zero::No {
+        equations.pool.simplify(rate)
+    } else {
+        Expr::ZERO
     }
 }
 

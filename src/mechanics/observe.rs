@@ -26,11 +26,18 @@ impl Equations {
         seeds
     }
 
+    /// What the entries of an attitude's matrix are by Euler's angles.
+    pub fn attitude_map(&self) -> HashMap<Symbol, Expr> {
+        let symbols = self.attitude_symbols.iter().flat_map(|m| m.concat());
+        symbols.zip(self.attitude.iter().flat_map(|m| m.concat())).collect()
+    }
+
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a
     /// Lagrangian system, of (q, p, t) for a Hamiltonian one. The symbol `action` stays.
     pub fn open(&mut self, observable: Expr) -> Expr {
         let energy = HashMap::from([(self.symbols.energy, self.energy)]);
         let e = self.pool.substitute(observable, &energy);
+        let e = self.pool.substitute(e, &self.attitude_map());
         let mut replacements: HashMap<Symbol, Expr> = HashMap::new();
         match self.flow.clone() {
             Flow::Lagrange { .. } => {

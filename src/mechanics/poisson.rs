@@ -54,5 +54,8 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),
+        body: None,
+        attitude: None,
+        attitude_symbols: model.attitude.as_ref().map(|a| a.matrix),
     }
 }

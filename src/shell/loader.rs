@@ -9,6 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
+use crate::analysis::flaws;
 use crate::app::LoadFailure;
 use crate::experiment::{Experiment, Setup};
 use crate::mechanics::{self, Equations};
@@ -86,6 +87,10 @@ pub(super) fn prepare(catalog: &Catalog, name: &str) -> Result<Ready, String> {
     let model = read.map_err(|mistakes| document.report(&mistakes, false))?.model;
     let why = |what: &dyn std::fmt::Display| format!("{}: {what}", document.path);
     let equations = mechanics::derive(&model).map_err(|error| why(&error))?;
+    let mistakes = flaws(&model, &equations);
+    if !mistakes.is_empty() {
+        return Err(document.report(&mistakes, false));
+    }
     let system = System::compile(&model, &equations, &[]).map_err(|error| why(&error))?;
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));

@@ -7,6 +7,7 @@ use super::constrained::{Constrained, Holding};
 use super::fault::{Fault, FaultKind};
 use super::hold::Hold;
 use super::legendre::{self, Legendre, Unsolved};
+use super::moments::Moments;
 use super::motion::{Quadratures, Split, Writer};
 use super::program::{Program, Singular};
 use super::value::Values;
@@ -33,6 +34,7 @@ struct Shared {
     motion: Motion,
     watch: Watch,
     occasions: Occasions,
+    moments: Option<Moments>,
     legendre: Arc<Program>,
     /// Of a state in the native form: the numbers carried along, as they start.
     carried: Arc<Program>,
@@ -95,6 +97,8 @@ impl System {
         };
         let unknown =
             |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
+        let moments = Moments::of(model, &mut writer).map_err(unknown)?;
+        writer.parameters.extend(moments.iter().flat_map(|m| m.names().to_vec()));
         let constraints = Constrained::of(model, &mut writer).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
         let shared = Self::write(model, &mut writer, list, constraints).map_err(unknown)?;
@@ -102,7 +106,7 @@ impl System {
             return Err(CompileError::TooLarge);
         }
         let holding = holding.unwrap_or_default();
-        Ok(System { shared: Arc::new(shared), holding })
+        Ok(System { shared: Arc::new(Shared { moments, ..shared }), holding })
     }
 
     fn write(
@@ -144,6 +148,7 @@ impl System {
             energy,
             occasions: Occasions::of(model, writer)?,
             watch: list.compile(writer)?,
+            moments: None,
         })
     }
 
@@ -412,10 +417,22 @@ impl System {
     /// and what follows from them.
     pub fn inputs(&self, parameters: &[f64]) -> Vec<Double> {
         let mut inputs: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
+        if let Some(moments) = &self.shared.moments {
+            inputs.extend(moments.values(&inputs));
+        }
         if let Some(constraints) = self.constrained().filter(|c| c.switched) {
             inputs.extend(self.holding.switches(constraints.names.len()));
         }
         inputs
+    }
+
+    /// What the names of the file's body stand for at these parameters; nothing where there is no
+    /// body.
+    pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
+        let Some(moments) = &self.shared.moments else { return Vec::new() };
+        let written: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
+        let values = moments.values(&written).into_iter().map(|x| x.high);
+        moments.names().iter().copied().zip(values).collect()
     }
 
     pub(super) fn watch(&self) -> &Watch {

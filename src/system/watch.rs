@@ -245,6 +245,10 @@ fn bind_derived(
             }
         }
     }
+    for (symbol, e) in equations.attitude_map() {
+        let entry = lowering.lower(e);
+        lowering.bind(symbol, entry);
+    }
     let energy = lowering.lower(equations.energy);
     lowering.bind(equations.symbols.energy, energy);
 }

@@ -82,10 +82,26 @@ impl Writer<'_> {
                 }
                 self.forces(page, forces);
             }
-            Mechanics::Hamiltonian { hamiltonian, forces }
-            | Mechanics::Poisson { hamiltonian, forces, .. } => {
+            Mechanics::Hamiltonian { hamiltonian, forces } => {
                 page.heading("Hamiltonian");
                 self.put(page, "H", *hamiltonian);
+                self.forces(page, forces);
+            }
+            Mechanics::Poisson { hamiltonian, casimirs, forces, .. } => {
+                page.heading("Hamiltonian");
+                self.put(page, "H", *hamiltonian);
+                page.heading("Brackets");
+                let q = &self.model.coordinates;
+                for (i, j, bracket) in self.model.mechanics.brackets() {
+                    let (x, y) = (self.symbol(q[i].position), self.symbol(q[j].position));
+                    self.put(page, &format!("{{{x}, {y}}}"), bracket);
+                }
+                if !casimirs.is_empty() {
+                    page.heading("Casimirs");
+                }
+                for (name, casimir, _) in casimirs {
+                    self.put(page, &self.look.glyphs.text(name), *casimir);
+                }
                 self.forces(page, forces);
             }
         }
@@ -117,11 +133,13 @@ impl Writer<'_> {
         if forces.iter().all(|force| *force == Expr::ZERO) {
             return;
         }
-        page.heading("Forces without a potential");
+        let poisson = self.model.is_poisson();
+        page.heading(if poisson { "Added to the rates" } else { "Forces without a potential" });
         for (coordinate, force) in self.model.coordinates.iter().zip(forces) {
             if *force != Expr::ZERO {
                 let name = self.look.glyphs.pick(&coordinate.shown, &coordinate.name);
-                self.put(page, &format!("Q_{name}"), *force);
+                let letter = if poisson { "f" } else { "Q" };
+                self.put(page, &format!("{letter}_{name}"), *force);
             }
         }
     }
@@ -174,6 +192,8 @@ impl Writer<'_> {
                 Err(why) => page.words(Role::Dim, format!("Not in closed form: {why}.")),
             }
             page.heading("Energy function");
+        } else if self.model.is_poisson() {
+            page.heading("Energy");
         } else {
             page.heading("Lagrangian");
             match &self.equations.lagrangian {

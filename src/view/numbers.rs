@@ -25,11 +25,12 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     page.heading("State");
     let unit = q.lab.loaded.model.time_unit();
     page.row(line("t", &readable(q.snapshot.time, 10, glyphs), unit));
-    let groups: [Group; 5] = [
+    let groups: [Group; 6] = [
         ("", |kind| matches!(kind, ChannelKind::Position(_))),
         ("Velocities", |kind| matches!(kind, ChannelKind::Velocity(_))),
         ("Momenta", |kind| matches!(kind, ChannelKind::Momentum(_))),
         ("Multipliers", |kind| matches!(kind, ChannelKind::Multiplier(_))),
+        ("Casimirs", |kind| matches!(kind, ChannelKind::Casimir(_))),
         ("Observables", |kind| {
             matches!(
                 kind,

@@ -1,5 +1,6 @@
 //! What `analysis` says of histories whose nature is known.
 
+mod brackets;
 mod landscape;
 mod level;
 mod verdict;

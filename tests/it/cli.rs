@@ -1,5 +1,6 @@
 //! The command line, run as a program: what it writes where, and how it exits.
 
+mod bracket;
 mod check;
 mod derive;
 mod list;
@@ -12,7 +13,7 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 /// What a command did.
-struct Done {
+pub(crate) struct Done {
     code: i32,
     stdout: String,
     stderr: String,
@@ -46,7 +47,7 @@ fn phaselab(arguments: &[&str]) -> Done {
 }
 
 /// Runs the program in a folder that holds `system.toml`.
-fn with_file(text: &str, arguments: &[&str]) -> Done {
+pub(crate) fn with_file(text: &str, arguments: &[&str]) -> Done {
     let home = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(home.path().join("system.toml"), text).expect("a file can be written there");
     done(program(home.path()).args(arguments))
@@ -54,18 +55,18 @@ fn with_file(text: &str, arguments: &[&str]) -> Done {
 
 impl Done {
     /// What a command that succeeded wrote.
-    fn success(self) -> String {
+    pub(crate) fn success(self) -> String {
         assert_eq!((self.code, self.stderr.as_str()), (0, ""), "{}", self.stdout);
         self.stdout
     }
 
-    fn json(self) -> Value {
+    pub(crate) fn json(self) -> Value {
         let text = self.success();
         serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why} in {text}"))
     }
 
     /// Holds that a command failed with a code, wrote nothing, and said all of this.
-    fn fails(self, code: i32, said: &[&str]) {
+    pub(crate) fn fails(self, code: i32, said: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
         for words in said {
             assert!(self.stderr.contains(words), "no `{words}` in: {}", self.stderr);
@@ -98,7 +99,7 @@ fn help_and_version_go_to_standard_output() {
         phaselab(&["--version"]).success(),
         concat!("phaselab ", env!("CARGO_PKG_VERSION"), "\n")
     );
-    for command in ["list", "derive", "check", "run", "methods"] {
+    for command in ["list", "derive", "check", "bracket", "run", "methods"] {
         assert!(phaselab(&[command, "--help"]).success().contains("Usage:"), "{command}");
     }
 }

@@ -1,5 +1,7 @@
 //! Derivations: what follows from L or H, against equations written by hand, at random states.
 
+mod bracket;
+
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Pool, Symbol, Zero};
 use phaselab::mechanics::{self, Equations, Flow, Reason};

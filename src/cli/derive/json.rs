@@ -3,11 +3,12 @@
 
 use serde_json::{Map, Value, json};
 
+use super::body::Numbers;
 use crate::expr::Expr;
-use crate::mechanics::{Equations, Flow, with_reactions};
-use crate::model::{Action, Direction, Event, Impulse, Model};
+use crate::mechanics::{Classed, Equations, Flow, casimir_rate, with_reactions};
+use crate::model::{Action, Direction, Event, Impulse, Mechanics, Model};
 
-pub(super) fn write(model: &Model, equations: &Equations) -> String {
+pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -> String {
     let mut pool = equations.pool.clone();
     let forces = match &equations.flow {
         Flow::Lagrange { force, .. } => with_reactions(&mut pool, &equations.constraints, force),
@@ -54,6 +55,13 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
             })
         })
         .collect();
+    let observables: Vec<Value> = classes
+        .iter()
+        .map(|c| {
+            let rate = c.rate.as_ref().map_or(Value::Null, text);
+            json!({ "name": c.name, "class": c.class.to_string(), "rate": rate })
+        })
+        .collect();
     let mut object = json!({
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": model.info.title,
@@ -67,11 +75,44 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         "energy_rate": text(&equations.energy_rate),
         "cyclic": equations.cyclic.iter().map(|&i| name(i)).collect::<Vec<_>>(),
         "conserved": conserved,
+        "observables": observables,
         "constraints": constraints(model, equations),
         "impulses": impulses(model),
         "events": events(model),
         "transformations": [],
     });
+    if let Some(body) = Numbers::of(model, equations) {
+        let name = |symbol| equations.pool.symbol_info(symbol).name.clone();
+        let whole = body.whole;
+        let named = [(body.names.mass, whole.mass)].into_iter();
+        let named = named.chain(body.names.centre.into_iter().zip(whole.centre));
+        let named = named.chain(body.names.inertia.into_iter().zip(whole.inertia));
+        let expressions: Map<String, Value> =
+            named.map(|(symbol, e)| (name(symbol), text(&e))).collect();
+        object["body"] = json!({
+            "mass": body.mass,
+            "centre_of_mass": body.centre,
+            "inertia": body.inertia,
+            "principal_moments": body.moments,
+            "axes": body.axes,
+            "expressions": expressions,
+        });
+    }
+    if let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics {
+        let mut equations = equations.clone();
+        let brackets = model.mechanics.brackets().into_iter();
+        object["variables"] = object["coordinates"].clone();
+        object["brackets"] =
+            brackets.map(|(i, j, e)| json!([name(i), name(j), equations.pool.text(e)])).collect();
+        object["casimirs"] = casimirs
+            .iter()
+            .map(|(name, e, _)| {
+                let rate = casimir_rate(&mut equations, *e, forces);
+                let text = |e| equations.pool.text(e);
+                json!({ "name": name, "expression": text(*e), "rate": text(rate) })
+            })
+            .collect();
+    }
     if !why.is_empty() {
         object["why"] = Value::String(why.join("; "));
     }

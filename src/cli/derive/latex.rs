@@ -2,12 +2,20 @@
 
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::Model;
+use crate::model::{Mechanics, Model};
 
 pub(super) fn write(model: &Model, equations: &Equations) -> String {
     let pool = &equations.pool;
     let symbol = |s: Symbol| pool.symbol_info(s).latex.clone();
     let mut lines: Vec<String> = Vec::new();
+    if let (Some(body), Some(whole)) = (&model.body, &equations.body) {
+        let names = body.names;
+        let mut add =
+            |s: Symbol, e: Expr| lines.push(format!("{} &= {}", symbol(s), pool.latex(e)));
+        add(names.mass, whole.mass);
+        names.centre.into_iter().zip(whole.centre).for_each(|(s, e)| add(s, e));
+        names.inertia.into_iter().zip(whole.inertia).for_each(|(s, e)| add(s, e));
+    }
     let (name, law) = model.mechanics.function();
     lines.push(format!("{name} &= {}", pool.latex(law)));
     let dissipation = model.mechanics.dissipation();
@@ -16,9 +24,22 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
     }
     let forces = model.mechanics.forces();
     let forces = model.coordinates.iter().zip(forces).filter(|(_, force)| **force != Expr::ZERO);
+    let letter = if model.is_poisson() { 'f' } else { 'Q' };
+    lines.extend(forces.map(|(c, &force)| {
+        format!("{letter}_{{{}}} &= {}", symbol(c.position), pool.latex(force))
+    }));
+    let variable = |i: usize| symbol(model.coordinates[i].position);
     lines.extend(
-        forces.map(|(c, &force)| format!("Q_{{{}}} &= {}", symbol(c.position), pool.latex(force))),
+        model.mechanics.brackets().into_iter().map(|(i, j, e)| {
+            format!("\\{{{}, {}\\}} &= {}", variable(i), variable(j), pool.latex(e))
+        }),
     );
+    if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
+        let casimirs = casimirs.iter().enumerate();
+        lines.extend(
+            casimirs.map(|(i, (_, e, _))| format!("C_{{{}}} &= {}", i + 1, pool.latex(*e))),
+        );
+    }
     for c in &model.constraints {
         lines.push(format!("{} &= 0", pool.latex(c.expression)));
     }

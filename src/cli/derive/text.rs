@@ -4,33 +4,21 @@ use std::fmt::Write;
 
 use unicode_width::UnicodeWidthStr;
 
+use super::super::script::Script;
+use super::body::Numbers;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, Flow, WhyNot};
-use crate::model::Model;
-use crate::view::glyphs::Glyphs;
+use crate::mechanics::{Class, Classed, Equations, Flow, Reason, WhyNot};
+use crate::model::{Mechanics, Model};
 
-/// What the reader's terminal can show.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Script {
-    /// `θ̈ = −(g/l) sin θ`.
-    Unicode,
-    /// `theta'' = -g*sin(theta)/l`.
-    Ascii,
-}
-
-impl Script {
-    /// What the locale promises.
-    pub(super) fn of_locale() -> Script {
-        match Glyphs::from_environment(&|name| std::env::var(name).ok()) {
-            Glyphs::Ascii => Script::Ascii,
-            Glyphs::Braille | Glyphs::HalfBlock => Script::Unicode,
-        }
-    }
-}
-
-pub(super) fn write(model: &Model, equations: &Equations, script: Script) -> String {
+pub(super) fn write(
+    model: &Model,
+    equations: &Equations,
+    classes: &[Classed],
+    script: Script,
+) -> String {
     let mut page = Page { equations, script, text: String::new() };
     page.head(model);
+    page.body(model);
     page.law(model);
     page.constraints(model);
     page.momenta(model);
@@ -40,6 +28,7 @@ pub(super) fn write(model: &Model, equations: &Equations, script: Script) -> Str
     page.happenings(model);
     page.energy();
     page.conserved(model);
+    page.changing(classes);
     page.text
 }
 
@@ -61,6 +50,36 @@ impl Page<'_> {
         }
     }
 
+    /// The body of the file: expressions, and numbers at the file's parameters.
+    fn body(&mut self, model: &Model) {
+        let Some(body) = Numbers::of(model, self.equations) else { return };
+        let names = body.names;
+        let whole = body.whole;
+        let numbers = |all: &[f64]| {
+            let all: Vec<String> = all.iter().map(f64::to_string).collect();
+            format!("({})", all.join(", "))
+        };
+        let mut rows = vec![(self.symbol(names.mass), self.math(whole.mass))];
+        for (symbol, e) in names.centre.into_iter().zip(whole.centre) {
+            rows.push((self.symbol(symbol), self.math(e)));
+        }
+        for (symbol, e) in names.inertia.into_iter().zip(whole.inertia) {
+            rows.push((self.symbol(symbol), self.math(e)));
+        }
+        self.section("Body", &rows);
+        let mut rows = vec![
+            ("mass".to_owned(), body.mass.to_string()),
+            ("centre of mass".to_owned(), numbers(&body.centre)),
+        ];
+        let mark = |i: usize| format!("inertia, row {}", i + 1);
+        rows.extend(body.inertia.iter().enumerate().map(|(i, row)| (mark(i), numbers(row))));
+        for (i, (moment, axis)) in body.moments.iter().zip(&body.axes).enumerate() {
+            let name = self.symbol(names.principal[i]);
+            rows.push((name, format!("{moment} about {}", numbers(axis))));
+        }
+        self.section("Its numbers at these parameters", &rows);
+    }
+
     fn law(&mut self, model: &Model) {
         let (name, law) = model.mechanics.function();
         let title = if model.is_lagrangian() { "Lagrangian" } else { "Hamiltonian" };
@@ -69,12 +88,30 @@ impl Page<'_> {
         if dissipation != Expr::ZERO {
             rows.push(("F".to_owned(), self.math(dissipation)));
         }
+        let letter = if model.is_poisson() { 'f' } else { 'Q' };
         for (c, &force) in model.coordinates.iter().zip(model.mechanics.forces()) {
             if force != Expr::ZERO {
-                rows.push((format!("Q_{}", self.symbol(c.position)), self.math(force)));
+                rows.push((format!("{letter}_{}", self.symbol(c.position)), self.math(force)));
             }
         }
         self.section(title, &rows);
+        self.structure(model);
+    }
+
+    /// The brackets that do not vanish, and the Casimirs.
+    fn structure(&mut self, model: &Model) {
+        let Mechanics::Poisson { casimirs, .. } = &model.mechanics else { return };
+        let symbol = |i: usize| self.symbol(model.coordinates[i].position);
+        let brackets = model.mechanics.brackets().into_iter();
+        let rows: Vec<_> = brackets
+            .map(|(i, j, e)| (format!("{{{}, {}}}", symbol(i), symbol(j)), self.math(e)))
+            .collect();
+        self.section("Brackets", &rows);
+        if !casimirs.is_empty() {
+            let rows: Vec<_> =
+                casimirs.iter().map(|(name, e, _)| (self.words(name), self.math(*e))).collect();
+            self.section("Casimirs", &rows);
+        }
     }
 
     fn constraints(&mut self, model: &Model) {
@@ -227,8 +264,10 @@ impl Page<'_> {
         let cyclic: Vec<String> =
             cyclic.map(|&i| self.symbol(model.coordinates[i].position)).collect();
         let cyclic = if cyclic.is_empty() { "none".to_owned() } else { cyclic.join(", ") };
-        self.line("");
-        self.line(&format!("Cyclic coordinates: {cyclic}"));
+        if !model.is_poisson() {
+            self.line("");
+            self.line(&format!("Cyclic coordinates: {cyclic}"));
+        }
         self.line("");
         if self.equations.conserved.is_empty() {
             return self.line("Conserved: nothing that is known");
@@ -242,12 +281,41 @@ impl Page<'_> {
             let line = match momentum {
                 Some(c) => format!("  {}   ({reason})", self.symbol(c.momentum)),
                 None if conserved.name == "energy" => format!("  E   ({reason})"),
+                None if conserved.reason == Reason::Casimir => {
+                    format!("  {}   ({reason})", self.words(&conserved.name))
+                }
                 None => {
                     let name = self.words(&conserved.name);
                     format!("  {name} = {}   ({reason})", self.math(conserved.expression))
                 }
             };
             self.line(&line);
+        }
+    }
+
+    /// The observables that are not conserved, with their rates.
+    fn changing(&mut self, classes: &[Classed]) {
+        let changing = classes.iter().filter(|c| !c.class.is_conserved());
+        let rows: Vec<String> = changing
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  d({name})/dt = {}", self.math(*rate)),
+                    Err(why) => format!("  {name}   ({}; {})", c.class, self.words(&why.0)),
+                }
+            })
+            .collect();
+        let rounded = classes.iter().filter(|c| c.class == Class::Numerically && c.rate.is_err());
+        let rounded: Vec<String> =
+            rounded.map(|c| format!("  {}   ({})", self.words(&c.name), c.class)).collect();
+        for (title, rows) in [("Conserved to rounding", rounded), ("Not conserved", rows)] {
+            if !rows.is_empty() {
+                self.line("");
+                self.line(title);
+                for row in &rows {
+                    self.line(row);
+                }
+            }
         }
     }
 
@@ -275,26 +343,16 @@ impl Page<'_> {
     }
 
     fn math(&self, e: Expr) -> String {
-        match self.script {
-            Script::Unicode => self.equations.pool.unicode(e),
-            Script::Ascii => self.equations.pool.text(e),
-        }
+        self.script.math(&self.equations.pool, e)
     }
 
     fn symbol(&self, symbol: Symbol) -> String {
-        let info = self.equations.pool.symbol_info(symbol);
-        match self.script {
-            Script::Unicode => info.unicode.clone(),
-            Script::Ascii => info.name.clone(),
-        }
+        self.script.symbol(&self.equations.pool, symbol)
     }
 
     /// Words as the reader's terminal can show them.
     fn words(&self, text: &str) -> String {
-        match self.script {
-            Script::Unicode => text.to_owned(),
-            Script::Ascii => Glyphs::Ascii.text(text).into_owned(),
-        }
+        self.script.words(text)
     }
 }
 

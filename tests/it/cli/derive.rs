@@ -99,3 +99,52 @@ fn latex_is_one_aligned_block() {
     let opened = latex.matches('{').count();
     assert_eq!(opened, latex.matches('}').count());
 }
+
+#[test]
+fn every_observable_is_classed() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, velocity = 0 }\n\
+                y = { initial = 0, velocity = 1 }\n\
+                [lagrangian]\nL = \"(x'^2 + y'^2)/2 - sqrt(x^2 + y^2)\"\n\
+                [[observables]]\nname = \"Lz\"\nexpression = \"x*y' - y*x'\"\n\
+                [[observables]]\nname = \"still\"\nexpression = \"energy*exp(ln(2 + x^2)) - energy*(2 + x^2)\"\n\
+                [[observables]]\nname = \"r2\"\nexpression = \"x^2 + y^2\"\n";
+    let object = with_file(file, &["derive", "system.toml", "--format", "json"]).json();
+    let class = |i: usize| text(&object["observables"][i]["class"]).to_owned();
+    assert_eq!(text(&object["observables"][0]["name"]), "Lz");
+    assert_eq!(
+        (class(0).as_str(), text(&object["observables"][0]["rate"])),
+        ("conserved (proved)", "0")
+    );
+    assert_eq!(class(1), "conserved (to rounding)");
+    assert_eq!(class(2), "not conserved");
+    assert_eq!(text(&object["observables"][2]["rate"]), "2*x*x' + 2*y*y'");
+    let page = with_file(file, &["derive", "system.toml"]).success();
+    assert!(page.contains("\nNot conserved\n  d(r2)/dt = 2 x ẋ + 2 y ẏ\n"), "{page}");
+}
+
+#[test]
+fn an_observable_is_classed_where_accelerations_have_no_closed_form() {
+    // nine coupled links: q̈ is too long to write
+    let names: Vec<String> = (1..=9).map(|i| format!("a{i}")).collect();
+    let mut file = String::from("title = \"T\"\n[coordinates]\n");
+    for name in &names {
+        file.push_str(&format!("{name} = {{ initial = 0.3, velocity = 0.1 }}\n"));
+    }
+    let mut terms = Vec::new();
+    for i in 1..=9 {
+        for j in 1..=9 {
+            terms.push(format!("{}*a{i}'*a{j}'*cos(a{i} - a{j})", 10 - i.max(j)));
+        }
+    }
+    file.push_str(&format!("[lagrangian]\nL = \"1/2*({})\"\n", terms.join(" + ")));
+    file.push_str("[[observables]]\nname = \"doubled\"\nexpression = \"2*energy\"\n");
+    file.push_str("[[observables]]\nname = \"turn\"\nexpression = \"a1'\"\n");
+    let sum = names.iter().map(|n| format!("p_{n}")).collect::<Vec<_>>().join(" + ");
+    file.push_str(&format!("[[observables]]\nname = \"spin\"\nexpression = \"{sum}\"\n"));
+    let object = with_file(&file, &["derive", "system.toml", "--format", "json"]).json();
+    assert!(object["equations"].is_null(), "this has a closed form after all");
+    let class = |i: usize| text(&object["observables"][i]["class"]);
+    assert_eq!(class(0), "conserved (to rounding)");
+    assert_eq!((class(1), &object["observables"][1]["rate"]), ("not conserved", &Value::Null));
+    assert_eq!(class(2), "conserved (to rounding)");
+}

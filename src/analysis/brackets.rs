@@ -1,0 +1,108 @@
+//! Whether what a file says of brackets is true: `[f, g] = is` of `[expect] brackets`.
+//!
+//! In: a model and what follows from it. Out: a mistake for each claim that is neither proved nor
+//! holds to 1e-10 at twenty points near the start. Never here: how claims are written.
+
+use crate::expr::{Expr, Symbol, Zero};
+use crate::mechanics::{self, ChainRule, Equations, POINTS, Point, TRIES};
+use crate::model::{ExpectedBracket, Model};
+use crate::preset::Mistake;
+
+/// How far a bracket may be from what it is said to be, relative to the size of its terms.
+const TOLERANCE: f64 = 1e-10;
+
+/// The claims on brackets that are false.
+pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Mistake> {
+    if model.expect.brackets.is_empty() {
+        return Vec::new();
+    }
+    let mut equations = equations.clone();
+    model.expect.brackets.iter().filter_map(|claim| check(model, &mut equations, claim)).collect()
+}
+
+fn check(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Mistake> {
+    match mechanics::bracket(model, equations, claim.f, claim.g) {
+        Ok(bracket) => match mechanics::in_phase_space(equations, claim.is) {
+            Ok(is) => compare(model, equations, claim, bracket, is),
+            Err(why) => Some(unchecked(claim, &why)),
+        },
+        Err(_) if equations.is_lagrangian() => at_points(model, equations, claim),
+        Err(why) => Some(unchecked(claim, &why)),
+    }
+}
+
+/// Both sides as functions of phase space.
+fn compare(
+    model: &Model,
+    equations: &mut Equations,
+    claim: &ExpectedBracket,
+    bracket: Expr,
+    is: Expr,
+) -> Option<Mistake> {
+    let difference = equations.pool.sub(bracket, is);
+    if equations.pool.is_zero(difference) == Zero::Proved {
+        return None;
+    }
+    let value = |point: &Point| equations.pool.evaluate_with_size(difference, &|s| point.at(s));
+    let short = equations.pool.weight(bracket) <= LONGEST;
+    let found = short.then(|| equations.pool.unicode(bracket));
+    judge(model, equations, claim, found.as_deref(), &value)
+}
+
+/// A bracket longer than this is not told in a message.
+const LONGEST: u64 = 60;
+
+/// The left side by the chain rule, where velocities are not known in terms of momenta.
+fn at_points(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Mistake> {
+    let rule = match ChainRule::of(equations, claim.f, claim.g) {
+        Ok(rule) => rule,
+        Err(why) => return Some(unchecked(claim, &why)),
+    };
+    let is = equations.open(claim.is);
+    let value = |point: &Point| {
+        let at = |symbol: Symbol| point.at(symbol);
+        let (right, size) = equations.pool.evaluate_with_size(is, &at);
+        match rule.value(equations, &at) {
+            Some(left) => (left - right, size.max(left.abs())),
+            None => (f64::NAN, f64::NAN),
+        }
+    };
+    judge(model, equations, claim, None, &value)
+}
+
+/// Holds the two sides against each other: `value` gives their difference and the size of terms.
+fn judge(
+    model: &Model,
+    equations: &Equations,
+    claim: &ExpectedBracket,
+    found: Option<&str>,
+    value: &dyn Fn(&Point) -> (f64, f64),
+) -> Option<Mistake> {
+    let mut seen = 0;
+    for n in 0..TRIES {
+        let (off, size) = value(&Point::near_start(model, equations, n));
+        if !off.is_finite() || !size.is_finite() {
+            continue;
+        }
+        seen += 1;
+        if off.abs() > TOLERANCE * size {
+            let message = format!("{} is not what this says", claim.written);
+            let help = match found {
+                Some(found) => format!("it is {found}"),
+                None => {
+                    format!("near the start it is off by {off:.1e}, its terms being {size:.1e}")
+                }
+            };
+            return Some(Mistake::error(claim.place.clone(), message).with_help(help));
+        }
+        if seen == POINTS {
+            return None;
+        }
+    }
+    Some(unchecked(claim, &"it has no value near the start"))
+}
+
+fn unchecked(claim: &ExpectedBracket, why: &dyn std::fmt::Display) -> Mistake {
+    let message = format!("{} cannot be checked: {why}", claim.written);
+    Mistake::error(claim.place.clone(), message)
+}
