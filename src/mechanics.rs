@@ -3,6 +3,7 @@
 //! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
 //! of its change, what is conserved and why. Never here: numbers in motion.
 
+mod attitude;
 mod bracket;
 mod class;
 mod comparison;
@@ -21,7 +22,7 @@ mod structure;
 mod symmetry;
 
 use crate::expr::NODE_LIMIT;
-use crate::model::{AttitudeSource, Mechanics, Model};
+use crate::model::{Mechanics, Model};
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, classes};
@@ -59,11 +60,8 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
         }
     };
     equations.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
-    equations.attitude = match model.attitude.as_ref().map(|attitude| &attitude.source) {
-        Some(AttitudeSource::Euler(angles)) => Some(rigid_body::attitude(&mut pool, *angles)),
-        _ => None,
-    };
     equations.pool = pool;
+    attitude::find(&mut equations, model);
     if let Some(comparison) = &model.comparison {
         equations.twin = Some(comparison::twin(&mut equations, model, comparison));
     }

@@ -127,6 +127,13 @@ impl Equations {
             return None;
         }
         let mut seeds = self.along_the_flow();
+        for carried in &self.carried {
+            if carried.rates.plain.len() == carried.symbols.len() {
+                seeds.extend(carried.symbols.iter().copied().zip(carried.rates.plain.clone()));
+            } else if self.pool.depends_on_any(g, &carried.symbols) {
+                return None;
+            }
+        }
         if self.is_lagrangian() {
             for (c, &acceleration) in self.coordinates.clone().iter().zip(&solved) {
                 let velocity = self.pool.variable(c.velocity);

@@ -6,7 +6,7 @@ mod motion;
 mod structure;
 
 /// A free rigid body by Euler's equations.
-const BODY: &str = r#"
+pub(crate) const BODY: &str = r#"
 title = "A free body"
 
 [variables]

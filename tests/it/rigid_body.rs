@@ -5,14 +5,17 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use phaselab::analysis::flaws;
-use phaselab::expr::{Double, Expr, Pool};
-use phaselab::mechanics::{self, COMPONENTS, body_constants, principal};
+use phaselab::expr::{Double, Expr, Pool, Zero};
+use phaselab::integrate::{Settings, method_named};
+use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
 use phaselab::model::{
-    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Piece, Solid, Turn,
+    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, Solid, Turn,
 };
+use phaselab::preset;
 use phaselab::system::System;
 
 use crate::build::{lagrangian, names, read};
+use crate::poisson::BODY;
 
 /// Gauss and Legendre's three nodes on (0, 1), exact to the fifth degree.
 const NODES: [(f64, f64); 3] = [
@@ -409,4 +412,125 @@ fn an_attitude_by_angles_is_the_matrix_of_the_books() {
     let last = equations.pool.variable(matrix[2][2]);
     let rate = equations.rate_of(last).expect("a closed form");
     assert_eq!(equations.pool.text(rate), "-theta'*sin(theta)");
+}
+
+/// A free body with its attitude, from Euler's angles (φ, θ, ψ) = (0.3, 0.4, 0.5).
+fn turning() -> Model {
+    let mut model = preset::read(BODY).expect("a right file").model;
+    let omega = ["L1/I1", "L2/I2", "L3/I3"].map(|text| read(&mut model, text));
+    let start = ["0.3", "0.4", "0.5"].map(|text| read(&mut model, text));
+    let matrix = [1, 2, 3].map(|i| [1, 2, 3].map(|j| model.pool.symbol(&format!("A{i}{j}"))));
+    let source = AttitudeSource::Rate { omega, start };
+    model.attitude = Some(Attitude { matrix, source, place: 0..0 });
+    model
+}
+
+#[test]
+fn a_free_body_keeps_its_angular_momentum_in_space() {
+    let mut model = turning();
+    let l = |model: &mut Model, j: usize| {
+        let terms = [1, 2, 3].map(|i| format!("A{i}{j}*L{i}"));
+        read(model, &terms.join(" + "))
+    };
+    for j in 1..=3 {
+        let expression = l(&mut model, j);
+        let (name, place) = (format!("l{j}"), 0..0);
+        model.observables.push(Observable { name, expression, conserved: None, place });
+    }
+    let norm = [1, 2, 3].map(|j| format!("A1{j}^2 + A2{j}^2 + A3{j}^2")).join(" + ");
+    let norm = read(&mut model, &norm);
+    let place = 0..0;
+    let name = "alone".to_owned();
+    let expression = read(&mut model, "A11");
+    model.observables.push(Observable { name, expression, conserved: None, place });
+    let mut equations = mechanics::derive(&model).expect("derivable");
+    let classes = mechanics::classes(&model, &mut equations);
+    let told: Vec<Class> = classes.iter().map(|c| c.class).collect();
+    assert_eq!(told, [Class::Proved, Class::Proved, Class::Proved, Class::Changing]);
+    assert_eq!(equations.is_conserved(norm), Some(Zero::Proved));
+    let (f, g) = (norm, equations.pool.named("L1"));
+    let why = mechanics::bracket(&model, &mut equations, f, g).expect_err("not of phase space");
+    assert!(why.to_string().contains("carried along"), "{why}");
+
+    // and in numbers, to the end of five turns of the racket
+    let mut channels = Vec::new();
+    for e in [norm].into_iter().chain(model.observables.iter().map(|o| o.expression)) {
+        channels.push(Channel { written: String::new(), expression: e });
+    }
+    let system = System::compile(&model, &equations, &channels).expect("compiles");
+    let parameters = model.parameter_values();
+    let state = system.initial(0.0, &parameters, &[]).expect("a start");
+    let (mut first, mut last) = (vec![0.0; system.channels().len()], Vec::new());
+    let mut observer = system.observer(&parameters);
+    observer.observe(&state, &mut first).expect("values");
+    let method = method_named("taylor").expect("the table has it");
+    let mut stepper = (method.make)(&system, &Settings::default()).expect("it fits");
+    stepper.start(&state, &parameters).expect("a start");
+    while stepper.time() < 100.0 {
+        stepper.step(100.0).expect("a step");
+    }
+    last.resize(first.len(), 0.0);
+    observer.observe(stepper.state(), &mut last).expect("values");
+    let columns = system.columns() - channels.len();
+    for k in 0..4 {
+        let (a, b) = (first[columns + k], last[columns + k]);
+        assert!((a - b).abs() < 2e-13, "{k}: {a} became {b}");
+    }
+    assert!((first[columns] - 3.0).abs() < 1e-15);
+    let moved = (first[columns + 4] - last[columns + 4]).abs();
+    assert!(moved > 0.1, "A11 moved by {moved}");
+}
+
+#[test]
+fn the_attitude_of_a_top_is_that_of_its_angles() {
+    // ω of given Euler angles, integrated, gives back BCD
+    let mut model = names(&["theta", "phi", "psi"], &[]);
+    let l = read(&mut model, "(theta'^2 + phi'^2 + psi'^2)/2");
+    if let phaselab::model::Mechanics::Lagrangian { lagrangian, .. } = &mut model.mechanics {
+        *lagrangian = l;
+    }
+    for (c, (at, rate)) in model.coordinates.iter_mut().zip([(4, 2), (1, -3), (2, 9)]) {
+        c.initial = model.pool.ratio(at, 10);
+        c.initial_rate = model.pool.ratio(rate, 10);
+        c.rate_given = true;
+    }
+    let omega = [
+        "phi'*sin(theta)*sin(psi) + theta'*cos(psi)",
+        "phi'*sin(theta)*cos(psi) - theta'*sin(psi)",
+        "phi'*cos(theta) + psi'",
+    ]
+    .map(|text| read(&mut model, text));
+    let start = ["0.1", "0.4", "0.2"].map(|text| read(&mut model, text));
+    let matrix = [1, 2, 3].map(|i| [1, 2, 3].map(|j| model.pool.symbol(&format!("A{i}{j}"))));
+    let source = AttitudeSource::Rate { omega, start };
+    model.attitude = Some(Attitude { matrix, source, place: 0..0 });
+    let written = [
+        ("A11", "cos(psi)*cos(phi) - cos(theta)*sin(phi)*sin(psi)"),
+        ("A12", "cos(psi)*sin(phi) + cos(theta)*cos(phi)*sin(psi)"),
+        ("A23", "cos(psi)*sin(theta)"),
+        ("A31", "sin(theta)*sin(phi)"),
+        ("A33", "cos(theta)"),
+    ];
+    let mut channels = Vec::new();
+    for (entry, right) in written {
+        let entry = model.pool.named(entry);
+        let right = read(&mut model, right);
+        let expression = model.pool.sub(entry, right);
+        channels.push(Channel { written: String::new(), expression });
+    }
+    let equations = mechanics::derive(&model).expect("derivable");
+    let system = System::compile(&model, &equations, &channels).expect("compiles");
+    let state = system.initial(0.0, &[], &[]).expect("a start");
+    let method = method_named("taylor").expect("the table has it");
+    let mut stepper = (method.make)(&system, &Settings::default()).expect("it fits");
+    stepper.start(&state, &[]).expect("a start");
+    while stepper.time() < 7.0 {
+        stepper.step(7.0).expect("a step");
+    }
+    let mut values = vec![0.0; system.channels().len()];
+    system.observer(&[]).observe(stepper.state(), &mut values).expect("values");
+    let columns = system.columns() - channels.len();
+    for (k, (entry, _)) in written.iter().enumerate() {
+        assert!(values[columns + k].abs() < 2e-14, "{entry} is off by {:e}", values[columns + k]);
+    }
 }
