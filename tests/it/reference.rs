@@ -4,6 +4,7 @@
 //! at given times, the typical size of each (`scale`), and by how much the motion magnifies
 //! a relative error of its beginning (`condition`). Known are q, q̇ and p, the multipliers
 //! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`);
+//! with `[comparison]` the wrong mechanics (`other_q`, `other_v`); `bracket` are values at the start;
 //! `events` are all that happens up to the last row, `status` how it ends.
 
 use std::collections::BTreeMap;
@@ -12,8 +13,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
+use phaselab::expr::Pool;
 use phaselab::integrate::{Happening, Kind as happening};
 use phaselab::mechanics;
+use phaselab::model::{Channel, Coordinate, Model};
 use phaselab::preset::Document;
 use phaselab::system::{ChannelKind, System};
 
@@ -27,6 +30,16 @@ struct Expected {
     events: Option<Vec<Happened>>,
     scale: BTreeMap<Kind, Vec<f64>>,
     reference: Vec<Known>,
+    #[serde(default)]
+    bracket: Vec<Bracket>,
+}
+
+/// Poisson's bracket of two expressions, its value at the start.
+#[derive(Deserialize)]
+struct Bracket {
+    f: String,
+    g: String,
+    value: String,
 }
 
 /// A row: what is known of each kind at a time.
@@ -57,16 +70,20 @@ enum Kind {
     P,
     Lambda,
     X,
+    OtherQ,
+    OtherV,
 }
 
 impl Kind {
     /// The channel that shows the value of this place in the list.
-    fn channel(self, place: usize) -> ChannelKind {
+    fn channel(self, place: usize, degrees: usize) -> ChannelKind {
+        let place = if self == Kind::OtherV { place + degrees } else { place };
         match self {
             Kind::Q | Kind::X => ChannelKind::Position(place),
             Kind::V => ChannelKind::Velocity(place),
             Kind::P => ChannelKind::Momentum(place),
             Kind::Lambda => ChannelKind::Multiplier(place),
+            Kind::OtherQ | Kind::OtherV => ChannelKind::Extra(place),
         }
     }
 }
@@ -119,8 +136,9 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
     let document = Document::open(file).map_err(|why| why.to_string())?;
     let read = document.read();
     let model = read.map_err(|mistakes| document.report(&mistakes, false))?.model;
-    let equations = mechanics::derive(&model).map_err(|why| why.to_string())?;
-    let system = System::compile(&model, &equations, &[]).map_err(|why| why.to_string())?;
+    let mut equations = mechanics::derive(&model).map_err(|why| why.to_string())?;
+    let others = others(&model, &mut equations.pool);
+    let system = System::compile(&model, &equations, &others).map_err(|why| why.to_string())?;
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let setup = Setup { speed: f64::INFINITY, ..Setup::of(&model) };
     Experiment::new(&model, &equations, &system, setup).map_err(|why| why.to_string())
@@ -188,6 +206,20 @@ fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), Strin
     Ok((value, &channel.name))
 }
 
+/// The coordinates and velocities of the wrong mechanics, where the file asks for it.
+fn others(model: &Model, pool: &mut Pool) -> Vec<Channel> {
+    if model.comparison.is_none() {
+        return Vec::new();
+    }
+    let mut channel = |c: &Coordinate, prime: &str| {
+        let written = format!("other_{}{prime}", c.name);
+        Channel { expression: pool.named(&written), written }
+    };
+    let positions: Vec<Channel> = model.coordinates.iter().map(|c| channel(c, "")).collect();
+    let velocities = model.coordinates.iter().map(|c| channel(c, "'"));
+    positions.into_iter().chain(velocities).collect()
+}
+
 /// The worst error of a system's motion.
 fn worst(file: &Path) -> Result<Worst, String> {
     let name = file.file_stem().expect("a file has a name").to_string_lossy().into_owned();
@@ -196,6 +228,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let expected: Expected = toml::from_str(&text).map_err(|why| why.to_string())?;
     let mut experiment = experiment(file)?;
     let mut worst = Worst { name, error: 0.0, condition: expected.condition, place: String::new() };
+    let degrees = experiment.model().coordinates.len();
     for known in &expected.reference {
         while experiment.advance(known.at, 1_000_000) == Progress::Underway {}
         if let Status::Faulted(fault) = experiment.status() {
@@ -210,7 +243,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
                 return Err(format!("{kind:?}: {} values, {} sizes", digits.len(), sizes.len()));
             }
             for (place, (digits, &size)) in digits.iter().zip(sizes).enumerate() {
-                let (value, shown) = find(&experiment, kind.channel(place))?;
+                let (value, shown) = find(&experiment, kind.channel(place, degrees))?;
                 worst.look(value, digits, size, || format!("{shown} at t = {}", known.at))?;
             }
         }
@@ -219,6 +252,33 @@ fn worst(file: &Path) -> Result<Worst, String> {
         happenings(&mut experiment, &expected, events, &mut worst)?;
     }
     Ok(worst)
+}
+
+#[test]
+fn every_bracket_has_its_value_at_the_start() {
+    let mut count = 0;
+    for file in systems() {
+        let text = std::fs::read_to_string(file.with_extension("expected.toml"));
+        let expected: Expected = toml::from_str(&text.expect("a file")).expect("what is known");
+        for Bracket { f, g, value } in expected.bracket {
+            let output = std::process::Command::new(env!("CARGO_BIN_EXE_phaselab"))
+                .args(["bracket", &file.to_string_lossy(), &f, &g, "--format", "json"])
+                .output()
+                .expect("it runs");
+            let answer: serde_json::Value =
+                serde_json::from_slice(&output.stdout).expect("an object");
+            let found = answer["value"].as_f64().expect("a number");
+            let truth: f64 = value.parse().expect("a number");
+            // terms of size 1 that cancel leave a few roundings
+            let within = 4.0 * f64::EPSILON * truth.abs().max(1.0);
+            assert!(
+                (found - truth).abs() <= within,
+                "[{f}, {g}] of {file:?}: {found}, not {truth}"
+            );
+            count += 1;
+        }
+    }
+    assert!(count >= 25, "{count} brackets");
 }
 
 #[test]
