@@ -55,7 +55,11 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
             [Given::Position(i, q), Given::Velocity(i, -2.7 * (sin - sin0))]
         };
         let free = loaded.model.constraints.is_empty();
-        let given: Vec<Given> = (0..system.degrees()).filter(|_| free).flat_map(swing).collect();
+        // variables of a Poisson system have no velocity of their own
+        let possible =
+            |given: &Given| !loaded.model.is_poisson() || matches!(given, Given::Position(..));
+        let given: Vec<Given> =
+            (0..system.degrees()).filter(|_| free).flat_map(swing).filter(possible).collect();
         let mut values = vec![f64::NAN; system.channels().len()];
         let moment = if free { t } else { loaded.model.run.start };
         let state = system.initial(moment, &parameters, &given).unwrap();
