@@ -3,6 +3,7 @@
 //! In: a compiled [`System`], a [`Setup`] and [`Command`]s. Out: [`Snapshot`]s, cheap to clone.
 //! Never here: threads, clocks, terminals.
 
+mod attitude;
 mod command;
 mod gauges;
 mod law;

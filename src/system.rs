@@ -7,6 +7,7 @@
 //! gives the steppers of `integrate` their equations of motion. Never here: steps in time, files,
 //! symbols after compiling.
 
+mod attitude;
 mod beginning;
 mod channel;
 mod compiled;

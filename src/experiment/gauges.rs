@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Gauge;
+use super::attitude::Attitude;
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::Residual;
 use crate::analysis::{History, Stretch, Verdict, rounding_floor};
@@ -25,6 +26,7 @@ pub(super) struct Gauges {
     equations: Arc<Equations>,
     needles: Vec<Needle>,
     residuals: Vec<Residual>,
+    attitude: Option<Attitude>,
     /// For each symbol an expression of the state may hold: its channel.
     places: Vec<(Symbol, usize)>,
     reference_time: f64,
@@ -102,11 +104,13 @@ impl Gauges {
         }
         places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
         let residuals = Residual::all(model, equations, system);
+        let attitude = Attitude::of(system);
         let equations = Arc::clone(equations);
         Gauges {
             equations,
             needles,
             residuals,
+            attitude,
             places,
             reference_time: 0.0,
             reference_steps: 0,
@@ -123,6 +127,7 @@ impl Gauges {
             needle.refer(now.values);
         }
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
+        self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
         self.sample(now);
     }
@@ -152,6 +157,9 @@ impl Gauges {
         for residual in &mut self.residuals {
             residual.sample(now.time, now.residuals);
         }
+        if let Some(attitude) = &mut self.attitude {
+            attitude.sample(now.time, now.values);
+        }
     }
 
     /// Takes note of the values at any other time.
@@ -165,16 +173,20 @@ impl Gauges {
         for residual in &mut self.residuals {
             residual.look(now.residuals);
         }
+        if let Some(attitude) = &mut self.attitude {
+            attitude.look(now.values);
+        }
     }
 
     /// What they show.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
         let floor = rounding_floor(now.steps.saturating_sub(self.reference_steps));
         let show = |needle: &Needle| needle.show(now.values, self.reference_time, floor);
+        let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let held = self.residuals.iter().enumerate().map(|(k, residual)| {
             residual.show(now.values, now.residuals, now.system.is_released(k))
         });
-        self.needles.iter().map(show).chain(held).collect()
+        self.needles.iter().map(show).chain(held).chain(attitude).collect()
     }
 
     /// Measures the size of every gauge's terms.

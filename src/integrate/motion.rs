@@ -244,9 +244,12 @@ impl Motion {
         let limit = self.next_blow().map_or(limit, |blow| blow.min(limit));
         self.stepper.step(limit)?;
         self.steps += 1;
-        if let Some(keeper) = &mut self.keeper {
+        if self.keeper.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
-            keeper.project(&mut self.before)?;
+            if let Some(keeper) = &mut self.keeper {
+                keeper.project(&mut self.before)?;
+            }
+            self.system.orthonormalise(&mut self.before);
             self.stepper.settle(&self.before);
         }
         Ok(())

@@ -40,6 +40,8 @@ pub enum ChannelKind {
     /// The energy less the work done on it: constant by the law of the energy's change. There is
     /// one only where the energy itself is not conserved.
     Ledger,
+    /// An entry of the attitude's matrix, by rows.
+    Attitude(usize),
     /// The conserved quantity of this index in `Equations::conserved`.
     Conserved(usize),
     /// Any other expression: of an expectation, a view, a shape. Found by

@@ -36,6 +36,8 @@ struct Shared {
     occasions: Occasions,
     moments: Option<Moments>,
     legendre: Arc<Program>,
+    /// Where among the numbers carried along an attitude begins.
+    attitude: Option<usize>,
     /// Of a state in the native form: the numbers carried along, as they start.
     carried: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
@@ -143,6 +145,7 @@ impl System {
             legendre: legendre::program(writer)?,
             initial,
             constraints,
+            attitude: writer.attitude(),
             carried: writer.carried_start()?,
             known: coordinates.iter().map(known).collect(),
             energy,
@@ -371,6 +374,11 @@ impl System {
                 next += 1;
             }
         }
+    }
+
+    /// Where a state carries the nine numbers of an attitude, by rows.
+    pub(crate) fn attitude_place(&self) -> Option<usize> {
+        self.shared.attitude.map(|place| self.moving() + place)
     }
 
     /// Where a state carries the work done on it.

@@ -84,6 +84,13 @@ impl Writer<'_> {
         lowering
     }
 
+    /// Where among the numbers carried along an attitude begins.
+    pub(super) fn attitude(&self) -> Option<usize> {
+        let first = self.equations.attitude_symbols?[0][0];
+        let mut carried = self.equations.carried.iter().flat_map(|carried| &carried.symbols);
+        carried.position(|&symbol| symbol == first)
+    }
+
     /// The numbers carried along at the start, of a state in the native form.
     pub(super) fn carried_start(&mut self) -> Result<Arc<Program>, Symbol> {
         let equations = self.equations;

@@ -58,6 +58,13 @@ impl List {
             let shown = known.map_or(c.name.as_str(), |info| &info.unicode);
             list.add(ChannelKind::Conserved(i), &c.name, shown, c.expression);
         }
+        if let Some(matrix) = equations.attitude_symbols {
+            for (i, symbol) in matrix.into_iter().flatten().enumerate() {
+                let e = equations.pool.variable(symbol);
+                let name = equations.pool.symbol_info(symbol).unicode.clone();
+                list.add(ChannelKind::Attitude(i), &name, &name, e);
+            }
+        }
         for (name, e, _) in &model.expect.conserves {
             list.add_hidden(name, *e);
         }

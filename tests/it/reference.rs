@@ -4,7 +4,8 @@
 //! at given times, the typical size of each (`scale`), and by how much the motion magnifies
 //! a relative error of its beginning (`condition`). Known are q, q̇ and p, the multipliers
 //! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`);
-//! with `[comparison]` the wrong mechanics (`other_q`, `other_v`); `bracket` are values at the start;
+//! with `[comparison]` the wrong mechanics (`other_q`, `other_v`); with `[attitude]` its matrix (`A`);
+//! `body` is what pieces make together; `bracket` are values at the start;
 //! `events` are all that happens up to the last row, `status` how it ends.
 
 use std::collections::BTreeMap;
@@ -32,6 +33,16 @@ struct Expected {
     reference: Vec<Known>,
     #[serde(default)]
     bracket: Vec<Bracket>,
+    body: Option<Body>,
+}
+
+/// A body put together from pieces, about its centre of mass.
+#[derive(Deserialize)]
+struct Body {
+    mass: String,
+    centre_of_mass: Vec<String>,
+    inertia: Vec<Vec<String>>,
+    principal_moments: Vec<String>,
 }
 
 /// Poisson's bracket of two expressions, its value at the start.
@@ -72,6 +83,8 @@ enum Kind {
     X,
     OtherQ,
     OtherV,
+    #[serde(rename = "A")]
+    Attitude,
 }
 
 impl Kind {
@@ -84,6 +97,7 @@ impl Kind {
             Kind::P => ChannelKind::Momentum(place),
             Kind::Lambda => ChannelKind::Multiplier(place),
             Kind::OtherQ | Kind::OtherV => ChannelKind::Extra(place),
+            Kind::Attitude => ChannelKind::Attitude(place),
         }
     }
 }
@@ -279,6 +293,44 @@ fn every_bracket_has_its_value_at_the_start() {
         }
     }
     assert!(count >= 25, "{count} brackets");
+}
+
+#[test]
+fn every_body_has_its_inertia() {
+    let mut count = 0;
+    for file in systems() {
+        let text = std::fs::read_to_string(file.with_extension("expected.toml"));
+        let expected: Expected = toml::from_str(&text.expect("a file")).expect("what is known");
+        let Some(body) = expected.body else { continue };
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_phaselab"))
+            .args(["derive", &file.to_string_lossy(), "--format", "json"])
+            .output()
+            .expect("it runs");
+        let answer: serde_json::Value = serde_json::from_slice(&output.stdout).expect("an object");
+        let found = &answer["body"];
+        let number = |digits: &String| digits.parse::<f64>().expect("a number");
+        // each by the size of its own kind: the mass, the farthest place, the largest moment
+        let hold = |what: &str, found: &serde_json::Value, digits: &[String], size: f64| {
+            let found = found.as_array().expect("a list");
+            assert_eq!(found.len(), digits.len(), "{what} of {file:?}");
+            for (found, digits) in found.iter().zip(digits) {
+                let error = (found.as_f64().expect("a number") - number(digits)).abs();
+                assert!(error <= 2.0 * f64::EPSILON * size, "{what} of {file:?}: off {error:e}");
+            }
+        };
+        let largest = body.principal_moments.iter().map(number).fold(0.0, f64::max);
+        let centre = &body.centre_of_mass;
+        let far = centre.iter().map(|x| number(x).abs()).fold(0.0, f64::max);
+        let reach = far.max((largest / number(&body.mass)).sqrt());
+        hold("mass", &serde_json::json!([found["mass"]]), &[body.mass.clone()], number(&body.mass));
+        hold("centre", &found["centre_of_mass"], centre, reach);
+        for (i, row) in body.inertia.iter().enumerate() {
+            hold("inertia", &found["inertia"][i], row, largest);
+        }
+        hold("moments", &found["principal_moments"], &body.principal_moments, largest);
+        count += 1;
+    }
+    assert!(count >= 16, "{count} bodies");
 }
 
 #[test]

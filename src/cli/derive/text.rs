@@ -75,7 +75,9 @@ impl Page<'_> {
         rows.extend(body.inertia.iter().enumerate().map(|(i, row)| (mark(i), numbers(row))));
         for (i, (moment, axis)) in body.moments.iter().zip(&body.axes).enumerate() {
             let name = self.symbol(names.principal[i]);
-            rows.push((name, format!("{moment} about {}", numbers(axis))));
+            // twelve digits of a direction are enough to read, and hide what rounding left of a zero
+            let axis: Vec<f64> = axis.iter().map(|x| (x * 1e12).round() / 1e12 + 0.0).collect();
+            rows.push((name, format!("{moment} about {}", numbers(&axis))));
         }
         self.section("Its numbers at these parameters", &rows);
     }

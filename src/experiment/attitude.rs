@@ -1,0 +1,148 @@
+//! The gauge of an attitude: whether A is a rotation, and by what angle about what axis (Euler's
+//! theorem: tr A = 1 + 2 cos Φ). Source: *The Principles of Dynamics*, §§ 2.1.2–3.
+//!
+//! In: the nine entries. Out: a [`Gauge`]. Never here: where they come from.
+
+use super::Gauge;
+use crate::analysis::{Growth, History, Verdict};
+use crate::system::{ChannelKind, System};
+
+/// What is missing to a rotation below this is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// What a gauge of an attitude remembers.
+#[derive(Clone, Debug)]
+pub(super) struct Attitude {
+    /// The channel of the first entry; the others follow it by rows.
+    first: usize,
+    since: f64,
+    farthest: f64,
+    history: History,
+}
+
+impl Attitude {
+    /// The gauge, where the system has an attitude.
+    pub(super) fn of(system: &System) -> Option<Attitude> {
+        let mut kinds = system.channels().iter().map(|c| c.kind);
+        let first = kinds.position(|kind| kind == ChannelKind::Attitude(0))?;
+        Some(Attitude { first, since: 0.0, farthest: 0.0, history: History::new() })
+    }
+
+    pub(super) fn refer(&mut self, time: f64) {
+        self.since = time;
+        self.farthest = 0.0;
+        self.history = History::new();
+    }
+
+    pub(super) fn look(&mut self, values: &[f64]) {
+        self.farthest = self.farthest.max(missing(&self.matrix(values)));
+    }
+
+    pub(super) fn sample(&mut self, time: f64, values: &[f64]) {
+        self.look(values);
+        self.history.push(time, missing(&self.matrix(values)));
+    }
+
+    fn matrix(&self, values: &[f64]) -> [[f64; 3]; 3] {
+        let row = |i: usize| [0, 1, 2].map(|j| values[self.first + 3 * i + j]);
+        [row(0), row(1), row(2)]
+    }
+
+    pub(super) fn show(&self, values: &[f64]) -> Gauge {
+        let a = self.matrix(values);
+        let now = missing(&a);
+        let (angle, axis) = turn(&a);
+        let [x, y, z] = axis.map(|x| if x.abs() < 5e-4 { 0.0 } else { x });
+        let verdict = if self.farthest <= ROUNDING {
+            Verdict::Exact(Growth::Level)
+        } else {
+            Verdict::Bounded
+        };
+        Gauge {
+            name: "attitude".to_owned(),
+            shown: "A Aᵀ = 1, det A = 1".to_owned(),
+            reason: format!("turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})"),
+            value: now,
+            reference: 0.0,
+            reference_time: self.since,
+            drift: now,
+            max_drift: self.farthest,
+            history: self.history.stretches().iter().map(|s| s.peak() as f32).collect(),
+            verdict,
+        }
+    }
+}
+
+/// The greatest entry of A Aᵀ − 1, or |det A − 1| where that is more.
+fn missing(a: &[[f64; 3]; 3]) -> f64 {
+    let mut most = (determinant(a) - 1.0).abs();
+    for i in 0..3 {
+        for j in 0..3 {
+            let product: f64 = (0..3).map(|k| a[i][k] * a[j][k]).sum();
+            most = most.max((product - f64::from(u8::from(i == j))).abs());
+        }
+    }
+    most
+}
+
+fn determinant(a: &[[f64; 3]; 3]) -> f64 {
+    let minor = |i: usize, j: usize| a[1][i] * a[2][j] - a[1][j] * a[2][i];
+    a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1)
+}
+
+/// The angle in [0, π] and the axis of the rotation that turned the body: A, which takes components
+/// along space axes to those along body axes, is its inverse.
+fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
+    let odd = [a[1][2] - a[2][1], a[2][0] - a[0][2], a[0][1] - a[1][0]];
+    let size = odd.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let trace = a[0][0] + a[1][1] + a[2][2];
+    let angle = size.atan2(trace - 1.0);
+    if size > 1e-6 {
+        return (angle, odd.map(|x| x / size));
+    }
+    if trace > 0.0 {
+        return (angle, [0.0; 3]);
+    }
+    // half a turn: A + 1 = 2 n nᵀ
+    let longest = (0..3).max_by(|&i, &j| a[i][i].total_cmp(&a[j][j])).unwrap_or(0);
+    let column = [0, 1, 2].map(|i| a[i][longest] + f64::from(u8::from(i == longest)));
+    let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (angle, column.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Turned by an angle about z, as A takes components from space to body.
+    fn about_z(angle: f64) -> [[f64; 3]; 3] {
+        let (s, c) = angle.sin_cos();
+        [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
+    }
+
+    #[test]
+    fn a_turn_is_found_by_eulers_theorem() {
+        for angle in [1e-3, 0.5, 2.0, 3.1] {
+            let (found, axis) = turn(&about_z(angle));
+            assert!((found - angle).abs() < 1e-12, "{found} is not {angle}");
+            assert_eq!(axis, [0.0, 0.0, 1.0]);
+        }
+        let (found, axis) = turn(&about_z(-0.5));
+        assert!((found - 0.5).abs() < 1e-15);
+        assert_eq!(axis, [0.0, 0.0, -1.0]);
+        let (half, axis) = turn(&[[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]);
+        assert!((half - std::f64::consts::PI).abs() < 1e-15);
+        assert_eq!(axis, [0.0, 1.0, 0.0]);
+        assert_eq!(turn(&about_z(0.0)), (0.0, [0.0; 3]));
+    }
+
+    #[test]
+    fn what_is_no_rotation_is_told() {
+        assert!(missing(&about_z(1.0)) < 1e-15);
+        let mirror = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]];
+        assert_eq!(missing(&mirror), 2.0);
+        let mut sheared = about_z(1.0);
+        sheared[0][2] = 0.1;
+        assert!(missing(&sheared) > 0.09);
+    }
+}

@@ -1,0 +1,29 @@
+//! The matrix of an attitude in a state: a rotation, and put back to one after a step.
+//!
+//! In: a state that carries nine numbers A. Out: the same with A Aᵀ = 1 to rounding. Never here: how
+//! A changes in time.
+
+use super::{State, System};
+use crate::expr::Double;
+
+impl System {
+    /// Moves the attitude a state carries, if it carries one, to the nearest rotation, by one step
+    /// of Newton's iteration for the polar factor, A ← ½ A (3 − AᵀA), which squares what is
+    /// missing (N. J. Higham, Functions of Matrices, SIAM 2008, §8.3).
+    pub fn orthonormalise(&self, state: &mut State) {
+        let Some(first) = self.attitude_place() else { return };
+        let a = |i: usize, j: usize| state.exact(first + 3 * i + j);
+        let product =
+            |i: usize, j: usize| (0..3).fold(Double::ZERO, |sum, k| sum + a(k, i) * a(k, j));
+        let mut turned = [[Double::ZERO; 3]; 3];
+        for (i, row) in turned.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let carried = (0..3).fold(Double::ZERO, |sum, k| sum + a(i, k) * product(k, j));
+                *entry = (a(i, j) * 3.0 - carried) * 0.5;
+            }
+        }
+        for (place, entry) in turned.iter().flatten().enumerate() {
+            state.set(first + place, *entry);
+        }
+    }
+}
