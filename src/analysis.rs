@@ -7,10 +7,12 @@
 mod brackets;
 mod claims;
 mod history;
+mod inquiry;
 mod landscape;
 mod verdict;
 
 pub use claims::{false_claims, flaws};
 pub use history::{History, Stretch};
+pub use inquiry::{Answer, Inquiry};
 pub use landscape::{Curve, Grid, Landscape, Plane};
 pub use verdict::{Growth, Verdict, rounding_floor};

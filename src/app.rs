@@ -20,6 +20,8 @@ mod notice;
 mod perform;
 mod picker;
 mod plot;
+mod potential;
+mod prompt;
 mod speed;
 mod strike;
 mod update;
@@ -35,6 +37,8 @@ pub use meter::Meter;
 pub use notice::Notice;
 pub use picker::Picker;
 pub use plot::{Eye, Lens, Plot};
+pub use potential::Potential;
+pub use prompt::Prompt;
 pub use value::{Facts, Target};
 
 use crate::experiment::Snapshot;
@@ -89,6 +93,8 @@ pub enum Over {
     Menu(Menu),
     /// A field.
     Field(Field),
+    /// The prompt for brackets.
+    Prompt(Prompt),
 }
 
 impl App {
@@ -123,7 +129,12 @@ impl App {
 
     /// Whether an action can do something with the loaded system; most always can.
     pub fn offers(&self, action: Action) -> bool {
-        action != Action::Strike || self.lab.as_ref().is_some_and(|lab| !lab.blows().is_empty())
+        let Some(lab) = &self.lab else { return true };
+        match action {
+            Action::Strike => !lab.blows().is_empty(),
+            Action::NextFrame => !lab.loaded.model.frames.is_empty(),
+            _ => true,
+        }
     }
 
     /// Whether text is being typed, so that a paste means something.
@@ -137,7 +148,7 @@ impl App {
             Some(Over::Help(_) | Over::Message(_)) => chain([Place::Text, Place::Anywhere]),
             Some(Over::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Over::Menu(_)) => chain([Place::Menu, Place::Typing]),
-            Some(Over::Field(_)) => chain([Place::Field, Place::Typing]),
+            Some(Over::Field(_) | Over::Prompt(_)) => chain([Place::Field, Place::Typing]),
             None => self.places_below(),
         }
     }

@@ -9,6 +9,7 @@ mod class;
 mod comparison;
 mod constrain;
 mod equations;
+mod frames;
 mod hamilton;
 mod invariants;
 mod lagrange;
@@ -31,6 +32,7 @@ pub use equations::{
     Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason,
     Separable, Twin, WhyNot,
 };
+pub use frames::Apparent;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use nearby::{POINTS, Point, TRIES};
@@ -62,6 +64,7 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
     equations.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
+    equations.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
         equations.twin = Some(comparison::twin(&mut equations, model, comparison));
     }

@@ -28,6 +28,8 @@ mod notes;
 mod numbers;
 mod phase;
 mod picker;
+mod potential;
+mod prompt;
 mod quantity;
 mod series;
 mod space;
@@ -96,8 +98,10 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };
-    if let Some(Over::Menu(menu)) = over {
-        menu::draw(canvas, area, menu);
+    match (over, &app.lab) {
+        (Some(Over::Menu(menu)), _) => menu::draw(canvas, area, menu),
+        (Some(Over::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
+        _ => {}
     }
     drawn
 }

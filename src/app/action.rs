@@ -39,6 +39,10 @@ pub enum Action {
     Undo,
     /// Do it again.
     Redo,
+    /// Ask for a bracket, or whether something is conserved.
+    Ask,
+    /// Look from the next frame of the file.
+    NextFrame,
     /// Strike a blow that waits for a key.
     Strike,
     /// Choose a method of integration.

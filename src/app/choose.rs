@@ -10,6 +10,7 @@ use super::{
 };
 use crate::experiment::Command;
 use crate::integrate::{METHODS, Stepping};
+use crate::model::ViewKind;
 
 impl App {
     pub(super) fn open_methods(&mut self) -> Vec<Effect> {
@@ -64,11 +65,18 @@ impl App {
             Plot::Space(_) => Choice::Space,
             Plot::Phase { x, .. } => Choice::Channel(*x),
             Plot::Time { .. } => Choice::Time,
+            Plot::Potential { view, .. } => Choice::View(*view),
         };
         let Some(lab) = &self.lab else { return Vec::new() };
         let mut items = Vec::new();
         if !lab.loaded.model.space.is_empty() {
             items.push(line("motion in space", "the picture of the thing itself", Choice::Space));
+        }
+        for (index, view) in lab.loaded.model.views.iter().enumerate() {
+            if let (ViewKind::Potential, Some(x), Some(y)) = (view.kind, &view.x, view.y.first()) {
+                let label = format!("potential over {}", x.written);
+                items.push(line(&label, &y.written, Choice::View(index)));
+            }
         }
         items.push(line("t", "time, with one or several quantities upwards", Choice::Time));
         items.extend(channels(lab));
@@ -103,6 +111,7 @@ impl App {
         match self.over.take() {
             Some(Over::Menu(menu)) => self.accept_line(menu),
             Some(Over::Field(field)) => self.accept_value(field),
+            Some(Over::Prompt(prompt)) => self.answer(prompt),
             other => {
                 self.over = other;
                 Vec::new()
@@ -126,6 +135,9 @@ impl App {
             (_, Choice::Action(action)) => self.perform(action),
             (Choosing::Across { plot }, Choice::Space) => {
                 self.put(plot, |lab| Plot::Space(Eye::for_shapes(&lab.loaded)))
+            }
+            (Choosing::Across { plot }, Choice::View(view)) => {
+                self.put(plot, |_| Plot::Potential { view, lens: Lens::WHOLE })
             }
             (Choosing::Across { plot }, Choice::Time) => self.open_upwards(plot, None),
             (Choosing::Across { plot }, Choice::Channel(x)) => self.open_upwards(plot, Some(x)),

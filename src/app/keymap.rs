@@ -185,6 +185,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('a')], Action::TypeTolerance, "", "type the accuracy (tolerance) of an adaptive method"),
     row(Place::Experiment, &[c('u')], Action::Undo, "", "take back the last change of a value"),
     row(Place::Experiment, &[c('U'), Key::ctrl('r')], Action::Redo, "", "do it again"),
+    row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
     row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
@@ -202,6 +203,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
     row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the view as it was at first"),
+    row(Place::Space, &[c('f')], Action::NextFrame, "frame", "look from the next frame of the file, or from the axes again"),
     row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows"),
 
     row(Place::Plot, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::history::{Change, History};
 use super::landscape::{self, Survey};
-use super::plot::Plot;
+use super::plot::{Eye, Plot};
 use super::{Effect, Loaded, Target};
 use crate::experiment::{Command, Snapshot};
 use crate::expr::Zero;
@@ -53,8 +53,7 @@ pub struct Lab {
     pub zoomed: bool,
     /// What is selected in the lists.
     pub selection: Selection,
-    /// For each shape of the picture in space, whether it is a rod: a line that keeps its length.
-    pub rods: Vec<bool>,
+    rods: Rods,
     /// The energy over the phase plane of one degree of freedom, for each plane that is shown.
     pub(super) surveys: Vec<Survey>,
     /// Values asked for and not yet seen.
@@ -64,8 +63,24 @@ pub struct Lab {
     pub(super) history: History,
 }
 
+/// For each shape whether it is a rod, a line that keeps its length: of the picture in space, then of each view with
+/// shapes of its own.
+#[derive(Clone, Debug)]
+struct Rods {
+    space: Vec<bool>,
+    views: Vec<Vec<bool>>,
+}
+
+fn rods(loaded: &Loaded) -> Rods {
+    let views = loaded.model.views.iter();
+    Rods {
+        space: rods_among(loaded, &loaded.model.space),
+        views: views.map(|v| rods_among(loaded, v.shapes.as_deref().unwrap_or_default())).collect(),
+    }
+}
+
 /// Whether the length of each line does not vary with the coordinates.
-fn rods(loaded: &Loaded) -> Vec<bool> {
+fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
     let mut pool = loaded.equations.pool.clone();
     let is_rod = |shape: &Shape| {
         let Shape::Line { from, to } = shape else { return false };
@@ -79,7 +94,7 @@ fn rods(loaded: &Loaded) -> Vec<bool> {
             pool.is_zero(slope) == Zero::Proved
         })
     };
-    loaded.model.space.iter().map(is_rod).collect()
+    shapes.iter().map(is_rod).collect()
 }
 
 impl Lab {
@@ -113,6 +128,14 @@ impl Lab {
         let wishes = std::mem::take(&mut self.wishes);
         self.wishes = wishes.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true
+    }
+
+    /// What an eye sees: each shape, and whether it is a rod.
+    pub fn shapes(&self, eye: Eye) -> impl Iterator<Item = (&Shape, bool)> {
+        let model = &self.loaded.model;
+        let own = eye.own_shapes(model).map(|view| &self.rods.views[view]);
+        let rods = own.unwrap_or(&self.rods.space).iter().copied();
+        eye.shapes(model).iter().zip(rods)
     }
 
     /// The newest snapshot, if it says all that the system has to show; one that tells of a panic does not.

@@ -71,6 +71,8 @@ pub enum Choice {
     Blow(usize),
     /// The picture in space.
     Space,
+    /// The view of the file of this index.
+    View(usize),
     /// Time.
     Time,
     /// A channel.

@@ -74,6 +74,7 @@ impl App {
             }
             Action::Redo => lab.redo().unwrap_or_else(|| self.say("There is nothing to do again.")),
             Action::Strike => self.strike(),
+            Action::Ask => self.open_prompt(),
             Action::ChooseMethod => self.open_methods(),
             Action::TypeStep => self.open_field(Purpose::Step),
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),
@@ -108,6 +109,7 @@ impl App {
             Action::Cursor => self.with_lens(|lens| {
                 lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
+            Action::NextFrame => self.next_frame(),
             Action::Home => self.with_plot(Plot::home),
             _ => Vec::new(),
         }
@@ -127,6 +129,19 @@ impl App {
             change(plot, &lab.loaded);
         }
         Vec::new()
+    }
+
+    /// The focused picture is seen from the next frame; after the last from the axes of the file.
+    fn next_frame(&mut self) -> Vec<Effect> {
+        let count = self.lab.as_ref().map_or(0, |lab| lab.loaded.model.frames.len());
+        if count == 0 {
+            return self.say("This system has no frames to look from.");
+        }
+        self.with_plot(|plot, _| {
+            if let Plot::Space(eye) = plot {
+                eye.frame = Some(eye.frame.map_or(0, |frame| frame + 1)).filter(|f| *f < count);
+            }
+        })
     }
 
     fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
@@ -152,7 +167,9 @@ impl App {
                 self.scroll = scroll;
                 return Vec::new();
             }
-            Some(Over::Message(_) | Over::Menu(_) | Over::Field(_)) => return Vec::new(),
+            Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
+                return Vec::new();
+            }
             None => {}
         }
         match (self.page, &mut self.lab) {
@@ -182,7 +199,7 @@ impl App {
     fn jump(&mut self, by: isize) -> Vec<Effect> {
         match &mut self.over {
             Some(Over::Menu(menu)) => menu.step(by),
-            Some(Over::Field(_)) => {}
+            Some(Over::Field(_) | Over::Prompt(_)) => {}
             Some(Over::Help(_) | Over::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::Loaded;
 use super::action::{Axes, Way};
-use crate::model::{Shape, ViewKind};
+use crate::model::{Model, Shape, ViewKind};
 use crate::system::ChannelKind;
 
 /// The contents of a pane.
@@ -23,6 +23,13 @@ pub enum Plot {
         /// How it is looked at.
         lens: Lens,
     },
+    /// The potential of a view of the file.
+    Potential {
+        /// The view's place among the views.
+        view: usize,
+        /// How it is looked at.
+        lens: Lens,
+    },
     /// Channels against time.
     Time {
         /// The channels.
@@ -32,7 +39,7 @@ pub enum Plot {
     },
 }
 
-/// Where the camera stands.
+/// What is seen, from which frame, and where the camera stands in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     /// Turn about the vertical axis, in radians.
@@ -41,6 +48,10 @@ pub struct Eye {
     pub pitch: f64,
     /// Magnification.
     pub zoom: f64,
+    /// The frame of the file it moves and turns with; none for the axes in which the shapes are written.
+    pub frame: Option<usize>,
+    /// The view of the file it shows, which may have a title and shapes of its own.
+    pub view: Option<usize>,
 }
 
 /// How a plot is looked at.
@@ -72,9 +83,31 @@ impl Lens {
 impl Eye {
     /// Plane motion is seen face on, motion in space from the side and from above.
     pub(super) fn for_shapes(loaded: &Loaded) -> Self {
-        let plane = loaded.model.space.iter().all(is_plane);
+        Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, frame: None, view: None }.at_first(loaded)
+    }
+
+    /// What a view of the file shows.
+    fn of_view(loaded: &Loaded, index: usize) -> Self {
+        let frame = loaded.model.views[index].frame;
+        Self { frame, view: Some(index), ..Self::for_shapes(loaded) }.at_first(loaded)
+    }
+
+    /// The same picture from the place where the camera first stands.
+    fn at_first(self, loaded: &Loaded) -> Self {
+        let plane = self.shapes(&loaded.model).iter().all(is_plane);
         let (yaw, pitch) = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
-        Self { yaw, pitch, zoom: 1.0 }
+        Self { yaw, pitch, zoom: 1.0, ..self }
+    }
+
+    /// The shapes seen: those of the view, or the model's.
+    pub fn shapes(self, model: &Model) -> &[Shape] {
+        self.own_shapes(model)
+            .map_or(&model.space, |view| model.views[view].shapes.as_deref().unwrap_or_default())
+    }
+
+    /// The view, if it has shapes of its own.
+    pub fn own_shapes(self, model: &Model) -> Option<usize> {
+        self.view.filter(|&view| model.views.get(view).is_some_and(|view| view.shapes.is_some()))
     }
 }
 
@@ -99,9 +132,11 @@ impl Plot {
     pub fn opening(loaded: &Loaded) -> Vec<Self> {
         let mut plots: Vec<Self> = Vec::new();
         let mut add = |plot: Option<Self>| {
-            plots.extend(plot.filter(|plot| !plots.iter().any(|p| p.shows_the_same(plot))));
+            plots.extend(
+                plot.filter(|plot| !plots.iter().any(|p| p.shows_the_same(plot, &loaded.model))),
+            );
         };
-        for view in &loaded.model.views {
+        for view in 0..loaded.model.views.len() {
             add(Self::of_view(loaded, view));
         }
         if !loaded.model.space.is_empty() {
@@ -121,14 +156,16 @@ impl Plot {
         plots
     }
 
-    fn of_view(loaded: &Loaded, view: &crate::model::View) -> Option<Self> {
+    fn of_view(loaded: &Loaded, index: usize) -> Option<Self> {
+        let view = &loaded.model.views[index];
         let channel = |c: &crate::model::Channel| loaded.system.channel_of(c.expression);
         match view.kind {
-            ViewKind::Space => Some(Self::Space(Eye::for_shapes(loaded))),
+            ViewKind::Space => Some(Self::Space(Eye::of_view(loaded, index))),
             ViewKind::Phase => {
                 let (x, y) = (channel(view.x.as_ref()?)?, channel(view.y.first()?)?);
                 Some(Self::Phase { x, y, lens: Lens::WHOLE })
             }
+            ViewKind::Potential => Some(Self::Potential { view: index, lens: Lens::WHOLE }),
             ViewKind::Time => {
                 let y: Vec<_> = view.y.iter().filter_map(channel).collect();
                 (!y.is_empty()).then_some(Self::Time { y, lens: Lens::WHOLE })
@@ -137,11 +174,15 @@ impl Plot {
     }
 
     /// Whether both show the same quantities, however they are looked at.
-    fn shows_the_same(&self, other: &Self) -> bool {
+    fn shows_the_same(&self, other: &Self, model: &Model) -> bool {
         match (self, other) {
-            (Self::Space(_), Self::Space(_)) => true,
+            (Self::Space(eye), Self::Space(other)) => {
+                let what = |eye: &Eye| (eye.frame, eye.own_shapes(model));
+                what(eye) == what(other)
+            }
             (Self::Phase { x, y, .. }, Self::Phase { x: x2, y: y2, .. }) => (x, y) == (x2, y2),
             (Self::Time { y, .. }, Self::Time { y: y2, .. }) => y == y2,
+            (Self::Potential { view, .. }, Self::Potential { view: other, .. }) => view == other,
             _ => false,
         }
     }
@@ -159,7 +200,7 @@ impl Plot {
                 eye.yaw = (eye.yaw - right * PI / 24.0).rem_euclid(TAU);
                 eye.pitch = (eye.pitch + up * PI / 24.0).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
-            Self::Phase { lens, .. } | Self::Time { lens, .. } => {
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
                 lens.shift([right, up]);
             }
         }
@@ -170,7 +211,7 @@ impl Plot {
         let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
         match self {
             Self::Space(eye) => nearer(&mut eye.zoom),
-            Self::Phase { lens, .. } | Self::Time { lens, .. } => {
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
                 let chosen = match axes {
                     Axes::Both => &mut lens.zoom[..],
                     Axes::Across => &mut lens.zoom[..1],
@@ -185,15 +226,19 @@ impl Plot {
     pub(super) fn lens(&mut self) -> Option<&mut Lens> {
         match self {
             Self::Space(_) => None,
-            Self::Phase { lens, .. } | Self::Time { lens, .. } => Some(lens),
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
+                Some(lens)
+            }
         }
     }
 
     /// The view as it was at first.
     pub(super) fn home(&mut self, loaded: &Loaded) {
         match self {
-            Self::Space(eye) => *eye = Eye::for_shapes(loaded),
-            Self::Phase { lens, .. } | Self::Time { lens, .. } => *lens = Lens::WHOLE,
+            Self::Space(eye) => *eye = eye.at_first(loaded),
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
+                *lens = Lens::WHOLE;
+            }
         }
     }
 }

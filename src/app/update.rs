@@ -56,6 +56,7 @@ impl App {
             || (places.contains(&Place::Picker) && begins_search(key));
         match &mut self.over {
             Some(Over::Field(field)) => field.press(key),
+            Some(Over::Prompt(prompt)) => prompt.press(key),
             Some(Over::Menu(menu)) => {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
@@ -74,6 +75,7 @@ impl App {
     fn paste(&mut self, text: &str) -> Vec<Effect> {
         let whole = match &mut self.over {
             Some(Over::Field(field)) => paste(&mut field.input, text),
+            Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Over::Menu(menu)) => {
                 menu.selected = 0;
                 menu.filter.as_mut().is_none_or(|filter| paste(filter, text))

@@ -1,5 +1,6 @@
 //! What follows from a law of motion.
 
+use super::frames::Apparent;
 use super::rigid_body::{RigidBody, Tensor};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{CommonSymbols, Model};
@@ -43,6 +44,8 @@ pub struct Equations {
     pub carried: Vec<Carried>,
     /// The wrong mechanics beside the right, where the file asks for it.
     pub twin: Option<Twin>,
+    /// The particles of each frame, as seen from it.
+    pub frames: Vec<Vec<Apparent>>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// What is conserved, and why.

@@ -61,6 +61,7 @@ pub(super) fn equations(
         multipliers: Ok(Vec::new()),
         carried: Vec::new(),
         twin: None,
+        frames: Vec::new(),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,

@@ -107,6 +107,7 @@ pub(super) fn equations(
         multipliers,
         carried: Vec::new(),
         twin: None,
+        frames: Vec::new(),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,

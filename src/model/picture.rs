@@ -38,6 +38,8 @@ pub enum ViewKind {
     Phase,
     /// Quantities against time.
     Time,
+    /// A potential along a coordinate, with the energy.
+    Potential,
 }
 
 /// A point in space: three expressions, z up; a plane system leaves the third at zero.

@@ -83,6 +83,17 @@ impl List {
         for e in model.space.iter().chain(own).flat_map(numbers_of) {
             list.add_hidden("", e);
         }
+        for frame in &model.frames {
+            for e in frame.axis.into_iter().chain([frame.angle]).chain(frame.origin) {
+                list.add_hidden("", e);
+            }
+        }
+        for seen in equations.frames.iter().flatten() {
+            let forces = [seen.centrifugal, seen.coriolis, seen.euler];
+            for e in seen.at.into_iter().chain(forces.into_iter().flatten()) {
+                list.add_hidden("", e);
+            }
+        }
         list
     }
 

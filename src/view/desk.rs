@@ -10,7 +10,7 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
-use super::{equations, gauges, phase, series, space};
+use super::{equations, gauges, phase, potential, series, space};
 use crate::app::{App, Field, Lab, Over, Pane, Plot, Target};
 use crate::experiment::{Fault, Status};
 
@@ -100,16 +100,29 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
         canvas.pane(area, &[], focused);
         return;
     };
+    let potential = match plot {
+        Plot::Potential { view, .. } => lab.potential(*view),
+        _ => None,
+    };
     let title = match plot {
-        Plot::Space(eye) => space::title(canvas, eye),
+        Plot::Space(eye) => space::title(canvas, lab, eye),
         Plot::Phase { x, y, .. } => phase::title(canvas, &q, [*x, *y]),
         Plot::Time { y, .. } => series::title(canvas, &q, y),
+        Plot::Potential { .. } => match &potential {
+            Some(shown) => potential::title(canvas, &q, shown),
+            None => Vec::new(),
+        },
     };
     let inner = canvas.pane(area, &title, focused);
     match plot {
         Plot::Space(eye) => space::draw(canvas, inner, &q, eye),
         Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
         Plot::Time { y, lens } => series::draw(canvas, inner, &q, (y, *lens)),
+        Plot::Potential { lens, .. } => {
+            if let Some(shown) = &potential {
+                potential::draw(canvas, inner, &q, (shown, *lens));
+            }
+        }
     }
 }
 

@@ -24,6 +24,11 @@ pub(super) struct Marks<'a> {
 }
 
 impl<'a> Marks<'a> {
+    /// Nothing happened.
+    pub(super) fn none() -> Self {
+        Self { points: Vec::new() }
+    }
+
     /// Where a plot's two quantities were, read from a row of the trail (time, then the channels), when something
     /// happened; just after it, if it was a blow.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {

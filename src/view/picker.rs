@@ -11,7 +11,7 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use super::{phase, series, space};
+use super::{phase, potential, series, space};
 use crate::app::{App, Picker, Plot};
 use crate::preset::{Entry, Origin};
 
@@ -159,6 +159,11 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
         Some(Plot::Space(eye)) => space::draw(canvas, area, &q, eye),
         Some(plot @ Plot::Phase { .. }) => phase::draw(canvas, area, &q, plot),
         Some(Plot::Time { y, lens }) => series::draw(canvas, area, &q, (y, *lens)),
+        Some(Plot::Potential { view, lens }) => {
+            if let Some(shown) = lab.potential(*view) {
+                potential::draw(canvas, area, &q, (&shown, *lens));
+            }
+        }
         None => {}
     }
 }

@@ -52,9 +52,9 @@ impl<'a> Quantities<'a> {
         self.lab.loaded.system.period(channel, &self.snapshot.parameters)
     }
 
-    /// Where an expression of the model is found: a number, or a channel.
+    /// Where an expression of the model or of what follows from it is found: a number, or a channel.
     pub(super) fn place(&self, expression: Expr) -> Source {
-        if let Some(number) = self.lab.loaded.model.pool.as_number(expression) {
+        if let Some(number) = self.lab.loaded.equations.pool.as_number(expression) {
             return Source::Number(number.value());
         }
         let channel = self.lab.loaded.system.channel_of(expression);

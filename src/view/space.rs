@@ -3,16 +3,19 @@
 //! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
 
 mod scene;
+mod seat;
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, Span, row};
 use super::plot::{Camera, Frame, Marker, Pen, Raster};
-use super::quantity::Quantities;
+use super::quantity::{Quantities, Source};
 use super::theme::Role;
-use crate::app::Eye;
+use crate::app::{Eye, Lab};
+use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use scene::Scene;
+use seat::Seat;
 
 /// The layers of the picture, the lowest first.
 const GROUND: u8 = 0;
@@ -20,9 +23,23 @@ const TRACK: u8 = 1;
 const SOLID: u8 = 2;
 const BODY: u8 = 3;
 
+/// The apparent forces, in the order of their colours.
+const FORCES: [&str; 3] = ["centrifugal", "Coriolis", "Euler"];
+
+/// The longest apparent force seen so far is this part of the picture.
+const LONGEST: f64 = 0.25;
+
 /// The heading.
-pub(super) fn title(canvas: &Canvas<'_>, eye: &Eye) -> Vec<Span> {
-    let mut spans = vec![canvas.span(Role::Title, "Motion")];
+pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &Eye) -> Vec<Span> {
+    let model = &lab.loaded.model;
+    let view = eye.view.and_then(|view| model.views.get(view));
+    // A view's title speaks of the frame that the file gave it.
+    let own = view.filter(|view| view.frame == eye.frame).map(|view| view.title.as_str());
+    let own = own.filter(|title| !title.is_empty());
+    let mut spans = vec![canvas.span(Role::Title, own.unwrap_or("Motion"))];
+    if let (None, Some(frame)) = (own, eye.frame.and_then(|frame| model.frames.get(frame))) {
+        spans.push(canvas.span(Role::Dim, format!("  seen from {}", frame.name)));
+    }
     if eye.zoom != 1.0 {
         let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
         spans.push(canvas.span(Role::Dim, format!("  ×{zoom}")));
@@ -36,14 +53,18 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         return;
     }
     let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
-    let scene = Scene::of(q);
+    let seat = Seat::of(q, eye.frame);
+    let scene = Scene::of(q, *eye, seat.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist = Artist { raster, frame, camera, q, tracks: 0, bodies: 0 };
-    for shape in &q.lab.loaded.model.space {
+    let mut artist = Artist { raster, frame, camera, q, seat, tracks: 0, bodies: 0 };
+    for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
+    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.frames.get(frame));
+    let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
+    legend(canvas, area, &forces);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
@@ -64,12 +85,27 @@ fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     canvas.write(origin.into(), 1, "·", canvas.style(Role::Dim));
 }
 
+/// The names of the apparent forces, each in its colour, in the upper left corner.
+fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
+    if area.width < 24 || usize::from(area.height) < 8 {
+        return;
+    }
+    let arrow = canvas.look.glyphs.pick("→", "->");
+    for (index, force) in forces.iter().enumerate() {
+        let text = format!("{arrow} {}", FORCES[*force]);
+        let at = row(area, index);
+        let style = canvas.look.theme.curve(force + 1);
+        canvas.write(at.as_position(), at.width, &text, style);
+    }
+}
+
 /// Draws shape after shape.
 struct Artist<'a> {
     raster: Raster,
     frame: Frame,
     camera: Camera,
     q: &'a Quantities<'a>,
+    seat: Option<Seat>,
     tracks: usize,
     bodies: usize,
 }
@@ -81,42 +117,92 @@ impl Artist<'_> {
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
         match shape {
             Shape::Line { from, to } => {
-                let (from, to) = (self.q.point(from), self.q.point(to));
+                let (from, to) = (self.point(from), self.point(to));
                 self.curve(&[from, to], &solid);
             }
             Shape::Spring { from, to } => {
-                let (from, to) = (self.q.point(from), self.q.point(to));
+                let (from, to) = (self.point(from), self.point(to));
                 self.spring(from, to, &solid);
             }
             Shape::Circle { centre, radius, normal } => {
-                let (centre, normal) = (self.q.point(centre), self.q.point(normal));
+                let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = scene::circle(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Mass { at, radius } => {
-                let at = self.q.point(at);
+                let at = self.point(at);
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
             Shape::Trace { at } => self.track(at),
             Shape::Vector { at, components } => {
-                let (foot, along) = (self.q.point(at), self.q.point(components));
+                let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
                 self.arrow(foot, along, &pen);
             }
             Shape::Path { points } => {
-                let points: Vec<_> = points.iter().map(|point| self.q.point(point)).collect();
+                let points: Vec<_> = points.iter().map(|point| self.point(point)).collect();
                 self.curve(&points, &ground);
             }
             // no body is drawn yet
             Shape::Body { .. } => {}
             Shape::Plane { at, normal, size } => {
-                let (at, normal) = (self.q.point(at), self.q.point(normal));
+                let (at, normal) = (self.point(at), self.direction(normal));
                 let edge = self.q.number(*size);
                 let corners = scene::square(at, normal, edge);
                 self.curve(&corners, &ground);
             }
         }
+    }
+
+    /// Where a point of a shape is now, as seen from the frame.
+    fn point(&self, point: &Point) -> [f64; 3] {
+        let r = self.q.point(point);
+        self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+    }
+
+    /// A direction of a shape now, as seen from the frame.
+    fn direction(&self, direction: &Point) -> [f64; 3] {
+        let v = self.q.point(direction);
+        self.seat.as_ref().map_or(v, |seat| seat.direction(&self.q.snapshot.values, v))
+    }
+
+    /// Draws the apparent forces on the particles of the frame, and says which of them there are.
+    fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
+        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler];
+        let greatest = |vector: &Point| {
+            let most = vector.map(|e| match self.q.place(e) {
+                Source::Number(number) => number.abs(),
+                Source::Channel(channel) => {
+                    let (lo, hi) = self.q.bounds(channel);
+                    lo.abs().max(hi.abs())
+                }
+            });
+            most.iter().map(|v| v * v).sum::<f64>().sqrt()
+        };
+        let all = seen.iter().flat_map(|a| forces(a).map(|vector| greatest(&vector)));
+        let largest = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let (x, y) = (self.frame.x, self.frame.y);
+        let scale = LONGEST * (x.hi - x.lo).abs().min((y.hi - y.lo).abs()) / largest;
+        let mut named = Vec::new();
+        if largest == 0.0 {
+            return named;
+        }
+        for particle in seen {
+            let at = particle.at.map(|e| self.q.number(e));
+            for (index, vector) in forces(particle).iter().enumerate() {
+                if greatest(vector) > 0.0 {
+                    let along = vector.map(|e| scale * self.q.number(e));
+                    let pen = Pen::new(self.q.look.theme.curve(index + 1), SOLID);
+                    self.arrow(at, along, &pen);
+                    if !named.contains(&index) {
+                        named.push(index);
+                    }
+                }
+            }
+        }
+        named.sort_unstable();
+        named
     }
 
     fn flat(&self, point: [f64; 3]) -> [f64; 2] {
@@ -171,9 +257,13 @@ impl Artist<'_> {
     fn track(&mut self, point: &Point) {
         let sources = point.map(|expression| self.q.place(expression));
         let rows = self.q.snapshot.trail.rows().filter_map(|row| row.get(1..));
-        let past = rows.map(|row| self.flat(sources.map(|source| source.read(row))));
+        // Each past point is seen from the frame as it stood then: the row is that of its own time.
+        let past = rows.map(|row| {
+            let r = sources.map(|source| source.read(row));
+            self.flat(self.seat.as_ref().map_or(r, |seat| seat.point(row, r)))
+        });
         let mut points: Vec<[f64; 2]> = past.collect();
-        points.push(self.flat(self.q.point(point)));
+        points.push(self.flat(self.point(point)));
         let ramp = self.q.look.theme.trail(self.tracks);
         self.raster.trail(&self.frame, &points, ramp, TRACK);
         self.tracks += 1;

@@ -28,16 +28,31 @@ impl Check<'_> {
                 Some(Channel { written: formula.get_ref().trim().to_owned(), expression })
             };
             let x = view.x.as_ref().and_then(|formula| channel(self, formula));
+            if let (DraftViewKind::Potential, Some(x), Some(written)) = (view.kind, &x, &view.x) {
+                self.along_a_coordinate(x, written);
+            }
             let y = view.y.iter().filter_map(|formula| channel(self, formula)).collect();
             let kind = match view.kind {
                 DraftViewKind::Space => ViewKind::Space,
                 DraftViewKind::Phase => ViewKind::Phase,
                 DraftViewKind::Time => ViewKind::Time,
+                DraftViewKind::Potential => ViewKind::Potential,
                 DraftViewKind::NotYet => continue,
             };
             let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
             let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
             self.model.views.push(View { kind, title: view.title.clone(), x, y, frame, shapes });
+        }
+    }
+
+    /// A potential runs along a coordinate, for all else is held while it varies.
+    fn along_a_coordinate(&mut self, x: &Channel, written: &Formula) {
+        let symbol = self.model.pool.as_symbol(x.expression);
+        if !self.model.coordinates.iter().any(|c| Some(c.position) == symbol) {
+            let names: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
+            let message = "a potential runs along a coordinate, and this is none";
+            let help = format!("write one of {}", names.join(", "));
+            self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
         }
     }
 

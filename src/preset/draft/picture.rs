@@ -28,6 +28,7 @@ pub(in crate::preset) enum DraftViewKind {
     Space,
     Phase,
     Time,
+    Potential,
     /// The format has it and this version does not: it is read and left out.
     NotYet,
 }
@@ -82,13 +83,13 @@ pub(in crate::preset) enum DraftShapeKind {
     },
 }
 
-const VIEWS: [(&str, DraftViewKind); 3] = [
+const VIEWS: [(&str, DraftViewKind); 4] = [
     ("phase", DraftViewKind::Phase),
     ("space", DraftViewKind::Space),
     ("time", DraftViewKind::Time),
+    ("potential", DraftViewKind::Potential),
 ];
-const VIEWS_NOT_YET: [&str; 6] =
-    ["section", "potential", "spectrum", "ensemble", "transformation", "action"];
+const VIEWS_NOT_YET: [&str; 5] = ["section", "spectrum", "ensemble", "transformation", "action"];
 const SHAPES: [&str; 9] =
     ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
 
@@ -98,7 +99,7 @@ pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftVi
 }
 
 fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
-    let help = "write kind = \"phase\", \"space\" or \"time\"";
+    let help = "write kind = \"phase\", \"space\", \"time\" or \"potential\"";
     let Some((_, found)) = table.require("kind", help) else {
         for key in ["title", "x", "y", "frame", "shapes"] {
             table.take(key);
@@ -120,7 +121,9 @@ fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
     let (x, y) = match kind {
         DraftViewKind::Space => (Vec::new(), Vec::new()),
         DraftViewKind::Time => (Vec::new(), axis("y", mistakes)),
-        DraftViewKind::Phase | DraftViewKind::NotYet => (axis("x", mistakes), axis("y", mistakes)),
+        DraftViewKind::Phase | DraftViewKind::Potential | DraftViewKind::NotYet => {
+            (axis("x", mistakes), axis("y", mistakes))
+        }
     };
     let (mut frame, mut shapes) = (None, None);
     if kind == DraftViewKind::Space {
@@ -166,7 +169,7 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Draft
     let known = VIEWS.iter().map(|(name, _)| *name).chain(VIEWS_NOT_YET);
     let help = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "the kinds are phase, space and time".to_owned(),
+        None => "the kinds are phase, space, time and potential".to_owned(),
     };
     let message = format!("there is no view of kind `{name}`");
     mistakes.push(Mistake::error(written.span(), message).with_help(help));

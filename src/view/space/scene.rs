@@ -4,6 +4,8 @@
 
 use std::f64::consts::TAU;
 
+use super::seat::Seat;
+use crate::app::Eye;
 use crate::model::{Point, Shape};
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};
@@ -22,11 +24,14 @@ impl Scene {
     ///
     /// A rod (a line that keeps its length) may swing round its one end: the box holds all its circle from the start, and the
     /// picture does not shrink while the first swing goes on.
-    pub(super) fn of(q: &Quantities<'_>) -> Self {
+    pub(super) fn of(q: &Quantities<'_>, eye: Eye, seat: Option<&Seat>) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY };
         let mut reached: Vec<(Point, Span3)> = Vec::new();
-        for (shape, &rod) in q.lab.loaded.model.space.iter().zip(&q.lab.rods) {
+        for (shape, rod) in q.lab.shapes(eye) {
             scene.hold(q, shape, rod, &mut reached);
+        }
+        if let (Some(ends), Some(seat)) = (scene.bounds.ends(), seat) {
+            scene.bounds = Bounds::around(seat.around(q, ends));
         }
         // Rounded outwards, so that the picture stays still while the box grows a little.
         if let Some([low, high]) = scene.bounds.ends() {

@@ -8,7 +8,7 @@ use phaselab::app::{App, Drawn, Event, Page};
 use phaselab::experiment::Status;
 
 use super::scripts::with_blows;
-use crate::hand::{at_picker, in_lab, pendulum, press, snapshot};
+use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
 
 #[test]
 fn no_key_means_two_things_at_once() {
@@ -51,7 +51,7 @@ fn states(place: Place) -> Vec<App> {
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
         Place::Experiment => vec![lab("Right Wait Right u"), lab("4")],
-        Place::Space => vec![lab("Tab Tab Tab + Down Down")],
+        Place::Space => vec![with_frame(), lab("Tab Tab Tab + Down Down")],
         Place::Plot => vec![lab("Tab Tab Tab Tab + Right")],
         Place::Values => vec![lab("Down Right")],
         Place::Gauges => {
@@ -67,6 +67,17 @@ fn states(place: Place) -> Vec<App> {
         Place::Menu => vec![lab("m"), lab(": Down"), lab("Tab Tab Tab v Down Enter Down")],
         Place::Field | Place::Typing => vec![lab("Enter")],
     }
+}
+
+/// The ball on the merry-go-round, its first picture focused.
+fn with_frame() -> App {
+    let loaded = loaded("merry-go-round", 1);
+    let mut app = in_lab();
+    let seen = snapshot(&loaded, 1.0);
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    press(&mut app, "Tab Tab Tab");
+    app
 }
 
 fn does_something(row: &Binding, key: phaselab::app::Key) -> bool {

@@ -15,6 +15,7 @@ fn place(app: &App) -> String {
         Some(Over::Help(_)) => " + help".to_owned(),
         Some(Over::Message(_)) => " + message".to_owned(),
         Some(Over::Menu(menu)) => format!(" + menu {:?}", menu.title),
+        Some(Over::Prompt(prompt)) => format!(" + prompt {:?}", prompt.input.value()),
         Some(Over::Field(field)) => format!(" + field {:?}", field.input.value()),
     };
     let page = match (app.page, &app.lab) {
@@ -28,6 +29,7 @@ fn place(app: &App) -> String {
                 Pane::Plot(i) => match &lab.plots[i] {
                     Plot::Space(_) => "space".to_owned(),
                     Plot::Phase { x, y, .. } => format!("phase {x} {y}"),
+                    Plot::Potential { view, .. } => format!("potential {view}"),
                     Plot::Time { y, .. } => format!("time {y:?}"),
                 },
                 Pane::Parameters => format!("parameter {}", lab.selection.parameter),

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use phaselab::app::{Event, Lens, Plot};
 use phaselab::experiment::{Growth, Status, Verdict};
 use phaselab::integrate::{Happening, Kind};
+use phaselab::model::ViewKind;
+use phaselab::system::ChannelKind;
 use phaselab::view::theme::Role;
 use ratatui::style::Modifier;
 use unicode_width::UnicodeWidthStr;
 
 use super::{find, rich, rows, screen};
-use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
+use crate::hand::{at_picker, gauge, in_lab, loaded, pendulum, press, snapshot};
 
 #[test]
 fn a_small_screen_says_how_large_it_must_be() {
@@ -240,5 +242,97 @@ fn an_ended_motion_says_by_what_and_how_to_go_on() {
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &rich(), size);
         assert!(find(&buffer, "ground ended the motion: r begins it again").is_some(), "{size:?}");
+    }
+}
+
+#[test]
+fn the_prompt_answers_in_mathematics_and_places_mistakes() {
+    let ask = |text: &str| {
+        let mut app = in_lab();
+        press(&mut app, "{");
+        app.update(Event::Paste(text.to_owned()));
+        press(&mut app, "Enter");
+        app
+    };
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let buffer = screen(&ask("theta, p_theta"), &rich(), size);
+        assert!(find(&buffer, "[theta, p_theta] = 1").is_some(), "{:#?}", rows(&buffer));
+        assert!(find(&buffer, "It does not vanish").is_some(), "{size:?}");
+        let buffer = screen(&ask("p_theta, H"), &rich(), size);
+        assert!(find(&buffer, "= −m g l sin θ").is_some() || find(&buffer, "sin θ").is_some());
+        let buffer = screen(&ask("H"), &rich(), size);
+        assert!(find(&buffer, "Conserved: proved").is_some(), "{:#?}", rows(&buffer));
+        let buffer = screen(&ask("theta, p_theta*lenght"), &rich(), size);
+        let (x, y) = find(&buffer, "lenght").unwrap();
+        assert_eq!(find(&buffer, "^^^^^^"), Some((x, y + 1)), "{:#?}", rows(&buffer));
+        let bad = rich().theme[Role::Bad].fg.unwrap();
+        assert_eq!(buffer[(x, y + 1)].fg, bad);
+        assert_eq!(buffer[(find(&buffer, "? theta").unwrap().0, y + 2)].fg, bad, "and why");
+    }
+}
+
+#[test]
+fn a_picture_may_be_seen_from_a_frame() {
+    let seen = loaded("merry-go-round", 1);
+    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("merry-go-round"));
+    let now = snapshot(&seen, 2.0);
+    app.update(Event::Loaded(Ok(seen)));
+    app.update(Event::Snapshot(Arc::new(now)));
+    let buffer = screen(&app, &rich(), (120, 40));
+    assert!(find(&buffer, "From the ground").is_some());
+    assert!(find(&buffer, "From the merry-go-round").is_some());
+    for force in ["→ centrifugal", "→ Coriolis"] {
+        let (x, _) = find(&buffer, force).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
+        let (from, _) = find(&buffer, "From the merry-go-round").unwrap();
+        assert!(x + 4 > from, "only in the frame's own picture");
+    }
+    assert!(find(&buffer, "Euler").is_none(), "it turns evenly");
+    // the first picture turns too once it is asked to, and back
+    press(&mut app, "Tab Tab Tab f z");
+    let buffer = screen(&app, &rich(), (120, 40));
+    assert!(find(&buffer, "seen from merry-go-round").is_some(), "{:#?}", rows(&buffer));
+    press(&mut app, "f");
+    assert!(find(&screen(&app, &rich(), (120, 40)), "From the ground").is_some());
+}
+
+#[test]
+fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
+    let planet = loaded("planet", 1);
+    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("planet"));
+    let mut now = snapshot(&planet, 2.0);
+    // a circle-like motion between r = 0.8 and 1.4, as bounds and now
+    let place = |kind| planet.system.channels().iter().position(|c| c.kind == kind).unwrap();
+    let (r, energy) = (place(ChannelKind::Position(0)), place(ChannelKind::Energy));
+    let mut bounds = now.bounds.to_vec();
+    bounds[r] = (0.8, 1.4);
+    now.bounds = bounds.into();
+    let potential = |app: &phaselab::app::App, r: f64| {
+        let lab = app.lab.as_ref().unwrap();
+        let view = lab.loaded.model.views.iter().position(|v| v.kind == ViewKind::Potential);
+        lab.potential(view.unwrap()).unwrap().at(lab, r)
+    };
+    app.update(Event::Loaded(Ok(planet.clone())));
+    app.update(Event::Snapshot(Arc::new(now.clone())));
+    // V_eff = V + p²/(2 m r²): p held, so doubling r divides the wall by four
+    let lab = app.lab.as_ref().unwrap();
+    let symbol = |name: &str| lab.now(planet.model.pool.find_symbol(name).unwrap());
+    let (m, p) = (symbol("m"), symbol("p_theta"));
+    let wall = |r: f64| p * p / (2.0 * m * r * r);
+    let attraction = |r: f64| potential(&app, r) - wall(r);
+    for r in [0.5, 1.0, 3.0] {
+        let ratio = attraction(r) / attraction(2.0 * r);
+        assert!((ratio - 2.0).abs() < 1e-10, "{ratio}");
+    }
+    let mut values = now.values.to_vec();
+    values[energy] = 0.5 * potential(&app, 1.0);
+    now.values = values.into();
+    app.update(Event::Snapshot(Arc::new(now)));
+    let look = rich();
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let buffer = screen(&app, &look, size);
+        assert!(find(&buffer, "Potential").is_some(), "{:#?}", rows(&buffer));
+        let warn = look.theme[Role::Warn].fg.unwrap();
+        let level = buffer.content.iter().filter(|c| c.fg == warn).count();
+        assert!(level >= 5, "the energy between the turning points: {level} cells");
     }
 }

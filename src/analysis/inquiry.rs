@@ -1,0 +1,194 @@
+//! What a person asks of one expression or two: is G conserved, and what is \[f, g\]?
+//!
+//! In: a typed text, a model and what follows from it. Out: an [`Inquiry`] with its answer, or a mistake at its place.
+//! Never here: where it is typed or shown; the motion, but for the values one hands in.
+
+use crate::expr::{Expr, Symbol, SyntaxError, Zero};
+use crate::mechanics::{self, ChainRule, Class, Equations, Recognised, WhyNot};
+use crate::model::{Allowed, Model, Observable, Place, Scope};
+
+/// A question that was understood, and its answer.
+#[derive(Clone, Debug)]
+pub struct Inquiry {
+    /// What follows from the law, grown by what was asked.
+    equations: Equations,
+    /// What was asked, and what came of it.
+    pub answer: Answer,
+}
+
+/// What came of a question.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// The bracket of two expressions.
+    Bracket {
+        /// The one and the other.
+        sides: [Expr; 2],
+        /// \[f, g\] of (q, p, t), or why it is not known in closed form.
+        bracket: Result<Expr, WhyNot>,
+        /// What it is by names of the file; zero where it vanishes.
+        recognised: Option<Recognised>,
+        /// Its values, where there is no closed form.
+        rule: Option<Box<ChainRule>>,
+    },
+    /// Whether an expression is conserved.
+    Conservation {
+        /// The expression.
+        of: Expr,
+        /// Whether it is, and how that is known.
+        class: Class,
+        /// Its rate of change along the motion.
+        rate: Result<Expr, WhyNot>,
+    },
+}
+
+impl Inquiry {
+    /// Reads a question, `f, g` or one expression, and answers it. `H` is the energy where the file has nothing of that
+    /// name; brackets around the whole may be written.
+    ///
+    /// # Errors
+    /// What is wrong with the text, with its place in it.
+    pub fn of(model: &Model, equations: &Equations, text: &str) -> Result<Inquiry, SyntaxError> {
+        let mut equations = equations.clone();
+        let parts = parts(text);
+        let mut read = |(start, part): &(usize, &str)| read(model, &mut equations, *start, part);
+        let answer = match parts.as_slice() {
+            [one] => {
+                let of = read(one)?;
+                conservation(model, &mut equations, of)
+            }
+            [one, other] => {
+                let sides = [read(one)?, read(other)?];
+                bracket(model, &mut equations, sides)
+            }
+            more => {
+                let (start, part) = more[2];
+                let message = "a bracket has two sides, and this is a third";
+                let span = crate::expr::Span { start, end: start + part.len() };
+                return Err(SyntaxError::new(span, message));
+            }
+        };
+        Ok(Inquiry { equations, answer })
+    }
+
+    /// An expression of the answer in Unicode mathematics, or in the syntax of files.
+    pub fn written(&self, e: Expr, unicode: bool) -> String {
+        let pool = &self.equations.pool;
+        if unicode { pool.unicode(e) } else { pool.text(e) }
+    }
+
+    /// How many pieces an expression has.
+    pub fn weight(&self, e: Expr) -> u64 {
+        self.equations.pool.weight(e)
+    }
+
+    /// The value of the bracket, or of the rate, where the symbols have these values; `None` where it has none.
+    pub fn value(&self, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
+        let of = |e: Expr| Some(self.equations.pool.evaluate(e, at)).filter(|v| v.is_finite());
+        match &self.answer {
+            Answer::Bracket { bracket: Ok(e), .. } | Answer::Conservation { rate: Ok(e), .. } => {
+                of(*e)
+            }
+            Answer::Bracket { rule: Some(rule), .. } => rule.value(&self.equations, at),
+            Answer::Bracket { .. } | Answer::Conservation { .. } => None,
+        }
+    }
+}
+
+/// The parts between the commas that stand in no parentheses, each with its first byte.
+fn parts(text: &str) -> Vec<(usize, &str)> {
+    let trimmed = text.trim();
+    let begin = text.len() - text.trim_start().len();
+    let bracketed = [('[', ']'), ('{', '}')]
+        .iter()
+        .any(|(open, close)| trimmed.starts_with(*open) && trimmed.ends_with(*close));
+    let (begin, inner) = if bracketed && trimmed.len() >= 2 {
+        (begin + 1, &trimmed[1..trimmed.len() - 1])
+    } else {
+        (begin, trimmed)
+    };
+    let mut parts = Vec::new();
+    let (mut depth, mut start) = (0_usize, 0);
+    for (at, character) in inner.char_indices() {
+        match character {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                parts.push((begin + start, &inner[start..at]));
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push((begin + start, &inner[start..]));
+    parts
+}
+
+/// One expression, its mistakes placed in the whole text.
+fn read(
+    model: &Model,
+    equations: &mut Equations,
+    start: usize,
+    text: &str,
+) -> Result<Expr, SyntaxError> {
+    let mut scope = Scope::new(model, Allowed::Observable, "an observable");
+    let taken = |name: &str| {
+        model.parameter(name).is_some()
+            || model.coordinate(name).is_some()
+            || model.definitions.iter().any(|(defined, _)| defined == name)
+            || model.observables.iter().any(|o| o.name == name)
+    };
+    if !taken("H") {
+        scope.define("H", equations.pool.variable(model.symbols.energy));
+    }
+    if let Some(e) = scope.read(&mut equations.pool, text) {
+        return Ok(e);
+    }
+    let whole = crate::expr::Span { start: 0, end: text.len() };
+    let unknown = || SyntaxError::new(whole, "this cannot be read");
+    let mut mistake = scope.mistakes.into_iter().next().unwrap_or_else(unknown);
+    mistake.span.start += start;
+    mistake.span.end += start;
+    Err(mistake)
+}
+
+fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Answer {
+    let [f, g] = sides;
+    let bracket = mechanics::bracket(model, equations, f, g);
+    let (recognised, rule) = match &bracket {
+        Ok(e) => (mechanics::recognise(model, equations, *e), None),
+        Err(_) => (None, ChainRule::of(equations, f, g).ok().map(Box::new)),
+    };
+    Answer::Bracket { sides, bracket, recognised, rule }
+}
+
+fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
+    // asked as if the file declared it
+    let name = "what is asked".to_owned();
+    let observable = Observable { name, expression: of, conserved: None, place: Place::default() };
+    let mut asked = model.clone();
+    asked.observables = vec![observable];
+    let classed = mechanics::classes(&asked, equations).pop();
+    match classed {
+        Some(classed) => Answer::Conservation { of, class: classed.class, rate: classed.rate },
+        None => Answer::Conservation {
+            of,
+            class: Class::Unknown,
+            rate: Err(WhyNot("it could not be derived".to_owned())),
+        },
+    }
+}
+
+impl Answer {
+    /// Whether the bracket vanishes, or what was asked is conserved, and how that is known.
+    pub fn vanishes(&self) -> Zero {
+        match self {
+            Answer::Bracket { recognised: Some(known), .. } if known.expression == Expr::ZERO => {
+                known.proof
+            }
+            Answer::Bracket { .. } => Zero::No,
+            Answer::Conservation { class: Class::Proved, .. } => Zero::Proved,
+            Answer::Conservation { class: Class::Numerically, .. } => Zero::Numerically,
+            Answer::Conservation { .. } => Zero::No,
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The prompt for brackets and conserved quantities, over the page.
+//!
+//! In: the prompt, the lab for present values. Out: cells. Never here: how an answer is found.
+
+use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span, columns, row};
+use super::number::readable;
+use super::theme::Role;
+use super::wrap::{formula, words};
+use crate::analysis::{Answer, Inquiry};
+use crate::app::{Lab, Prompt};
+use crate::expr::{Expr, Zero};
+use crate::mechanics::Class;
+
+/// More pieces than this are not written out on a screen.
+const MOST: u64 = 1_000;
+
+/// What stands where nothing has been asked yet.
+const HELP: &str = "Two expressions with a comma between them give Poisson's bracket; one alone asks whether it is \
+conserved. H is the energy, p_x a momentum, x' a velocity; observables of the file are written out.";
+
+/// Draws the prompt in the middle of an area.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prompt) {
+    let width = area.width.saturating_sub(2).min(100);
+    let lines = lines(canvas, lab, prompt, usize::from(width.saturating_sub(4)));
+    let height = (lines.len() as u16 + 4).min(area.height);
+    let place = Rect {
+        x: area.x + (area.width - width) / 2,
+        y: area.y + (area.height - height) / 2,
+        width,
+        height,
+    };
+    canvas.clear(place);
+    let title = if lab.loaded.model.is_poisson() {
+        "{f, g}, or one: is it conserved?"
+    } else {
+        "[f, g], or one: is it conserved?"
+    };
+    let title = [canvas.span(Role::Title, title)];
+    let inner = canvas.pane(place, &title, true);
+    let inner = columns(inner, 1, inner.width.saturating_sub(2));
+    let field = row(inner, 0);
+    let used = canvas.left(field, Role::Accent, "? ");
+    let room = usize::from(field.width.saturating_sub(used + 1));
+    let scroll = prompt.input.visual_scroll(room);
+    let shown: String = prompt.input.value().chars().skip(scroll).collect();
+    canvas.left(columns(field, used, field.width), Role::Text, &shown);
+    let cursor = prompt.input.visual_cursor().saturating_sub(scroll) as u16;
+    canvas.tint(columns(field, used + cursor, 1), Role::Selected);
+    if let Some(mistake) = &prompt.mistake {
+        // A caret under each letter of what is wrong.
+        let text = prompt.input.value();
+        let before = text.get(..mistake.span.start).unwrap_or(text).chars().count();
+        let wrong = text.get(mistake.span.start..mistake.span.end).unwrap_or("").chars().count();
+        let start = used + before.saturating_sub(scroll) as u16;
+        let carets = "^".repeat(wrong.clamp(1, room.max(1)));
+        canvas.left(columns(row(inner, 1), start, inner.width), Role::Bad, &carets);
+    }
+    for (index, line) in lines.iter().enumerate() {
+        canvas.spans(row(inner, index + 2), line);
+    }
+}
+
+fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<Span>> {
+    let mut page = Page { canvas, width, lines: Vec::new() };
+    match (&prompt.mistake, &prompt.answered) {
+        (Some(mistake), _) => {
+            page.words(Role::Bad, &mistake.message);
+            page.words(Role::Text, mistake.help.as_deref().unwrap_or_default());
+        }
+        (None, None) => page.words(Role::Dim, HELP),
+        (None, Some((asked, inquiry))) => match &inquiry.answer {
+            Answer::Bracket { bracket, recognised, .. } => {
+                let (open, close) =
+                    if lab.loaded.model.is_poisson() { ("{", "}") } else { ("[", "]") };
+                let asked =
+                    asked.trim().trim_start_matches(['[', '{']).trim_end_matches([']', '}']);
+                let head = format!("{open}{asked}{close}");
+                match bracket {
+                    Ok(e) => page.formula(inquiry, &head, *e),
+                    Err(why) => {
+                        page.words(
+                            Role::Dim,
+                            &format!("{head} is not known in closed form: {why}"),
+                        );
+                    }
+                }
+                if let (Some(known), Ok(e)) = (recognised, bracket)
+                    && known.expression != *e
+                {
+                    page.formula(inquiry, "", known.expression);
+                }
+                page.value("its value now", lab, inquiry);
+                let (role, verdict) = match (inquiry.answer.vanishes(), recognised) {
+                    (Zero::Proved, _) => (Role::Good, "It vanishes everywhere: proved."),
+                    (Zero::Numerically, _) => (
+                        Role::Warn,
+                        "It vanishes to rounding wherever it was tried; there is no proof.",
+                    ),
+                    (Zero::No, Some(known)) if known.proof != Zero::Proved => (
+                        Role::Text,
+                        "It does not vanish; the second form holds to rounding, without a proof.",
+                    ),
+                    (Zero::No, _) => (Role::Text, "It does not vanish."),
+                };
+                page.words(role, verdict);
+                if !lab.loaded.model.constraints.is_empty() {
+                    let what = "This is the bracket of the phase space without the constraints. Whether something is \
+                        conserved along the motion is asked with one expression.";
+                    page.words(Role::Dim, what);
+                }
+            }
+            Answer::Conservation { class, rate, .. } => {
+                let head = rate_head(lab);
+                match rate {
+                    Ok(e) => page.formula(inquiry, head, *e),
+                    Err(why) => {
+                        page.words(
+                            Role::Dim,
+                            &format!("{head} is not known in closed form: {why}"),
+                        );
+                    }
+                }
+                page.value("its value now", lab, inquiry);
+                let (role, verdict) = match class {
+                    Class::Proved => (Role::Good, "Conserved: proved, dG/dt vanishes everywhere."),
+                    Class::Numerically => (
+                        Role::Warn,
+                        "Conserved, to rounding: dG/dt vanishes wherever it was tried, at points near the start; \
+                         there is no proof.",
+                    ),
+                    Class::Changing => (Role::Bad, "Not conserved: it changes at this rate."),
+                    Class::Unknown => {
+                        (Role::Warn, "Not known: its rate of change could not be had.")
+                    }
+                };
+                page.words(role, verdict);
+            }
+        },
+    }
+    page.lines
+}
+
+/// What the rate of change is: by the bracket where that is all of it, else along the motion with all that acts.
+fn rate_head(lab: &Lab) -> &'static str {
+    let model = &lab.loaded.model;
+    let forced = model.mechanics.forces().iter().any(|f| *f != Expr::ZERO)
+        || model.mechanics.dissipation() != Expr::ZERO;
+    match (forced || !model.constraints.is_empty(), model.is_poisson()) {
+        (true, _) => "dG/dt along the motion",
+        (false, true) => "dG/dt = {G, H} + ∂G/∂t",
+        (false, false) => "dG/dt = [G, H] + ∂G/∂t",
+    }
+}
+
+/// Rows in the making.
+struct Page<'a, 'b> {
+    canvas: &'a Canvas<'b>,
+    width: usize,
+    lines: Vec<Vec<Span>>,
+}
+
+impl Page<'_, '_> {
+    fn words(&mut self, role: Role, text: &str) {
+        let text = self.canvas.text(text);
+        let wrapped = words(&text, self.width).into_iter().filter(|line| !line.is_empty());
+        self.lines.extend(wrapped.map(|line| vec![(line, self.canvas.style(role))]));
+    }
+
+    /// `head = e`, broken where it is too long.
+    fn formula(&mut self, inquiry: &Inquiry, head: &str, e: Expr) {
+        let body = if inquiry.weight(e) > MOST {
+            format!("… ({} pieces: phaselab bracket prints them)", inquiry.weight(e))
+        } else {
+            inquiry.written(e, !self.canvas.look.glyphs.is_ascii())
+        };
+        let (head, body) = (self.canvas.text(head), self.canvas.text(&body));
+        let beside = head.width() <= self.width / 2;
+        if !beside {
+            self.words(Role::Accent, &head);
+        }
+        let margin = if beside { head.width().max(2) } else { 2 };
+        let broken = formula(&body, self.width.saturating_sub(margin + 3), 2);
+        for (index, line) in broken.into_iter().enumerate() {
+            let head = if index == 0 && beside { head.clone() } else { String::new() };
+            let sign = if index == 0 { " = " } else { "   " };
+            self.lines.push(vec![
+                (format!("{head:margin$}"), self.canvas.style(Role::Accent)),
+                (sign.to_owned(), self.canvas.style(Role::Dim)),
+                (line, self.canvas.style(Role::Text)),
+            ]);
+        }
+    }
+
+    fn value(&mut self, what: &str, lab: &Lab, inquiry: &Inquiry) {
+        let value = inquiry.value(&|symbol| lab.now(symbol));
+        let text = value.map_or_else(
+            || "not known here".to_owned(),
+            |value| readable(value, 10, self.canvas.look.glyphs),
+        );
+        self.lines.push(vec![
+            (format!("{what} "), self.canvas.style(Role::Dim)),
+            (text, self.canvas.style(Role::Accent)),
+        ]);
+    }
+}

@@ -1,0 +1,69 @@
+//! The seat of whoever looks: the axes of the file, or a frame that moves and turns in them.
+//!
+//! In: a frame of the model and rows of channels. Out: where a point is as seen from it, at the time of the row.
+//! Never here: the camera, which stands still in the frame; forces.
+
+use crate::expr::Expr;
+use crate::view::quantity::{Quantities, Source};
+
+/// A frame, by the channels that say how it stands.
+pub(super) struct Seat {
+    axis: [Source; 3],
+    angle: Source,
+    origin: [Source; 3],
+}
+
+impl Seat {
+    /// The frame of an index; none for the axes of the file.
+    pub(super) fn of(q: &Quantities<'_>, frame: Option<usize>) -> Option<Self> {
+        let frame = q.lab.loaded.model.frames.get(frame?).filter(|frame| !frame.attitude)?;
+        let place = |e: Expr| q.place(e);
+        Some(Self {
+            axis: frame.axis.map(place),
+            angle: q.place(frame.angle),
+            origin: frame.origin.map(place),
+        })
+    }
+
+    /// R(−α)(r − o).
+    pub(super) fn point(&self, row: &[f64], r: [f64; 3]) -> [f64; 3] {
+        let origin = self.origin.map(|source| source.read(row));
+        self.direction(row, [0, 1, 2].map(|k| r[k] - origin[k]))
+    }
+
+    /// R(−α) v = v cos α − (n×v) sin α + n (n·v)(1 − cos α), Rodrigues' formula.
+    pub(super) fn direction(&self, row: &[f64], v: [f64; 3]) -> [f64; 3] {
+        let axis = self.axis.map(|source| source.read(row));
+        let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let n = axis.map(|a| a / length);
+        let (sin, cos) = self.angle.read(row).sin_cos();
+        let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
+        [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let across = n[i] * v[j] - n[j] * v[i];
+            v[k] * cos - across * sin + n[k] * along * (1.0 - cos)
+        })
+    }
+
+    /// A box that holds whatever the one given holds, seen from here at any time.
+    pub(super) fn around(&self, q: &Quantities<'_>, [low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+        let span = |source: Source| match source {
+            Source::Number(number) => (number, number),
+            Source::Channel(channel) => q.bounds(channel),
+        };
+        let origin = self.origin.map(span);
+        let low = [0, 1, 2].map(|k| low[k] - origin[k].1);
+        let high = [0, 1, 2].map(|k| high[k] - origin[k].0);
+        if span(self.angle) == (0.0, 0.0) {
+            return [low, high];
+        }
+        let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
+        let upright = [0, 1].map(|k| span(self.axis[k])) == [(0.0, 0.0); 2];
+        if upright {
+            let radius = far[0].hypot(far[1]);
+            return [[-radius, -radius, low[2]], [radius, radius, high[2]]];
+        }
+        let radius = far[0].hypot(far[1]).hypot(far[2]);
+        [[-radius; 3], [radius; 3]]
+    }
+}

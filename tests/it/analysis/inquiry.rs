@@ -1,0 +1,103 @@
+//! Questions typed by a person: brackets and conserved quantities, against what the textbook says of them.
+
+use phaselab::analysis::{Answer, Inquiry};
+use phaselab::expr::{Symbol, Zero};
+use phaselab::mechanics::{Class, Equations, derive};
+use phaselab::model::Model;
+use phaselab::preset;
+
+use crate::build::sample;
+
+const PLANE: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\ny = { initial = 0.0, velocity = 1.0 }\n\
+    [parameters]\nm = 2.0\nk = 1.0\n";
+
+fn system(law: &str) -> (Model, Equations) {
+    let text = format!("{PLANE}{law}");
+    let model = preset::read(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let equations = derive(&model).unwrap();
+    (model, equations)
+}
+
+fn kepler() -> (Model, Equations) {
+    system("[lagrangian]\nL = \"m/2*(x'^2 + y'^2) + k/sqrt(x^2 + y^2)\"\n")
+}
+
+fn ask((model, equations): &(Model, Equations), text: &str) -> Inquiry {
+    Inquiry::of(model, equations, text).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"))
+}
+
+#[test]
+fn brackets_are_found_and_whether_they_vanish() {
+    let system = kepler();
+    for (text, wanted, vanishes) in [
+        ("x, p_x", "1", Zero::No),
+        ("[x, p_x]", "1", Zero::No),
+        (" { p_x , x } ", "-1", Zero::No),
+        ("x, y", "0", Zero::Proved),
+        ("x*p_y - y*p_x, H", "0", Zero::Proved),
+        ("x*p_y - y*p_x, energy", "0", Zero::Proved),
+        ("x*y' - y*x', x", "y/m", Zero::No),
+        ("p_x, x*p_y - y*p_x", "-p_y", Zero::No),
+        ("atan2(y, x), x*p_y - y*p_x", "1", Zero::No),
+    ] {
+        let inquiry = ask(&system, text);
+        let Answer::Bracket { bracket: Ok(e), .. } = &inquiry.answer else { panic!("{text}") };
+        assert_eq!(inquiry.written(*e, false), wanted, "{text}");
+        assert_eq!(inquiry.answer.vanishes(), vanishes, "{text}");
+    }
+}
+
+#[test]
+fn one_expression_alone_asks_whether_it_is_conserved() {
+    let class = |system: &(Model, Equations), text: &str| match ask(system, text).answer {
+        Answer::Conservation { class, .. } => class,
+        Answer::Bracket { .. } => panic!("{text} is one expression"),
+    };
+    let free = kepler();
+    assert_eq!(class(&free, "H"), Class::Proved);
+    assert_eq!(class(&free, "x*p_y - y*p_x"), Class::Proved);
+    assert_eq!(class(&free, "p_y*(x*p_y - y*p_x) - m*k*x/sqrt(x^2 + y^2)"), Class::Proved);
+    assert_eq!(class(&free, "p_x"), Class::Changing);
+    // dx/dt = p_x/m
+    let inquiry = ask(&free, "x");
+    let names = |s: Symbol| free.1.pool.symbol_info(s).name.clone();
+    let at = |s: Symbol| sample(1)(s);
+    let symbol = |name: &str| free.1.pool.find_symbol(name).unwrap();
+    let velocity = at(symbol("x'"));
+    let momentum = at(symbol("p_x")) / at(symbol("m"));
+    let value = inquiry.value(&at).unwrap();
+    assert!([velocity, momentum].contains(&value), "{value} {}", names(symbol("x'")));
+    // friction takes the energy, though [H, H] = 0
+    let slowed = system("[lagrangian]\nL = \"m/2*(x'^2 + y'^2)\"\ndissipation = \"k/2*x'^2\"\n");
+    assert_eq!(class(&slowed, "H"), Class::Changing);
+    assert_eq!(class(&slowed, "p_y"), Class::Proved);
+    assert_eq!(ask(&slowed, "H, H").answer.vanishes(), Zero::Proved);
+    // a constraint keeps what its bracket with H does not
+    let held = system(
+        "[lagrangian]\nL = \"m/2*(x'^2 + y'^2) - k*y\"\n[[constraints]]\nname = 'rod'\n\
+         expression = 'x^2 + y^2 - 1'\n",
+    );
+    assert!(class(&held, "x*x' + y*y'").is_conserved());
+    assert_eq!(class(&held, "y"), Class::Changing);
+    assert_eq!(ask(&held, "x*p_x + y*p_y, H").answer.vanishes(), Zero::No);
+}
+
+#[test]
+fn a_mistake_is_told_at_its_place_in_the_whole_text() {
+    let (model, equations) = kepler();
+    for (text, place, says) in [
+        ("x*p_y - y*p_z, H", "p_z", "p_z"),
+        ("x, 2*lenght", "lenght", "lenght"),
+        ("[x, y +]", "", "too early"),
+        ("x, y, p_x", " p_x", "third"),
+        ("x, ", "", "missing"),
+        ("2x", "", ""),
+    ] {
+        let Err(mistake) = Inquiry::of(&model, &equations, text) else { panic!("{text} is read") };
+        assert!(mistake.span.start <= text.len(), "{text}: {mistake:?}");
+        if !place.is_empty() {
+            assert_eq!(&text[mistake.span.start..mistake.span.end], place, "{text}");
+        }
+        assert!(mistake.message.contains(says), "{text}: {mistake:?}");
+    }
+}
