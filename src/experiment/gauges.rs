@@ -83,7 +83,10 @@ impl Gauges {
             } else {
                 ChannelKind::Conserved(i)
             };
-            let reason = conserved.reason.to_string();
+            let mut reason = conserved.reason.to_string();
+            if is_struck(model, equations, conserved.expression) {
+                reason.push_str(", between blows");
+            }
             add(&conserved.name, reason, None, kind, conserved.expression);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
@@ -103,6 +106,9 @@ impl Gauges {
             }
         }
         places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
+        for (i, symbol) in equations.attitude_symbols.iter().flatten().flatten().enumerate() {
+            places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
+        }
         let residuals = Residual::all(model, equations, system);
         let attitude = Attitude::of(system);
         let equations = Arc::clone(equations);
@@ -203,6 +209,8 @@ impl Gauges {
         };
         for needle in &mut self.needles {
             let (_, size) = equations.pool.evaluate_with_size(needle.expression, &at);
+            // where its terms cannot be told apart, the value itself is the measure
+            let size = if size.is_finite() { size } else { now.values[needle.channel].abs() };
             if size.is_finite() {
                 needle.size = needle.size.max(size);
             }
@@ -309,6 +317,21 @@ impl Needle {
 
     /// A distance over the size of the terms.
     fn relative(&self, distance: f64) -> f64 {
-        if distance == 0.0 { 0.0 } else { distance / self.size }
+        if distance == 0.0 || self.size == 0.0 { 0.0 } else { distance / self.size }
     }
+}
+
+/// Whether a blow of the file may change a quantity.
+fn is_struck(model: &Model, equations: &Equations, quantity: Expr) -> bool {
+    let struck = |i: usize| model.impulses.iter().any(|blow| blow.change[i] != Expr::ZERO);
+    let depends = |i: usize| {
+        let c = &equations.coordinates[i];
+        let moved = if model.is_poisson() {
+            vec![c.position]
+        } else {
+            vec![c.velocity, c.momentum, equations.symbols.energy]
+        };
+        equations.pool.depends_on_any(quantity, &moved)
+    };
+    (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
 }

@@ -340,6 +340,7 @@ fn a_blow_waits_for_its_key() {
     let snapshot = free.snapshot();
     assert!(snapshot.notices.last().is_some_and(|n| n.contains("push")), "{:?}", snapshot.notices);
     assert!(gauge(&snapshot, "energy").max_drift < 1e-15, "it is told from the blow");
+    assert!(gauge(&snapshot, "p_x").reason.ends_with(", between blows"));
 }
 
 #[test]

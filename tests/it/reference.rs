@@ -322,7 +322,12 @@ fn every_body_has_its_inertia() {
         let centre = &body.centre_of_mass;
         let far = centre.iter().map(|x| number(x).abs()).fold(0.0, f64::max);
         let reach = far.max((largest / number(&body.mass)).sqrt());
-        hold("mass", &serde_json::json!([found["mass"]]), &[body.mass.clone()], number(&body.mass));
+        hold(
+            "mass",
+            &serde_json::json!([found["mass"]]),
+            std::slice::from_ref(&body.mass),
+            number(&body.mass),
+        );
         hold("centre", &found["centre_of_mass"], centre, reach);
         for (i, row) in body.inertia.iter().enumerate() {
             hold("inertia", &found["inertia"][i], row, largest);
