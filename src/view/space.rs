@@ -2,6 +2,7 @@
 //!
 //! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
 
+mod body;
 mod scene;
 mod seat;
 
@@ -14,6 +15,7 @@ use super::theme::Role;
 use crate::app::{Eye, Lab};
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
+use body::Outline;
 use scene::Scene;
 use seat::Seat;
 
@@ -144,8 +146,7 @@ impl Artist<'_> {
                 let points: Vec<_> = points.iter().map(|point| self.point(point)).collect();
                 self.curve(&points, &ground);
             }
-            // no body is drawn yet
-            Shape::Body { .. } => {}
+            Shape::Body { at } => self.body(at),
             Shape::Plane { at, normal, size } => {
                 let (at, normal) = (self.point(at), self.direction(normal));
                 let edge = self.q.number(*size);
@@ -252,6 +253,32 @@ impl Artist<'_> {
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
         self.bodies += 1;
+    }
+
+    /// The pieces of the model's body and its principal axes, its centre of mass at a point.
+    fn body(&mut self, at: &Point) {
+        let Some(outline) = Outline::of(self.q) else { return };
+        let at = self.q.point(at);
+        let place = |own: [f64; 3]| {
+            let r = [0, 1, 2].map(|k| at[k] + own[k]);
+            self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+        };
+        let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
+            lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
+        };
+        let (axes, edges) = (placed(outline.axes), placed(outline.edges));
+        let points: Vec<_> = outline.points.into_iter().map(place).collect();
+        let theme = &self.q.look.theme;
+        for line in axes {
+            self.curve(&line, &Pen::shaded(theme.line(Role::Separatrix), TRACK));
+        }
+        for line in edges {
+            self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
+        }
+        for point in points {
+            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(self.bodies), BODY));
+            self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
+        }
     }
 
     fn track(&mut self, point: &Point) {

@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 
+use super::body::Outline;
 use super::seat::Seat;
 use crate::app::Eye;
 use crate::model::{Point, Shape};
@@ -73,7 +74,11 @@ impl Scene {
                 let radius = radius.map_or(0.0, |radius| q.number(radius));
                 self.add(grown(reach(q, at, reached), radius, is_flat(q, at)));
             }
-            Shape::Trace { at } | Shape::Body { at } => self.add(reach(q, at, reached)),
+            Shape::Trace { at } => self.add(reach(q, at, reached)),
+            Shape::Body { at } => {
+                let radius = Outline::of(q).map_or(0.0, |outline| outline.reach());
+                self.add(grown(reach(q, at, reached), radius, false));
+            }
             Shape::Circle { centre, radius, normal } => {
                 let middle = q.point(centre);
                 let normal = q.point(normal);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{Event, Lens, Plot};
 use phaselab::experiment::{Growth, Status, Verdict};
 use phaselab::integrate::{Happening, Kind};
-use phaselab::model::ViewKind;
+use phaselab::model::{Shape, ViewKind};
 use phaselab::system::ChannelKind;
 use phaselab::view::theme::Role;
 use ratatui::style::Modifier;
@@ -335,4 +335,47 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
         let level = buffer.content.iter().filter(|c| c.fg == warn).count();
         assert!(level >= 5, "the energy between the turning points: {level} cells");
     }
+}
+
+#[test]
+fn a_body_is_drawn_as_it_stands() {
+    let handle = loaded("t-handle", 1);
+    let picture = |matrix: [f64; 9]| {
+        let mut now = snapshot(&handle, 1.0);
+        let mut values = now.values.to_vec();
+        for (i, channel) in handle.system.channels().iter().enumerate() {
+            if let ChannelKind::Attitude(k) = channel.kind {
+                values[i] = matrix[k];
+            }
+        }
+        now.values = values.into();
+        let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
+        app.update(Event::Loaded(Ok(handle.clone())));
+        app.update(Event::Snapshot(Arc::new(now)));
+        let model = &handle.model;
+        let drawn = |plot: &Plot| {
+            let Plot::Space(eye) = plot else { return false };
+            let body = |shape: &Shape| matches!(shape, Shape::Body { .. });
+            eye.shapes(model).iter().any(body)
+        };
+        let lab = app.lab.as_ref().unwrap();
+        let place = lab.plots.iter().position(drawn).unwrap();
+        press(&mut app, &["Tab"].repeat(3 + place).join(" "));
+        press(&mut app, "z");
+        let buffer = screen(&app, &rich(), (120, 40));
+        // inside the frame: its heading and the lines below are the same for all
+        rows(&buffer)[2..37].to_vec()
+    };
+    let cells = |rows: &[String]| {
+        rows.iter().flat_map(|row| row.chars()).filter(|c| ('⠁'..='⣿').contains(c)).count()
+    };
+    let upright = picture([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    assert!(cells(&upright) > 100, "{upright:#?}");
+    let turned = picture([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert_ne!(upright, turned, "a quarter turn about z");
+    let nowhere = cells(&picture([f64::NAN; 9]));
+    assert!(
+        2 * nowhere < cells(&upright),
+        "without an attitude there is no body to draw: {nowhere}"
+    );
 }

@@ -1,0 +1,166 @@
+//! A rigid body as it is drawn: the edges and rims of its pieces, and its principal axes, turned as it stands.
+//!
+//! In: the pieces of `[body]`, the attitude's channels, present parameters. Out: lines in space about the centre of
+//! mass. Never here: moments, or how the attitude is found.
+
+use std::f64::consts::TAU;
+
+use crate::expr::{Double, Expr};
+use crate::mechanics::principal;
+use crate::model::{Model, Piece, Solid, Turn};
+use crate::system::ChannelKind;
+use crate::view::quantity::Quantities;
+
+/// Sides of a rim.
+const SIDES: usize = 48;
+
+/// How far the principal axes reach beyond the body.
+const AXES: f64 = 1.25;
+
+type Line = Vec<[f64; 3]>;
+
+/// The body's lines about its centre of mass, in the axes of space.
+pub(super) struct Outline {
+    /// Rims and edges.
+    pub(super) edges: Vec<Line>,
+    /// The principal axes, from the centre of mass on.
+    pub(super) axes: Vec<Line>,
+    /// Pieces that are points.
+    pub(super) points: Vec<[f64; 3]>,
+}
+
+impl Outline {
+    /// The body of the model now; nothing where there is none.
+    pub(super) fn of(q: &Quantities<'_>) -> Option<Self> {
+        let model: &Model = &q.lab.loaded.model;
+        let body = model.body.as_ref()?;
+        let value = |e: Expr| model.pool.evaluate(e, &|symbol| q.lab.now(symbol));
+        let centre = body.names.centre.map(|symbol| q.lab.now(symbol));
+        let mut outline = Self { edges: Vec::new(), axes: Vec::new(), points: Vec::new() };
+        for piece in &body.pieces {
+            let at = piece.at.map(value);
+            let place = |own: [f64; 3]| {
+                let turned = turned(piece, own, &value);
+                [0, 1, 2].map(|k| at[k] + turned[k] - centre[k])
+            };
+            if matches!(piece.solid, Solid::Point) {
+                outline.points.push(place([0.0; 3]));
+            }
+            let lines = lines(&piece.solid, &value);
+            outline
+                .edges
+                .extend(lines.into_iter().map(|line| line.into_iter().map(place).collect()));
+        }
+        let reach = AXES * outline.reach();
+        let inertia = body.names.inertia.map(|symbol| Double::from(q.lab.now(symbol)));
+        let (_, axes) = principal(&inertia);
+        outline.axes = axes.map(|axis| vec![[0.0; 3], axis.map(|n| reach * n)]).to_vec();
+        Some(outline.standing(q))
+    }
+
+    /// The farthest that any part is from the centre of mass.
+    pub(super) fn reach(&self) -> f64 {
+        let all = self.edges.iter().chain(&self.axes).flatten().chain(&self.points);
+        let far = all.map(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt());
+        far.filter(|r| r.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// Turned from the body's axes to those of space, by the transpose of A.
+    fn standing(self, q: &Quantities<'_>) -> Self {
+        let channels = q.lab.loaded.system.channels();
+        let entry = |i: usize| {
+            let place = channels.iter().position(|c| c.kind == ChannelKind::Attitude(i));
+            place.map(|place| q.value(place))
+        };
+        let Some(a) = (0..9).map(entry).collect::<Option<Vec<f64>>>() else { return self };
+        let stand = |b: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|i| a[3 * i + k] * b[i]).sum());
+        let all = |lines: Vec<Line>| {
+            lines.into_iter().map(|line| line.into_iter().map(stand).collect()).collect()
+        };
+        let points = self.points.into_iter().map(stand).collect();
+        Self { edges: all(self.edges), axes: all(self.axes), points }
+    }
+}
+
+/// A piece's own point, turned as the piece is in the body.
+fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3] {
+    match &piece.turn {
+        Turn::None => own,
+        Turn::Axis { axis, angle } => about(axis.map(value), value(*angle), own),
+        Turn::Euler([phi, theta, psi]) => {
+            let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+            about(z, value(*phi), about(x, value(*theta), about(z, value(*psi), own)))
+        }
+    }
+}
+
+/// Turned about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
+fn about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
+    let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+    let n = axis.map(|a| a / length);
+    let (sin, cos) = angle.sin_cos();
+    let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
+    [0, 1, 2].map(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        v[k] * cos + (n[i] * v[j] - n[j] * v[i]) * sin + n[k] * along * (1.0 - cos)
+    })
+}
+
+/// The rims and edges of a solid in its own axes, about its centre of mass.
+fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
+    let rim = |radius: f64, z: f64| -> Line { circle(radius).map(|[x, y]| [x, y, z]).collect() };
+    let sides = |low: (f64, f64), high: (f64, f64)| {
+        [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
+            .map(|[x, y]| vec![[low.0 * x, low.0 * y, low.1], [high.0 * x, high.0 * y, high.1]])
+    };
+    match solid {
+        Solid::Point => Vec::new(),
+        Solid::Sphere(radius) | Solid::SphericalShell(radius) => {
+            let r = value(*radius);
+            vec![
+                rim(r, 0.0),
+                circle(r).map(|[x, z]| [x, 0.0, z]).collect(),
+                circle(r).map(|[y, z]| [0.0, y, z]).collect(),
+            ]
+        }
+        Solid::Cylinder { radius, length } | Solid::CylindricalShell { radius, length } => {
+            let (r, half) = (value(*radius), value(*length) / 2.0);
+            let mut all = vec![rim(r, -half), rim(r, half)];
+            all.extend(sides((r, -half), (r, half)));
+            all
+        }
+        // the centre of mass is a quarter of the height above the base
+        Solid::Cone { radius, height } => {
+            let (r, h) = (value(*radius), value(*height));
+            let mut all = vec![rim(r, -h / 4.0)];
+            all.extend(sides((r, -h / 4.0), (0.0, 0.75 * h)));
+            all
+        }
+        Solid::Disc(radius) => {
+            let r = value(*radius);
+            let mut all = vec![rim(r, 0.0)];
+            all.extend(sides((0.0, 0.0), (r, 0.0)));
+            all
+        }
+        Solid::Ring(radius) => vec![rim(value(*radius), 0.0)],
+        Solid::Rod(length) => {
+            let half = value(*length) / 2.0;
+            vec![vec![[0.0, 0.0, -half], [0.0, 0.0, half]]]
+        }
+        Solid::Cuboid(edges) => {
+            let half = edges.map(|e| value(e) / 2.0);
+            let corner =
+                |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { -half[k] } else { half[k] });
+            let edge =
+                |i: usize, k: usize| (i >> k & 1 == 0).then(|| vec![corner(i), corner(i | 1 << k)]);
+            (0..8).flat_map(|i| (0..3).filter_map(move |k| edge(i, k))).collect()
+        }
+    }
+}
+
+fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
+    (0..=SIDES).map(move |side| {
+        let (sin, cos) = (side as f64 * TAU / SIDES as f64).sin_cos();
+        [radius * cos, radius * sin]
+    })
+}
