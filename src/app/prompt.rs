@@ -78,7 +78,10 @@ impl Lab {
         let rows = equations.constraints.iter().enumerate();
         let multipliers = rows.map(|(k, row)| (row.multiplier, ChannelKind::Multiplier(k)));
         let energy = [(equations.symbols.energy, ChannelKind::Energy)];
-        let kind = of_coordinate.chain(multipliers).chain(energy).find(|(s, _)| *s == symbol);
+        let entries = equations.attitude_symbols.iter().flatten().flatten().enumerate();
+        let attitude = entries.map(|(i, symbol)| (*symbol, ChannelKind::Attitude(i)));
+        let mut known = of_coordinate.chain(multipliers).chain(energy).chain(attitude);
+        let kind = known.find(|(s, _)| *s == symbol);
         let channels = self.loaded.system.channels();
         let place = kind.and_then(|(_, kind)| channels.iter().position(|c| c.kind == kind));
         if let Some(place) = place {

@@ -140,7 +140,7 @@ struct Run {
 /// How a run ended before its time.
 enum End {
     Fault(experiment::Fault),
-    Event(String),
+    Event,
     Signal(i32),
     Write(std::io::Error),
 }
@@ -186,14 +186,14 @@ impl Run {
             if let experiment::Status::Faulted(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
-            if progress == Progress::Ended {
-                let names = self.experiment.happenings().last().map(|h| h.name.clone());
-                return Err(End::Event(names.unwrap_or_default()));
+            // the moment itself still has its row
+            if progress == Progress::Ended && self.experiment.time() != time {
+                return Err(End::Event);
             }
             if let Some(signal) = self.interrupt.signal() {
                 return Err(End::Signal(signal));
             }
-            if progress == Progress::Arrived {
+            if matches!(progress, Progress::Arrived | Progress::Ended) {
                 return Ok(());
             }
         }
@@ -202,12 +202,16 @@ impl Run {
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
             Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
-            Some(End::Event(name)) => {
-                let time = self.experiment.time();
-                (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
+            Some(End::Signal(_) | End::Write(_)) => {
+                (Status::Stopped, Some("stopped by a signal".to_owned()))
             }
-            Some(_) => (Status::Stopped, Some("stopped by a signal".to_owned())),
-            None => (Status::Completed, None),
+            Some(End::Event) | None => match self.experiment.status() {
+                experiment::Status::Ended(name) => {
+                    let time = self.experiment.time();
+                    (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
+                }
+                _ => (Status::Completed, None),
+            },
         };
         let gauges = self.experiment.snapshot().gauges;
         let events = events::of(self.experiment.model(), self.experiment.happenings());

@@ -6,10 +6,10 @@
 //!
 //! ```text
 //! r' = R(−α)(r − o)      centrifugal −m ω×(ω×r')      Coriolis −2m ω×v'      Euler −m ω'×r'
+//!                        and, of an origin that is accelerated, −m R(−α) o''
 //! ```
 //!
-//! The axis n is the same in both frames. Where the origin o is accelerated there is a fourth, −m R(−α) o'', which
-//! is not among these.
+//! The axis n is the same in both frames.
 
 use super::Equations;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
@@ -28,6 +28,8 @@ pub struct Apparent {
     pub coriolis: Point,
     /// −m ω'×r'; zero where the frame turns evenly.
     pub euler: Point,
+    /// −m R(−α) o''; zero where the origin is not accelerated.
+    pub dragging: Point,
 }
 
 /// Every particle of every frame, seen from it.
@@ -58,6 +60,9 @@ fn apparent(equations: &mut Equations, frame: &Frame, r: Point, mass: Expr) -> A
     let coriolis = cross(pool, omega, velocity);
     let omega_rate = axis.map(|n| pool.mul(second, n));
     let euler = cross(pool, omega_rate, at);
+    let moving = frame.origin.map(|e| pool.derivation(e, &seeds));
+    let moving = moving.map(|e| pool.derivation(e, &seeds));
+    let dragging = turned_back(pool, axis, frame.angle, moving);
     let mut force = |factor: i64, vector: Point| {
         vector.map(|e| {
             let scale = pool.integer(factor);
@@ -66,9 +71,9 @@ fn apparent(equations: &mut Equations, frame: &Frame, r: Point, mass: Expr) -> A
             pool.simplify(product)
         })
     };
-    let (centrifugal, coriolis, euler) =
-        (force(-1, centrifugal), force(-2, coriolis), force(-1, euler));
-    Apparent { at, velocity, centrifugal, coriolis, euler }
+    let (centrifugal, coriolis) = (force(-1, centrifugal), force(-2, coriolis));
+    let (euler, dragging) = (force(-1, euler), force(-1, dragging));
+    Apparent { at, velocity, centrifugal, coriolis, euler, dragging }
 }
 
 fn derived(pool: &mut Pool, e: Expr, seeds: &[(Symbol, Expr)]) -> Expr {

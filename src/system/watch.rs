@@ -89,7 +89,7 @@ impl List {
             }
         }
         for seen in equations.frames.iter().flatten() {
-            let forces = [seen.centrifugal, seen.coriolis, seen.euler];
+            let forces = [seen.centrifugal, seen.coriolis, seen.euler, seen.dragging];
             for e in seen.at.into_iter().chain(forces.into_iter().flatten()) {
                 list.add_hidden("", e);
             }

@@ -26,7 +26,7 @@ const SOLID: u8 = 2;
 const BODY: u8 = 3;
 
 /// The apparent forces, in the order of their colours.
-const FORCES: [&str; 3] = ["centrifugal", "Coriolis", "Euler"];
+const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 
 /// The longest apparent force seen so far is this part of the picture.
 const LONGEST: f64 = 0.25;
@@ -170,7 +170,7 @@ impl Artist<'_> {
 
     /// Draws the apparent forces on the particles of the frame, and says which of them there are.
     fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
-        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler];
+        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
         let greatest = |vector: &Point| {
             let most = vector.map(|e| match self.q.place(e) {
                 Source::Number(number) => number.abs(),

@@ -4,25 +4,35 @@
 //! Never here: the camera, which stands still in the frame; forces.
 
 use crate::expr::Expr;
+use crate::system::ChannelKind;
 use crate::view::quantity::{Quantities, Source};
 
 /// A frame, by the channels that say how it stands.
 pub(super) struct Seat {
-    axis: [Source; 3],
-    angle: Source,
+    turn: Turn,
     origin: [Source; 3],
+}
+
+/// How a frame is turned.
+enum Turn {
+    /// By an angle about an axis.
+    Axis { axis: [Source; 3], angle: Source },
+    /// With the body: by the matrix of its attitude, whose first entry is this channel.
+    Body(usize),
 }
 
 impl Seat {
     /// The frame of an index; none for the axes of the file.
     pub(super) fn of(q: &Quantities<'_>, frame: Option<usize>) -> Option<Self> {
-        let frame = q.lab.loaded.model.frames.get(frame?).filter(|frame| !frame.attitude)?;
+        let frame = q.lab.loaded.model.frames.get(frame?)?;
         let place = |e: Expr| q.place(e);
-        Some(Self {
-            axis: frame.axis.map(place),
-            angle: q.place(frame.angle),
-            origin: frame.origin.map(place),
-        })
+        let turn = if frame.attitude {
+            let mut channels = q.lab.loaded.system.channels().iter();
+            Turn::Body(channels.position(|c| c.kind == ChannelKind::Attitude(0))?)
+        } else {
+            Turn::Axis { axis: frame.axis.map(place), angle: q.place(frame.angle) }
+        };
+        Some(Self { turn, origin: frame.origin.map(place) })
     }
 
     /// R(−α)(r − o).
@@ -31,12 +41,19 @@ impl Seat {
         self.direction(row, [0, 1, 2].map(|k| r[k] - origin[k]))
     }
 
-    /// R(−α) v = v cos α − (n×v) sin α + n (n·v)(1 − cos α), Rodrigues' formula.
+    /// A v, or R(−α) v = v cos α − (n×v) sin α + n (n·v)(1 − cos α), Rodrigues' formula.
     pub(super) fn direction(&self, row: &[f64], v: [f64; 3]) -> [f64; 3] {
-        let axis = self.axis.map(|source| source.read(row));
+        let (axis, angle) = match &self.turn {
+            Turn::Axis { axis, angle } => (axis, angle),
+            Turn::Body(first) => {
+                let entry = |i: usize, j: usize| Source::Channel(first + 3 * i + j).read(row);
+                return [0, 1, 2].map(|i| (0..3).map(|j| entry(i, j) * v[j]).sum());
+            }
+        };
+        let axis = axis.map(|source| source.read(row));
         let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
         let n = axis.map(|a| a / length);
-        let (sin, cos) = self.angle.read(row).sin_cos();
+        let (sin, cos) = angle.read(row).sin_cos();
         let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
         [0, 1, 2].map(|k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -54,11 +71,12 @@ impl Seat {
         let origin = self.origin.map(span);
         let low = [0, 1, 2].map(|k| low[k] - origin[k].1);
         let high = [0, 1, 2].map(|k| high[k] - origin[k].0);
-        if span(self.angle) == (0.0, 0.0) {
-            return [low, high];
-        }
         let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
-        let upright = [0, 1].map(|k| span(self.axis[k])) == [(0.0, 0.0); 2];
+        let upright = match &self.turn {
+            Turn::Axis { angle, .. } if span(*angle) == (0.0, 0.0) => return [low, high],
+            Turn::Axis { axis, .. } => [0, 1].map(|k| span(axis[k])) == [(0.0, 0.0); 2],
+            Turn::Body(_) => false,
+        };
         if upright {
             let radius = far[0].hypot(far[1]);
             return [[-radius, -radius, low[2]], [radius, radius, high[2]]];

@@ -286,3 +286,46 @@ fn a_motion_that_cannot_begin_is_a_fault() {
     let (count, told) = run(&["--init", "p_x=1"]);
     assert!(count == 0 && told.contains("singular"), "{told}");
 }
+
+/// A particle that runs into a wall at x = 2, at t = 2, pushed on its way.
+const WALL: &str = r#"
+title = "wall"
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+[lagrangian]
+L = "1/2*x'^2"
+[[impulses]]
+name = "push"
+at = 1.0
+change = { p_x = "-1/2" }
+[[events]]
+name = "wall"
+when = "x - 2"
+action = "stop"
+"#;
+
+#[test]
+fn an_event_that_stops_ends_the_run_well_and_its_moment_still_has_a_row() {
+    // to 1 by t = 1, then at half the speed: at 2 by t = 3
+    for every in [["--every", "1"], ["--at", "0,1,2,3,4"], ["--every", "0.5"]] {
+        let arguments =
+            ["run", "system.toml", "--until", "4", every[0], every[1], "--format", "json"];
+        let arguments = if every[0] == "--at" {
+            [&arguments[..2], &arguments[4..]].concat()
+        } else {
+            arguments.to_vec()
+        };
+        let object: Value = serde_json::from_str(&with_file(WALL, &arguments).success()).unwrap();
+        let rows = rows(&object);
+        let last = rows.last().expect("a row");
+        assert_eq!((last[0], last[1]), (Some(3.0), Some(2.0)), "{every:?}");
+        assert_eq!(object["status"], "stopped");
+        let message = object["message"].as_str().expect("a sentence");
+        assert!(message.contains("`wall` ended the motion at t = 3"), "{message}");
+        let events = object["events"].as_array().expect("a list");
+        let named: Vec<_> = events.iter().map(|e| (e["name"].as_str(), e["t"].as_f64())).collect();
+        assert_eq!(named, [(Some("push"), Some(1.0)), (Some("wall"), Some(3.0))]);
+        assert_eq!(events[0]["jump"]["p_x"], -0.5);
+        assert!(events[1]["jump"].is_null(), "a stop is no blow");
+    }
+}

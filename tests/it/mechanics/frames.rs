@@ -43,14 +43,14 @@ fn in_uniform_rotation_they_are_those_of_the_textbook() {
         close(value(apparent.centrifugal), [m * w * w * r[0], m * w * w * r[1], 0.0]);
         close(value(apparent.coriolis), [2.0 * m * w * rate[1], -2.0 * m * w * rate[0], 0.0]);
         assert_eq!(apparent.euler, [Expr::ZERO; 3], "it turns evenly");
+        assert_eq!(apparent.dragging, [Expr::ZERO; 3], "its origin rests");
     }
 }
 
 #[test]
 fn they_account_for_every_bend_of_a_path_that_is_straight() {
-    // about an axis askew, unevenly, the origin moving evenly: m dv'/dt is their sum
-    let frame =
-        "axis = ['1', '2', '2']\nangle = 'w*t + sin(t) + t^2'\norigin = ['3*t', '1 - t', '2']";
+    // about an axis askew, unevenly, the origin driven about: m dv'/dt is their sum
+    let frame = "axis = ['1', '2', '2']\nangle = 'w*t + sin(t) + t^2'\norigin = ['3*t', '1 - t^2', 'sin(2*t)']";
     let (mut equations, apparent) = seen(frame);
     let mut seeds: Vec<(Symbol, Expr)> = vec![(equations.symbols.time, Expr::ONE)];
     for c in equations.coordinates.clone() {
@@ -63,7 +63,8 @@ fn they_account_for_every_bend_of_a_path_that_is_straight() {
     for seed in 0..20 {
         let at = sample(seed);
         let value = |vector: [Expr; 3]| vector.map(|e| pool.evaluate(e, &at));
-        let forces = [apparent.centrifugal, apparent.coriolis, apparent.euler].map(value);
+        let Apparent { centrifugal, coriolis, euler, dragging, .. } = apparent;
+        let forces = [centrifugal, coriolis, euler, dragging].map(value);
         let sum = [0, 1, 2].map(|k| forces.iter().map(|f| f[k]).sum::<f64>());
         close(value(acceleration).map(|a| at(m) * a), sum);
         assert!(forces.iter().all(|f| f.iter().any(|v| v.abs() > 1e-3)), "none of them is missing");

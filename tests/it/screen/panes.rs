@@ -296,6 +296,47 @@ fn a_picture_may_be_seen_from_a_frame() {
 }
 
 #[test]
+fn a_body_seen_from_itself_stands_still() {
+    let handle = loaded("t-handle", 1);
+    let picture = |matrix: [f64; 9], keys: &str| {
+        let mut now = snapshot(&handle, 1.0);
+        let mut values = now.values.to_vec();
+        for (i, channel) in handle.system.channels().iter().enumerate() {
+            if let ChannelKind::Attitude(k) = channel.kind {
+                values[i] = matrix[k];
+            }
+        }
+        now.values = values.into();
+        let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
+        app.update(Event::Loaded(Ok(handle.clone())));
+        app.update(Event::Snapshot(Arc::new(now)));
+        let lab = app.lab.as_ref().unwrap();
+        let drawn = |plot: &Plot| {
+            let Plot::Space(eye) = plot else { return false };
+            eye.shapes(&handle.model).iter().any(|shape| matches!(shape, Shape::Body { .. }))
+        };
+        let place = lab.plots.iter().position(drawn).unwrap();
+        press(&mut app, &["Tab"].repeat(3 + place).join(" "));
+        press(&mut app, keys);
+        rows(&screen(&app, &rich(), (120, 40))).concat()
+    };
+    let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    assert!(picture(still, "z").contains("Motion") && picture(still, "z f").contains("the body"));
+    // the part of the cells that a quarter turn leaves as they were: all but the arrow of L, which
+    // turns instead
+    let turned = [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let kept = |keys: &str| {
+        let (before, after) = (picture(still, keys), picture(turned, keys));
+        let drawn = |c: char| ('⠁'..='⣿').contains(&c);
+        let all = before.chars().filter(|c| drawn(*c)).count();
+        let same = before.chars().zip(after.chars()).filter(|(a, b)| a == b && drawn(*a)).count();
+        same as f64 / all as f64
+    };
+    let (from_space, from_body) = (kept("z"), kept("z f"));
+    assert!(from_body > 0.8 && from_space < 0.5, "{from_body} of {from_space}");
+}
+
+#[test]
 fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let planet = loaded("planet", 1);
     let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("planet"));
