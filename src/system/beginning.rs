@@ -37,6 +37,8 @@ pub(super) enum NoBeginning {
     Missed(usize, f64),
     /// The constraints leave these velocities free.
     Free(Vec<usize>),
+    /// What is given says more than the constraints allow.
+    Contradiction,
     /// The velocities of given momenta were not found.
     Unsolved(Unsolved),
 }
@@ -80,7 +82,12 @@ pub(super) fn begin(
                 break;
             }
             if halving == HALVINGS {
-                return Err(NoBeginning::Unsolved(Unsolved::NotConverging));
+                let equations = conditions.count() + problem.targets().len();
+                return Err(if equations > problem.unknown.len() {
+                    NoBeginning::Contradiction
+                } else {
+                    NoBeginning::Unsolved(Unsolved::NotConverging)
+                });
             }
         }
     }

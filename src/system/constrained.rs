@@ -299,6 +299,9 @@ impl System {
                 let kind = FaultKind::FreeVelocities(names);
                 Fault { time: state.time, kind, place: Vec::new() }
             }
+            NoBeginning::Contradiction => {
+                self.fault(FaultKind::Contradiction, state.time, &state.values)
+            }
             NoBeginning::Unsolved(why) => self.unsolved(why, state.time, &numbers),
         })?;
         for (i, &x) in numbers.iter().enumerate() {

@@ -24,6 +24,8 @@ pub enum FaultKind {
     ConstraintLost(String),
     /// The values at the start miss this constraint, by this part of the size of its terms.
     ConstraintMissed(String, f64),
+    /// The velocities and momenta given at the start contradict the constraints.
+    Contradiction,
     /// The constraints leave these velocities at the start free.
     FreeVelocities(Vec<String>),
     /// A number of the state or of its rate of change is not finite; the name says which.
@@ -58,6 +60,9 @@ impl fmt::Display for Fault {
                 f,
                 "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
             )?,
+            FaultKind::Contradiction => f.write_str(
+                "the velocities and momenta given at the start contradict the constraints",
+            )?,
             FaultKind::FreeVelocities(names) => write!(
                 f,
                 "the constraints do not say with which velocities the motion starts: give {}",
@@ -88,6 +93,7 @@ impl fmt::Display for Fault {
             }
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
             FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => "",
+            FaultKind::Contradiction => ": give fewer of them",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
             FaultKind::NoConvergence(_) => ": try a smaller step",

@@ -307,6 +307,15 @@ fn velocities_left_out_follow_from_the_constraints() {
     assert_eq!(initial(&model, &[Given::Velocity(0, 5.0)]), Ok(vec![0.0, 0.0, 5.0, 5.0]));
     // p_x = m x'
     assert_eq!(initial(&model, &[Given::Momentum(0, 4.0)]), Ok(vec![0.0, 0.0, 4.0, 4.0]));
+    // p_x = m x' and θ' are given, and apart
+    let model_of = |rates: [Option<&str>; 2]| {
+        let mut model = lagrangian(&["x", "theta"], &["m", "g", "r", "phi"], HOOP);
+        constrain(&mut model, &[("no slip", "r*theta' - x'")]);
+        start(&mut model, &[("0", rates[0]), ("0", rates[1])]);
+        model
+    };
+    let both = initial(&model_of([None, Some("1")]), &[Given::Momentum(0, 4.0)]);
+    assert_eq!(both, Err(FaultKind::Contradiction));
     // both given, and apart
     let apart = initial(&model, &[Given::Velocity(1, 2.0)]).unwrap_err();
     assert!(
