@@ -226,7 +226,7 @@ impl Experiment {
 
     fn initial_state(&self) -> Result<State, system::Fault> {
         let Setup { start, parameters, given, .. } = &self.setup;
-        self.system().initial(*start, parameters, given)
+        self.motion.whole().initial(*start, parameters, given)
     }
 
     /// Keeps the initial values to be shown: those of the state they lead to, where they do.

@@ -7,7 +7,7 @@
 use super::brackets::false_brackets;
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Happening, Reached, Settings, method_named};
-use crate::mechanics::{self, Conserved, Equations, Reason};
+use crate::mechanics::{self, Conserved, Equations};
 use crate::model::{ExpectedValue, Model, Place};
 use crate::preset::Mistake;
 use crate::system::{ChannelKind, Fault, FaultKind, Observer, System};
@@ -75,7 +75,7 @@ fn denied(model: &Model, equations: &Equations) -> Vec<Mistake> {
 
 /// What is found to be conserved under that name, and not only said to be.
 fn known<'a>(equations: &'a Equations, name: &str) -> Option<&'a Conserved> {
-    equations.conserved.iter().find(|c| c.name == name && c.reason != Reason::Declared)
+    equations.conserved.iter().find(|c| c.name == name && !c.reason.is_declared())
 }
 
 /// A quantity said to be conserved, of which that is not known.

@@ -86,6 +86,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
+    // which constraints are redundant is judged where this run begins
+    model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;

@@ -83,10 +83,7 @@ impl Gauges {
             } else {
                 ChannelKind::Conserved(i)
             };
-            let mut reason = conserved.reason.to_string();
-            if is_struck(model, equations, conserved.expression) {
-                reason.push_str(", between blows");
-            }
+            let reason = conserved.reason.to_string();
             add(&conserved.name, reason, None, kind, conserved.expression);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
@@ -319,19 +316,4 @@ impl Needle {
     fn relative(&self, distance: f64) -> f64 {
         if distance == 0.0 || self.size == 0.0 { 0.0 } else { distance / self.size }
     }
-}
-
-/// Whether a blow of the file may change a quantity.
-fn is_struck(model: &Model, equations: &Equations, quantity: Expr) -> bool {
-    let struck = |i: usize| model.impulses.iter().any(|blow| blow.change[i] != Expr::ZERO);
-    let depends = |i: usize| {
-        let c = &equations.coordinates[i];
-        let moved = if model.is_poisson() {
-            vec![c.position]
-        } else {
-            vec![c.velocity, c.momentum, equations.symbols.energy]
-        };
-        equations.pool.depends_on_any(quantity, &moved)
-    };
-    (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
 }

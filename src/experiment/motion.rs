@@ -109,6 +109,11 @@ impl Motion {
 
 /// What can be asked of it.
 impl Motion {
+    /// The system with all its constraints.
+    pub(super) fn whole(&self) -> &System {
+        self.inner.whole()
+    }
+
     pub(super) fn system(&self) -> &System {
         self.inner.system()
     }

@@ -117,6 +117,19 @@ impl Crossings {
         Ok(())
     }
 
+    /// A constraint was let go at a state: functions that did not jump with it stand where `known`
+    /// has them.
+    pub(super) fn inherit(&mut self, mut known: Crossings, state: &State) -> Result<(), Fault> {
+        known.triggers.look(state, &mut known.values)?;
+        self.triggers.look(state, &mut self.values)?;
+        for (i, (old, new)) in known.values.iter().zip(&self.values).enumerate() {
+            let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
+            self.sides[i] = if same { known.sides[i] } else { 0.0 };
+        }
+        self.fresh = true;
+        Ok(())
+    }
+
     /// The first crossing that counts, between two times of the stepper's last step.
     pub(super) fn first(
         &mut self,
@@ -306,6 +319,13 @@ impl Crossings {
         b: Look,
     ) -> Result<bool, Fault> {
         let side = sign(b, a);
+        if side == 0.0 && b.time == walk.whole.1 && b.slope * walk.side < 0.0 {
+            // it crosses just where the step ends, as one does that ends there for a row or a blow
+            let crossing = Crossing { exact: Double::written(b.time), side: -walk.side };
+            walk.side = -walk.side;
+            walk.found.push(crossing);
+            return Ok(self.counts(walk.event, &crossing));
+        }
         if side == 0.0 || side == walk.side {
             return Ok(false);
         }

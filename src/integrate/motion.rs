@@ -149,6 +149,7 @@ impl Motion {
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.start = state.time;
         self.ended = false;
+        self.fallen = None;
         self.hurried.fill(UNHURRIED);
         self.parameters = parameters.to_vec();
         self.system = self.whole.hold_all(state, parameters);
@@ -395,7 +396,11 @@ impl Motion {
                 if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
                     self.stepper = stepper;
                 }
+                let known = self.crossings.take();
                 self.take_system();
+                if let (Some(crossings), Some(known)) = (&mut self.crossings, known) {
+                    crossings.inherit(known, &state)?;
+                }
                 self.resume(&state)?;
                 Kind::Release(constraint)
             }
@@ -421,6 +426,11 @@ impl Motion {
 
 /// What can be asked of it.
 impl Motion {
+    /// The system with all its constraints.
+    pub fn whole(&self) -> &System {
+        &self.whole
+    }
+
     /// The system, without the constraints that were let go.
     pub fn system(&self) -> &System {
         &self.system

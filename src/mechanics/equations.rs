@@ -176,6 +176,8 @@ pub enum Reason {
     Numerically,
     /// The file says so; the drift is what there is to see.
     Declared,
+    /// For this reason, but a blow of the file changes it.
+    BetweenBlows(Box<Reason>),
 }
 
 /// H = T(p) + V(q, t).
@@ -212,6 +214,17 @@ impl CoordinateSymbols {
     }
 }
 
+impl Reason {
+    /// Whether there is only the file's word for it.
+    pub fn is_declared(&self) -> bool {
+        match self {
+            Reason::Declared => true,
+            Reason::BetweenBlows(reason) => reason.is_declared(),
+            _ => false,
+        }
+    }
+}
+
 impl std::fmt::Display for Reason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -223,6 +236,7 @@ impl std::fmt::Display for Reason {
             Reason::Proved => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("declared"),
+            Reason::BetweenBlows(reason) => write!(f, "{reason}, between blows"),
         }
     }
 }

@@ -6,7 +6,7 @@
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::model::{Mechanics, Model, Observable};
+use crate::model::{Action, Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
@@ -57,9 +57,32 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     } else {
         symmetry::find(equations, model, &rates);
     }
+    // what follows from a constraint does no longer once that is let go
+    let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
     for observable in &model.observables {
-        name_observable(equations, observable);
+        name_observable(equations, observable, released);
     }
+    for i in 0..equations.conserved.len() {
+        if is_struck(equations, model, equations.conserved[i].expression) {
+            let reason = Box::new(equations.conserved[i].reason.clone());
+            equations.conserved[i].reason = Reason::BetweenBlows(reason);
+        }
+    }
+}
+
+/// Whether a blow of the file may change a quantity.
+fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
+    let struck = |i: usize| model.impulses.iter().any(|blow| blow.change[i] != Expr::ZERO);
+    let depends = |i: usize| {
+        let c = &equations.coordinates[i];
+        let moved = if model.is_poisson() {
+            vec![c.position, equations.symbols.energy]
+        } else {
+            vec![c.velocity, c.momentum, equations.symbols.energy]
+        };
+        equations.pool.depends_on_any(quantity, &moved)
+    };
+    (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
 }
 
 /// dC/dt = ∇C · f for a Casimir: H does not move it. Zero exactly where it vanishes.
@@ -76,7 +99,7 @@ pub fn casimir_rate(equations: &mut Equations, casimir: Expr, forces: &[Expr]) -
 
 /// Adds an observable that is conserved. One that was found already, as the momentum of a
 /// symmetry, only gives it the file's own name.
-fn name_observable(equations: &mut Equations, observable: &Observable) {
+fn name_observable(equations: &mut Equations, observable: &Observable, released: bool) {
     let expression = observable.expression;
     let opened = equations.open(expression);
     for i in 0..equations.conserved.len() {
@@ -90,7 +113,12 @@ fn name_observable(equations: &mut Equations, observable: &Observable) {
             return;
         }
     }
-    let reason = match equations.is_conserved(expression) {
+    let proof = if released && !equations.constraints.is_empty() {
+        None
+    } else {
+        equations.is_conserved(expression)
+    };
+    let reason = match proof {
         Some(Zero::Proved) => Reason::Proved,
         Some(Zero::Numerically) => Reason::Numerically,
         _ if observable.conserved == Some(true) => Reason::Declared,

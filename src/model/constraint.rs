@@ -1,7 +1,7 @@
 //! A condition on the motion, kept by a force of its own.
 
 use super::Place;
-use crate::expr::{Expr, Pool, Rank, Symbol, latex_of_unicode};
+use crate::expr::{Expr, Pool, Rank, Symbol};
 
 /// expression = 0, kept by λ times its gradient.
 #[derive(Clone, Debug)]
@@ -26,13 +26,21 @@ pub fn multiplier_name(constraint: &str) -> String {
     format!("lambda_{}", constraint.chars().map(letter).collect::<String>())
 }
 
+/// A name as words of LaTeX.
+fn in_words(name: &str) -> String {
+    let plain = |c: char| if "\\{}$&#^_%~".contains(c) { ' ' } else { c };
+    format!("\\text{{{}}}", name.chars().map(plain).collect::<String>())
+}
+
 impl Constraint {
     /// A constraint; introduces its multiplier into the pool. `only` says that there is no other,
     /// so that a bare λ tells enough.
     pub fn new(pool: &mut Pool, name: &str, expression: Expr, only: bool) -> Constraint {
         let multiplier = pool.symbol(&multiplier_name(name));
         let shown = if only { "λ".to_owned() } else { format!("λ_{name}") };
-        pool.describe(multiplier, &shown, &latex_of_unicode(&shown), Rank::Momentum);
+        let latex =
+            if only { "\\lambda".to_owned() } else { format!("\\lambda_{{{}}}", in_words(name)) };
+        pool.describe(multiplier, &shown, &latex, Rank::Momentum);
         Constraint {
             name: name.to_owned(),
             expression,

@@ -140,7 +140,9 @@ impl Problem<'_> {
         for (i, target) in targets {
             let p = self.momenta.output(i);
             let value = target - p;
-            let terms = p.high.abs() + target.high.abs();
+            let rates =
+                (0..n).map(|j| (self.momenta.output(n + i * n + j) * state[n + j]).high.abs());
+            let terms = p.high.abs() + target.high.abs() + rates.sum::<f64>();
             let part = if value.high == 0.0 { 0.0 } else { value.high.abs() / terms };
             size = if part.is_finite() { size.max(part) } else { f64::INFINITY };
             missing.push(value);

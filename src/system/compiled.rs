@@ -101,7 +101,7 @@ impl System {
             |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
         let moments = Moments::of(model, &mut writer).map_err(unknown)?;
         writer.parameters.extend(moments.iter().flat_map(|m| m.names().to_vec()));
-        let constraints = Constrained::of(model, &mut writer).map_err(unknown)?;
+        let constraints = Constrained::of(model, &mut writer, moments.as_ref()).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
         let shared = Self::write(model, &mut writer, list, constraints).map_err(unknown)?;
         if writer.pool.is_full() {

@@ -11,6 +11,7 @@ use super::conditions::{self, Conditions};
 use super::fault::{Fault, FaultKind};
 use super::hold::Hold;
 use super::kept::{Failure, Kept};
+use super::moments::Moments;
 use super::motion::Writer;
 use super::program::Program;
 use super::value::Values;
@@ -52,6 +53,7 @@ impl Constrained {
     pub(super) fn of(
         model: &Model,
         writer: &mut Writer<'_>,
+        moments: Option<&Moments>,
     ) -> Result<Option<(Constrained, Holding)>, Symbol> {
         let rows = &writer.equations.constraints;
         if rows.is_empty() {
@@ -60,7 +62,7 @@ impl Constrained {
             return Ok(None);
         }
         let program = conditions::program(writer)?;
-        let held = independent_at_start(model, writer, &program)?;
+        let held = independent_at_start(model, writer, &program, moments)?;
         let redundant = held.contains(&false);
         let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
         let switched = redundant || released;
@@ -85,13 +87,17 @@ fn independent_at_start(
     model: &Model,
     writer: &mut Writer<'_>,
     program: &Arc<Program>,
+    moments: Option<&Moments>,
 ) -> Result<Vec<bool>, Symbol> {
     let count = writer.equations.constraints.len();
     let mut lowering = writer.lowering();
     let outputs = model.coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
     let start = lowering.finish(outputs)?;
-    let parameters: Vec<Double> =
+    let mut parameters: Vec<Double> =
         model.parameters.iter().map(|p| Double::written(p.value)).collect();
+    if let Some(moments) = moments {
+        parameters.extend(moments.values(&parameters));
+    }
     let mut values: Values<Double> = Values::new(start);
     values.set_parameters(&parameters);
     let positions: Vec<Double> = (0..model.coordinates.len()).map(|i| values.output(i)).collect();

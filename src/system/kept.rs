@@ -143,21 +143,15 @@ impl Kept {
         let mut factored = Factored::new(n + rows.len());
         let mut reactions = vec![Double::ZERO; rows.len()];
         let mut numbers = state[..2 * n].to_vec();
-        let (mut step, mut size) = self.imbalance(time, &numbers, &reactions, target, &rows)?;
-        let mut last = f64::INFINITY;
-        for _ in 0..CORRECTIONS {
-            if size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last) {
-                state[n..2 * n].copy_from_slice(&numbers[n..]);
-                let mut all = vec![Double::ZERO; self.held.len()];
-                rows.iter().zip(reactions).for_each(|(&k, x)| all[k] = x);
-                return Ok(all);
-            }
-            last = size;
+        let (mut step, mut scales) = self.imbalance(time, &numbers, &reactions, target, &rows)?;
+        let mut size = f64::INFINITY;
+        for round in 0..CORRECTIONS {
             if !self.factor(&rows, &mut factored) {
                 return Err(Unsolved::Singular);
             }
             factored.solve(&mut step);
             let (before, forces) = (numbers.clone(), reactions.clone());
+            let last = size;
             let mut part = 1.0;
             for halving in 0..=HALVINGS {
                 for i in 0..n {
@@ -167,22 +161,37 @@ impl Kept {
                     *x = forces[j] + step[n + j] * part;
                 }
                 let found = self.imbalance(time, &numbers, &reactions, target, &rows);
-                if let Ok((next, new)) = found
-                    && (new < size || new <= STUBBORN)
-                {
-                    (step, size) = (next, new);
-                    break;
+                if let Ok((next, terms)) = found {
+                    if round == 0 && terms.iter().all(|x| x.is_finite()) {
+                        // the terms before the blow and after a whole step are the measure from
+                        // here on: a body brought to rest has none in the end
+                        scales.iter_mut().zip(terms).for_each(|(s, x)| *s = s.max(x));
+                        let (first, _) = self.imbalance(time, &before, &forces, target, &rows)?;
+                        size = size.min(merit(&first, &scales));
+                        self.momenta.evaluate(time, &numbers)?;
+                    }
+                    let new = merit(&next, &scales);
+                    if new < size || new <= STUBBORN {
+                        (step, size) = (next, new);
+                        break;
+                    }
                 }
                 if halving == HALVINGS {
                     return Err(Unsolved::NotConverging);
                 }
                 part *= 0.5;
             }
+            if size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last) {
+                state[n..2 * n].copy_from_slice(&numbers[n..]);
+                let mut all = vec![Double::ZERO; self.held.len()];
+                rows.iter().zip(reactions).for_each(|(&k, x)| all[k] = x);
+                return Ok(all);
+            }
         }
         Err(Unsolved::NotConverging)
     }
 
-    /// What is missing to balance, and its size measured by the terms.
+    /// What is missing to balance, row by row, and the size of each row's terms.
     fn imbalance(
         &mut self,
         time: Double,
@@ -190,15 +199,11 @@ impl Kept {
         reactions: &[Double],
         target: &[Double],
         rows: &[usize],
-    ) -> Result<(Vec<Double>, f64), Unsolved> {
+    ) -> Result<(Vec<Double>, Vec<f64>), Unsolved> {
         let n = self.degrees;
         self.momenta.evaluate(time, numbers)?;
         let mut missing = vec![Double::ZERO; n + rows.len()];
-        let mut size = 0.0_f64;
-        let mut note = |value: Double, terms: f64| {
-            let part = if value.high == 0.0 { 0.0 } else { value.high.abs() / terms };
-            size = if part.is_finite() { size.max(part) } else { f64::INFINITY };
-        };
+        let mut sizes = vec![0.0; n + rows.len()];
         for i in 0..n {
             let p = self.momenta.output(i);
             let mut terms = p.high.abs() + target[i].high.abs();
@@ -210,15 +215,25 @@ impl Kept {
             }
             // a momentum of zero is as good as its neighbours' rounding
             let rates = (0..n).map(|j| self.momenta.output(n + i * n + j) * numbers[n + j]);
-            terms += rates.map(|x| x.high.abs()).sum::<f64>();
-            note(value, terms);
+            sizes[i] = terms + rates.map(|x| x.high.abs()).sum::<f64>();
             missing[i] = value;
         }
         for (j, &k) in rows.iter().enumerate() {
             let residual = self.conditions.velocity(k, &numbers[n..2 * n]);
-            note(residual.value, residual.size);
+            sizes[n + j] = residual.size;
             missing[n + j] = -residual.value;
         }
-        Ok((missing, size))
+        Ok((missing, sizes))
     }
+}
+
+/// The root of the sum of squares of residuals, each measured by its scale: Newton's direction leads
+/// down on it, whatever the relation.
+fn merit(missing: &[Double], scales: &[f64]) -> f64 {
+    let parts = missing.iter().zip(scales).map(|(x, &scale)| match x.high {
+        0.0 => 0.0,
+        x if scale > 0.0 => x / scale,
+        _ => f64::INFINITY,
+    });
+    parts.map(|x| x * x).sum::<f64>().sqrt()
 }

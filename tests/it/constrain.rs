@@ -362,3 +362,36 @@ fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
     let Status::Faulted(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
     assert!(fault.message.contains("`parabola` cannot be kept"), "{}", fault.message);
 }
+
+#[test]
+fn a_body_may_roll() {
+    let text = r#"
+title = "a ball of parts rolls"
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+theta = { initial = 0.0 }
+[body]
+pieces = [ { solid = "disc", mass = "2", radius = "0.5" } ]
+[lagrangian]
+L = "1/2*body_mass*x'^2 + 1/2*Izz*theta'^2 + x"
+[[constraints]]
+name = "no slip"
+expression = "0.5*theta' - x'"
+"#;
+    let mut ball = crate::experiment::build(text, |_| ());
+    run(&mut ball, 2.0);
+    // M + I/R² = 2 + 1, so x'' = 1/3
+    assert!((value(&ball, "x") - (2.0 + 4.0 / 6.0)).abs() < 1e-15);
+}
+
+#[test]
+fn a_momentum_of_zero_is_a_momentum() {
+    // p_x = x' + 0.1 y'
+    let mut model = lagrangian(&["x", "y", "z"], &[], "1/2*(x'^2 + y'^2 + z'^2) + 0.1*x'*y'");
+    constrain(&mut model, &[("edge", "z' - 0.7*x'")]);
+    start(&mut model, &[("0", None), ("0", Some("0.3")), ("0", None)]);
+    let state = initial(&model, &[Given::Momentum(0, 0.0)]).expect("there is one");
+    for (found, right) in state[3..].iter().zip([-0.03, 0.3, -0.021]) {
+        assert!((found - right).abs() < 1e-17, "{state:?}");
+    }
+}

@@ -356,3 +356,134 @@ fn what_happens_is_told_once_and_forgotten_at_a_reset() {
     run(&mut ball, 1.5);
     assert_eq!(ball.snapshot().notices.len(), 1, "and told again of the new motion");
 }
+
+/// A pendulum in x, y with a rod, begun below.
+const ROD: &str = "
+title = 'rod'
+[coordinates]
+x = { initial = 0.6, velocity = 0.8 }
+y = { initial = -0.8 }
+[parameters]
+m = 1.3
+[lagrangian]
+L = \"1/2*m*(x'^2 + y'^2) - m*y\"
+[[constraints]]
+name = 'rod'
+expression = 'x^2 + y^2 - 1'
+";
+
+#[test]
+fn a_blow_may_bring_a_constrained_body_to_rest() {
+    let text = format!(
+        "{ROD}[[impulses]]\nname = 'halt'\nat = 0.3\nchange = {{ p_x = \"-m*x'\", p_y = \"-m*y'\" }}\n"
+    );
+    let mut halted = file(&text);
+    run(&mut halted, 0.3);
+    assert!(value(&halted, "x'").abs() < 1e-16 && value(&halted, "y'").abs() < 1e-16);
+    run(&mut halted, 2.0);
+    let energy = gauge(&halted.snapshot(), "energy ledger");
+    assert!(energy.max_drift < 1e-14, "{}", energy.max_drift);
+}
+
+#[test]
+fn a_blow_on_a_relativistic_particle_on_a_wire_is_always_answered() {
+    // along the wire p = v/√(1 − v²) grows without bound, so every blow has its velocity
+    for (px, py) in [(2.0, 0.6), (2.0, 1.0), (0.0, 5.0), (5.0, 0.0), (-3.0, 0.2)] {
+        let text = format!(
+            "title = 'wire'
+[coordinates]
+x = {{ initial = 0.0, velocity = 0.3 }}
+y = {{ initial = 0.0 }}
+[lagrangian]
+L = \"-sqrt(1 - x'^2 - y'^2) - 0.1*y\"
+[[constraints]]
+name = 'wire'
+expression = 'y - 0.5*x'
+[[impulses]]
+name = 'blow'
+at = 1.0
+change = {{ p_x = '{px}', p_y = '{py}' }}
+"
+        );
+        let mut wire = file(&text);
+        run(&mut wire, 0.999_999_999_999);
+        let along = |e: &Experiment| value(e, "p_x") + 0.5 * value(e, "p_y");
+        let before = along(&wire);
+        run(&mut wire, 1.0);
+        let after = along(&wire);
+        assert!((after - before - px - 0.5 * py).abs() < 1e-11, "{px}, {py}");
+        assert!((value(&wire, "y'") - 0.5 * value(&wire, "x'")).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_blow_falls_again_after_a_reset() {
+    let text = format!("{FREE}[[impulses]]\nname = 'kick'\nat = [2.0]\nchange = {{ p_x = '1' }}\n");
+    let mut free = file(&text);
+    for _ in 0..2 {
+        run(&mut free, 5.0);
+        assert_eq!((value(&free, "x"), times(&free, "kick").len()), (8.0, 1));
+        free.obey(Command::Reset);
+    }
+}
+
+#[test]
+fn an_event_where_the_run_or_a_blow_has_its_time_is_not_late() {
+    let text = format!(
+        "{FREE}[[events]]\nname = 'wall'\nwhen = 'x - 1'\naction = 'impulse:back'\n\
+         [[impulses]]\nname = 'back'\nchange = {{ p_x = \"-2*x'\" }}\n\
+         [[impulses]]\nname = 'push'\nat = 1.0\nchange = {{ p_x = '-0.5' }}\n"
+    );
+    let mut free = file(&text);
+    run(&mut free, 1.0);
+    assert_eq!(value(&free, "x'"), -1.5, "the wall turns it back, then it is pushed");
+    let names: Vec<_> = passed(&free).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["wall", "push"]);
+    run(&mut free, 3.0);
+    assert_eq!((value(&free, "x"), free.happenings().len()), (-2.0, 2));
+    let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
+    let mut free = file(&text);
+    free.advance(2.0, PLENTY);
+    assert_eq!(free.status(), Status::Ended("far".to_owned()));
+}
+
+#[test]
+fn a_release_does_not_swallow_what_happens_beside_it() {
+    let text = "
+title = 'beside'
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 0.0 }
+[lagrangian]
+L = \"1/2*(x'^2 + y'^2)\"
+[[constraints]]
+name = 'line'
+expression = 'y - x'
+[[impulses]]
+name = 'back'
+change = { p_x = \"-2*x'\" }
+[[events]]
+name = 'mark'
+when = 'y - 0.7'
+[[events]]
+name = 'let go'
+when = 'x - 0.7'
+direction = 'rising'
+action = 'release:line'
+[[events]]
+name = 'wall'
+when = 'x - 0.7'
+direction = 'rising'
+action = 'impulse:back'
+[[events]]
+name = 'soon'
+when = 't - 0.70000000000001'
+";
+    let mut beside = file(text);
+    run(&mut beside, 1.0);
+    let mut names: Vec<_> = passed(&beside).into_iter().map(|(name, _)| name).collect();
+    names.sort();
+    assert_eq!(names, ["let go", "mark", "soon", "wall"]);
+    assert!((value(&beside, "x") - 0.4).abs() < 1e-13, "{}", value(&beside, "x"));
+    assert!((value(&beside, "y") - 1.0).abs() < 1e-13);
+}
