@@ -19,6 +19,7 @@ pub(super) fn document(lab: &Lab, look: &Look) -> Document {
     let mut page = Document::default();
     writer.law(&mut page);
     writer.constraints(&mut page);
+    writer.happenings(&mut page);
     writer.motion(&mut page);
     writer.hamiltonian(&mut page);
     writer.conserved(&mut page);
@@ -104,6 +105,28 @@ impl Writer<'_> {
                 }
                 self.forces(page, forces);
             }
+        }
+    }
+
+    /// Blows, and the events that are looked for.
+    fn happenings(&self, page: &mut Document) {
+        if !self.model.impulses.is_empty() {
+            page.heading("Blows");
+        }
+        for impulse in &self.model.impulses {
+            let changes = self.model.coordinates.iter().zip(&impulse.change);
+            for (c, e) in changes.filter(|(_, e)| **e != Expr::ZERO) {
+                let moved = if self.model.is_poisson() { c.position } else { c.momentum };
+                let lead = self.look.glyphs.pick("Δ", "jump of ");
+                let label = format!("{lead}{}", self.symbol(moved));
+                page.formula(&label, self.write(*e), &impulse.name);
+            }
+        }
+        if !self.model.events.is_empty() {
+            page.heading("Events: where these cross zero");
+        }
+        for event in &self.model.events {
+            page.formula("0", self.write(event.when), &event.name);
         }
     }
 
@@ -203,7 +226,11 @@ impl Writer<'_> {
             page.heading("Energy");
         }
         self.put(page, "h", self.equations.energy);
-        let remark = if self.equations.energy_rate == Expr::ZERO { "conserved" } else { "" };
+        let remark = match (self.equations.energy_rate, self.model.impulses.is_empty()) {
+            (Expr::ZERO, true) => "conserved",
+            (Expr::ZERO, false) => "conserved between blows",
+            _ => "",
+        };
         page.formula("dh/dt", self.write(self.equations.energy_rate), remark);
     }
 

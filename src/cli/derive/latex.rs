@@ -62,6 +62,16 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         // q̇ and ṗ are solved for as they stand
         (Err(_), Flow::Hamilton { .. } | Flow::Poisson { .. }) => {}
     }
+    for impulse in &model.impulses {
+        let changes = model.coordinates.iter().zip(&impulse.change);
+        for (c, &e) in changes.filter(|(_, e)| **e != Expr::ZERO) {
+            let moved = if model.is_poisson() { c.position } else { c.momentum };
+            lines.push(format!("\\Delta {} &= {}", symbol(moved), pool.latex(e)));
+        }
+    }
+    for event in &model.events {
+        lines.push(format!("{} &= 0", pool.latex(event.when)));
+    }
     if let Ok(solved) = &equations.multipliers {
         let solved = equations.constraints.iter().zip(solved);
         lines.extend(
