@@ -11,6 +11,7 @@ mod check;
 mod decimal;
 mod derive;
 mod failure;
+mod format;
 mod lab;
 mod list;
 mod methods;

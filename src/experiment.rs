@@ -5,6 +5,7 @@
 
 mod attitude;
 mod command;
+mod deviation;
 mod gauges;
 mod law;
 mod motion;

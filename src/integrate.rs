@@ -3,10 +3,12 @@
 //! In: a [`System`](crate::system::System) and a state. Out: steppers, which carry the state from
 //! step to step and tell it anywhere inside the last one. Never here: rows, gauges, clocks.
 
+mod calendar;
 mod crossing;
 mod dop853;
 mod fixed;
 mod gauss;
+mod haste;
 mod leapfrog;
 mod method;
 mod motion;

@@ -27,7 +27,7 @@ use crate::model::{Mechanics, Model};
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, classes};
-pub use constrain::{augmented, with_reactions};
+pub use constrain::with_reactions;
 pub use equations::{
     Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason,
     Separable, Twin, WhyNot,

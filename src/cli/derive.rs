@@ -8,9 +8,8 @@ mod text;
 
 use std::io::Write;
 
-use clap::ValueEnum;
-
 use super::failure::Failure;
+use super::format::Format;
 use super::open;
 use super::output::Output;
 use super::script::Script;
@@ -25,17 +24,6 @@ pub(super) struct Arguments {
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-}
-
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
-    /// For reading: Unicode mathematics, or the syntax of files where the locale is not UTF-8.
-    #[default]
-    Text,
-    /// For typesetting: a fragment for LaTeX with amsmath.
-    Latex,
-    /// One object, its expressions in the syntax of files.
-    Json,
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {

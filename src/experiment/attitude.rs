@@ -4,20 +4,15 @@
 //! In: the nine entries. Out: a [`Gauge`]. Never here: where they come from.
 
 use super::Gauge;
-use crate::analysis::{Growth, History, Verdict};
+use super::deviation::Deviation;
 use crate::system::{ChannelKind, System};
-
-/// What is missing to a rotation below this is rounding.
-const ROUNDING: f64 = 1e-14;
 
 /// What a gauge of an attitude remembers.
 #[derive(Clone, Debug)]
 pub(super) struct Attitude {
     /// The channel of the first entry; the others follow it by rows.
     first: usize,
-    since: f64,
-    farthest: f64,
-    history: History,
+    deviation: Deviation,
 }
 
 impl Attitude {
@@ -25,22 +20,19 @@ impl Attitude {
     pub(super) fn of(system: &System) -> Option<Attitude> {
         let mut kinds = system.channels().iter().map(|c| c.kind);
         let first = kinds.position(|kind| kind == ChannelKind::Attitude(0))?;
-        Some(Attitude { first, since: 0.0, farthest: 0.0, history: History::new() })
+        Some(Attitude { first, deviation: Deviation::since(0.0) })
     }
 
     pub(super) fn refer(&mut self, time: f64) {
-        self.since = time;
-        self.farthest = 0.0;
-        self.history = History::new();
+        self.deviation = Deviation::since(time);
     }
 
     pub(super) fn look(&mut self, values: &[f64]) {
-        self.farthest = self.farthest.max(missing(&self.matrix(values)));
+        self.deviation.look(missing(&self.matrix(values)));
     }
 
     pub(super) fn sample(&mut self, time: f64, values: &[f64]) {
-        self.look(values);
-        self.history.push(time, missing(&self.matrix(values)));
+        self.deviation.sample(time, missing(&self.matrix(values)));
     }
 
     fn matrix(&self, values: &[f64]) -> [[f64; 3]; 3] {
@@ -50,26 +42,10 @@ impl Attitude {
 
     pub(super) fn show(&self, values: &[f64]) -> Gauge {
         let a = self.matrix(values);
-        let now = missing(&a);
         let (angle, axis) = turn(&a);
         let [x, y, z] = axis.map(|x| if x.abs() < 5e-4 { 0.0 } else { x });
-        let verdict = if self.farthest <= ROUNDING {
-            Verdict::Exact(Growth::Level)
-        } else {
-            Verdict::Bounded
-        };
-        Gauge {
-            name: "attitude".to_owned(),
-            shown: "A Aᵀ = 1, det A = 1".to_owned(),
-            reason: format!("turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})"),
-            value: now,
-            reference: 0.0,
-            reference_time: self.since,
-            drift: now,
-            max_drift: self.farthest,
-            history: self.history.stretches().iter().map(|s| s.peak() as f32).collect(),
-            verdict,
-        }
+        let reason = format!("turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})");
+        self.deviation.gauge("attitude", "A Aᵀ = 1, det A = 1", reason, missing(&a))
     }
 }
 

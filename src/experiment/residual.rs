@@ -4,14 +4,11 @@
 //! Never here: how a constraint is kept.
 
 use super::Gauge;
-use crate::analysis::{Growth, History, Verdict};
+use super::deviation::Deviation;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{ChannelKind, System};
-
-/// A residual below this is rounding: a few units in the last place of its terms.
-const ROUNDING: f64 = 1e-14;
 
 /// A row longer than this is given by its general form.
 const LONGEST: usize = 24;
@@ -27,9 +24,7 @@ pub(super) struct Residual {
     symbol: String,
     unit: String,
     force: String,
-    since: f64,
-    farthest: f64,
-    history: History,
+    deviation: Deviation,
 }
 
 impl Residual {
@@ -46,35 +41,30 @@ impl Residual {
                 symbol: channel.shown.clone(),
                 unit: channel.unit.clone(),
                 force: force(model, equations, index),
-                since: 0.0,
-                farthest: 0.0,
-                history: History::new(),
+                deviation: Deviation::since(0.0),
             })
         };
         (0..model.constraints.len()).filter_map(gauge).collect()
     }
 
     pub(super) fn refer(&mut self, time: f64) {
-        self.since = time;
-        self.farthest = 0.0;
-        self.history = History::new();
+        self.deviation = Deviation::since(time);
     }
 
     pub(super) fn look(&mut self, residuals: &[[f64; 2]]) {
-        if let Some(&[position, velocity]) = residuals.get(self.index) {
-            self.farthest = self.farthest.max(position).max(velocity);
-        }
+        self.deviation.look(self.now(residuals));
     }
 
     pub(super) fn sample(&mut self, time: f64, residuals: &[[f64; 2]]) {
-        self.look(residuals);
-        if let Some(&[position, velocity]) = residuals.get(self.index) {
-            self.history.push(time, position.max(velocity));
-        }
+        self.deviation.sample(time, self.now(residuals));
+    }
+
+    /// The larger of what is missing in position and in velocity.
+    fn now(&self, residuals: &[[f64; 2]]) -> f64 {
+        residuals.get(self.index).map_or(0.0, |r| r[0].max(r[1]))
     }
 
     pub(super) fn show(&self, values: &[f64], residuals: &[[f64; 2]], released: bool) -> Gauge {
-        let now = residuals.get(self.index).map_or(0.0, |r| r[0].max(r[1]));
         let lambda = values[self.multiplier];
         let reason = if released {
             "released".to_owned()
@@ -82,23 +72,7 @@ impl Residual {
             let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
             format!("{} = {}{unit}, {}", self.symbol, short(lambda), self.force)
         };
-        let verdict = if self.farthest <= ROUNDING {
-            Verdict::Exact(Growth::Level)
-        } else {
-            Verdict::Bounded
-        };
-        Gauge {
-            name: self.name.clone(),
-            shown: self.name.clone(),
-            reason,
-            value: now,
-            reference: 0.0,
-            reference_time: self.since,
-            drift: now,
-            max_drift: self.farthest,
-            history: self.history.stretches().iter().map(|s| s.peak() as f32).collect(),
-            verdict,
-        }
+        self.deviation.gauge(&self.name, &self.name, reason, self.now(residuals))
     }
 }
 

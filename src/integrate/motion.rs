@@ -4,24 +4,13 @@
 //! In: a system, a method, a state. Out: states at the times asked for, and [`Happening`]s. Never
 //! here: rows, gauges, what can be seen of a state.
 
+use super::calendar::Calendar;
 use super::crossing::{Crossings, Found};
+use super::haste::Haste;
 use super::{Method, Refusal, Settings, Stepper};
 use crate::expr::Double;
 use crate::model::Action;
-use crate::system::{Fault, FaultKind, Form, Keeper, Schedule, State, System};
-
-/// An event that comes ever faster, so many times in a row, …
-const PATIENCE: u32 = 4;
-
-/// … and at last after so small a part of the time that has passed, piles up: time would never pass
-/// that point.
-const HASTE: f64 = 1e-9;
-
-/// It comes faster where the time to the last one is at most this part of that before.
-const FASTER: f64 = 0.9999;
-
-/// An event that has not come yet.
-const UNHURRIED: (f64, f64, u32) = (f64::NEG_INFINITY, 0.0, 0);
+use crate::system::{Fault, FaultKind, Form, Keeper, State, System};
 
 /// Something that happened.
 #[derive(Clone, PartialEq, Debug)]
@@ -76,7 +65,7 @@ pub struct Motion {
     stepper: Box<dyn Stepper>,
     keeper: Option<Keeper>,
     crossings: Option<Crossings>,
-    schedule: Vec<Schedule>,
+    calendar: Calendar,
     parameters: Vec<f64>,
     start: f64,
     /// The present.
@@ -87,10 +76,8 @@ pub struct Motion {
     clear: f64,
     /// What happens there.
     waiting: Option<Found>,
-    /// The blows that fall at `clear` and have fallen.
-    fallen: Option<(f64, usize)>,
-    /// Of each event: when it was last passed, after what time, and how often it came faster.
-    hurried: Vec<(f64, f64, u32)>,
+    /// Of each event.
+    haste: Vec<Haste>,
     ended: bool,
     steps: u64,
 }
@@ -116,15 +103,14 @@ impl Motion {
             stepper,
             keeper: None,
             crossings: None,
-            schedule: Vec::new(),
+            calendar: Calendar::default(),
             parameters: parameters.to_vec(),
             start: 0.0,
             state: blank.clone(),
             before: blank,
             clear: 0.0,
             waiting: None,
-            fallen: None,
-            hurried: vec![UNHURRIED; system.occasions().events.len()],
+            haste: vec![Haste::NONE; system.occasions().events.len()],
             ended: false,
             steps: 0,
         };
@@ -139,7 +125,7 @@ impl Motion {
         let directions = self.system.occasions().events.iter().map(|e| e.direction).collect();
         let blank = State::new(0.0, self.system.form(), Vec::new());
         self.crossings = triggers.map(|t| Crossings::new(t, directions, blank));
-        self.schedule = self.system.schedule(&self.parameters);
+        self.calendar.reschedule(self.system.schedule(&self.parameters));
     }
 
     /// Begins anew at a state: with all constraints, and no event behind it.
@@ -149,8 +135,8 @@ impl Motion {
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.start = state.time;
         self.ended = false;
-        self.fallen = None;
-        self.hurried.fill(UNHURRIED);
+        self.calendar.begin(state.time);
+        self.haste.fill(Haste::NONE);
         self.parameters = parameters.to_vec();
         self.system = self.whole.hold_all(state, parameters);
         // a step asked for was taken before, so the method still fits
@@ -169,7 +155,7 @@ impl Motion {
     pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         if parameters != self.parameters {
             self.parameters = parameters.to_vec();
-            self.schedule = self.system.schedule(parameters);
+            self.calendar.reschedule(self.system.schedule(parameters));
             if let Some(keeper) = &mut self.keeper {
                 keeper.set_parameters(parameters);
             }
@@ -222,7 +208,7 @@ impl Motion {
                 if let Some(found) = self.waiting.take() {
                     return self.meet(found).map(Reached::Happened);
                 }
-                if let Some(impulse) = self.due() {
+                if let Some(impulse) = self.calendar.due(self.clear) {
                     return self.fall(impulse).map(Reached::Happened);
                 }
             }
@@ -242,7 +228,7 @@ impl Motion {
     }
 
     fn step(&mut self, limit: f64) -> Result<(), Fault> {
-        let limit = self.next_blow().map_or(limit, |blow| blow.min(limit));
+        let limit = self.calendar.next(self.clear).map_or(limit, |blow| blow.min(limit));
         self.stepper.step(limit)?;
         self.steps += 1;
         if self.keeper.is_some() || self.system.attitude_place().is_some() {
@@ -259,7 +245,7 @@ impl Motion {
     /// Looks for events in what was computed beyond `clear`, up to the next blow.
     fn scan(&mut self) -> Result<(), Fault> {
         let end = self.stepper.time();
-        let end = self.next_blow().map_or(end, |blow| blow.min(end));
+        let end = self.calendar.next(self.clear).map_or(end, |blow| blow.min(end));
         if let Some(crossings) = &mut self.crossings {
             self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
         }
@@ -304,47 +290,9 @@ impl Motion {
 
 /// What happens.
 impl Motion {
-    /// The time of the first blow that is due and has not fallen.
-    fn next_blow(&self) -> Option<f64> {
-        let now = self.clear;
-        let last = self.fallen.filter(|&(time, _)| time == now).map(|(_, impulse)| impulse);
-        let next = |(i, schedule): (usize, &Schedule)| {
-            // of several at one time those further down in the file are still to fall
-            let open = |time: f64| time > now || (time == now && last.is_none_or(|k| i > k));
-            let after_start = |time: &f64| *time > self.start && open(*time);
-            let listed = schedule.times.iter().map(|time| time.high).filter(after_start);
-            let periodic = schedule.interval.and_then(|interval| {
-                let start = Double::written(self.start);
-                let count = ((now - self.start) / interval.high).floor().max(1.0);
-                (-1..=2)
-                    .map(|k| (start + interval * (count + f64::from(k))).high)
-                    .find(|time| *time > self.start && open(*time))
-            });
-            listed.chain(periodic).min_by(f64::total_cmp)
-        };
-        self.schedule.iter().enumerate().filter_map(next).min_by(f64::total_cmp)
-    }
-
-    /// The impulse that falls at `clear`, if one does.
-    fn due(&self) -> Option<usize> {
-        let time = self.next_blow().filter(|&time| time <= self.clear)?;
-        let last = self.fallen.filter(|&(at, _)| at == self.clear).map(|(_, impulse)| impulse);
-        let falls = |&i: &usize| {
-            let schedule = &self.schedule[i];
-            let listed = schedule.times.iter().any(|x| x.high == time);
-            let periodic = schedule.interval.is_some_and(|interval| {
-                let count = ((time - self.start) / interval.high).round();
-                count >= 1.0 && (Double::written(self.start) + interval * count).high == time
-            });
-            (listed || periodic) && last.is_none_or(|k| i > k)
-        };
-        (0..self.schedule.len()).find(falls)
-    }
-
     fn fall(&mut self, impulse: usize) -> Result<Happening, Fault> {
-        let time = self.clear;
-        self.look_exactly(self.schedule[impulse].exactly(self.start, time))?;
-        self.fallen = Some((time, impulse));
+        let time = self.calendar.fall(impulse, self.clear);
+        self.look_exactly(time)?;
         self.strike(impulse, None)
     }
 
@@ -411,12 +359,8 @@ impl Motion {
 
     /// An event that comes again and again without end stops the motion with a reason.
     fn note_haste(&mut self, found: Found) -> Result<(), Fault> {
-        let (last, before, count) = &mut self.hurried[found.event];
         let time = found.exact.high;
-        let gap = time - *last;
-        *count = if gap <= FASTER * *before { *count + 1 } else { 0 };
-        (*last, *before) = (time, gap);
-        if *count < PATIENCE || gap > HASTE * (time - self.start).abs() {
+        if !self.haste[found.event].comes(time, self.start) {
             return Ok(());
         }
         let name = self.system.occasions().events[found.event].name.clone();
@@ -454,11 +398,6 @@ impl Motion {
     /// The state just before the last blow or release.
     pub fn before(&self) -> &State {
         &self.before
-    }
-
-    /// The time up to which the motion has been computed.
-    pub fn computed(&self) -> f64 {
-        self.clear
     }
 
     /// Moves the present to the end of what was computed.

@@ -92,7 +92,7 @@ pub(super) fn power(pool: &mut Pool, rows: &[ConstraintRow]) -> Expr {
 }
 
 /// The matrix of M q̈ − Aᵀλ = f, A q̈ = γ. M alone may be singular where this is not.
-pub fn augmented(pool: &mut Pool, mass: &[Vec<Expr>], rows: &[ConstraintRow]) -> Vec<Vec<Expr>> {
+fn augmented(pool: &mut Pool, mass: &[Vec<Expr>], rows: &[ConstraintRow]) -> Vec<Vec<Expr>> {
     let mut matrix = mass.to_vec();
     for (i, row) in matrix.iter_mut().enumerate() {
         row.extend(rows.iter().map(|c| pool.neg(c.row[i])));

@@ -1,0 +1,15 @@
+//! How mathematics is written.
+
+use clap::ValueEnum;
+
+/// The three ways.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum Format {
+    /// For reading: Unicode mathematics, or the syntax of files where the locale is not UTF-8.
+    #[default]
+    Text,
+    /// For typesetting: a fragment for LaTeX with amsmath.
+    Latex,
+    /// One object, its expressions in the syntax of files.
+    Json,
+}
