@@ -10,6 +10,7 @@ mod gauges;
 mod law;
 mod motion;
 mod obey;
+mod ready;
 mod recorder;
 mod residual;
 mod setup;
@@ -25,6 +26,7 @@ use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
 pub use command::Command;
+pub use ready::{Ready, Unready};
 pub use setup::{NoMethod, Setup, choose_method};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;

@@ -12,10 +12,8 @@
 mod input;
 mod loader;
 mod panic;
-mod pen;
 mod queue;
 mod request;
-mod screen;
 mod session;
 mod signals;
 mod stage;

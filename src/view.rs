@@ -4,9 +4,10 @@
 //! or a change of anything that is drawn.
 //!
 //! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
-//! in a terminal: [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`] and [`plot`].
+//! in a terminal: [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
 
 pub mod colour;
+pub mod frame;
 pub mod glyphs;
 pub mod number;
 pub mod plot;

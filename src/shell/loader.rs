@@ -9,13 +9,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use crate::analysis::flaws;
 use crate::app::LoadFailure;
-use crate::experiment::{Experiment, Setup};
-use crate::mechanics::{self, Equations};
-use crate::model::Model;
+use crate::experiment::Ready;
 use crate::preset::Catalog;
-use crate::system::System;
 
 /// A derivation goes as deep as its expressions are nested, and a stranger's file may nest them far.
 const STACK: usize = 64 << 20;
@@ -29,21 +25,8 @@ pub(super) struct Loader {
     receiver: Receiver<(u64, Outcome)>,
 }
 
-type Outcome = Result<Box<Ready>, LoadFailure>;
-
-/// A system on all its stages.
-pub(super) struct Ready {
-    /// What was asked for.
-    pub(super) name: String,
-    /// What the file says.
-    pub(super) model: Arc<Model>,
-    /// What follows from it.
-    pub(super) equations: Arc<Equations>,
-    /// The same as a program.
-    pub(super) system: Arc<System>,
-    /// The system in motion.
-    pub(super) experiment: Experiment,
-}
+/// What was asked for and what was made of it.
+type Outcome = Result<(String, Box<Ready>), LoadFailure>;
 
 impl Loader {
     /// A loader that knows these presets.
@@ -61,9 +44,12 @@ impl Loader {
         let work = move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| prepare(&catalog, &name)));
             let outcome = outcome.unwrap_or_else(|panic| Err(defect(panic.as_ref())));
-            let outcome = outcome.map_err(|message| LoadFailure { name, message });
+            let outcome = match outcome {
+                Ok(ready) => Ok((name, Box::new(ready))),
+                Err(message) => Err(LoadFailure { name, message }),
+            };
             // The program may have ended meanwhile.
-            let _ = sender.send((ticket, outcome.map(Box::new)));
+            let _ = sender.send((ticket, outcome));
         };
         let started =
             thread::Builder::new().name("loader".to_owned()).stack_size(STACK).spawn(work);
@@ -80,22 +66,9 @@ impl Loader {
     }
 }
 
-/// All the stages from a name to an experiment; the error is a report for the user.
-pub(super) fn prepare(catalog: &Catalog, name: &str) -> Result<Ready, String> {
+fn prepare(catalog: &Catalog, name: &str) -> Result<Ready, String> {
     let document = catalog.find(name).map_err(|why| why.to_string())?;
-    let read = document.read();
-    let model = read.map_err(|mistakes| document.report(&mistakes, false))?.model;
-    let why = |what: &dyn std::fmt::Display| format!("{}: {what}", document.path);
-    let equations = mechanics::derive(&model).map_err(|error| why(&error))?;
-    let mistakes = flaws(&model, &equations);
-    if !mistakes.is_empty() {
-        return Err(document.report(&mistakes, false));
-    }
-    let system = System::compile(&model, &equations, &[]).map_err(|error| why(&error))?;
-    let (model, equations) = (Arc::new(model), Arc::new(equations));
-    let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
-    let experiment = experiment.map_err(|error| why(&error))?;
-    Ok(Ready { name: name.to_owned(), model, equations, system: Arc::new(system), experiment })
+    Ready::of(&document).map_err(|report| report.0)
 }
 
 fn defect(panic: &(dyn Any + Send)) -> String {

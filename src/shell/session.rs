@@ -11,9 +11,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::input::Input;
-use super::loader::{Loader, Ready};
+use super::loader::Loader;
 use super::stage::{Page, Wish};
 use crate::app::{App, Effect, Event, Loaded};
+use crate::experiment::Ready;
 use crate::preset::Catalog;
 use crate::view::{self, Look};
 use crate::worker::Worker;
@@ -57,8 +58,8 @@ impl Session {
     }
 
     /// Sets a loaded system in motion.
-    fn begin(&mut self, ready: Ready) -> Loaded {
-        let Ready { name, model, equations, system, experiment } = ready;
+    fn begin(&mut self, name: String, ready: Ready) -> Loaded {
+        let Ready { model, equations, system, experiment } = ready;
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, model, equations, system }
     }
@@ -79,7 +80,7 @@ impl Page for Session {
         self.update(Event::Tick(elapsed));
         let mut changed = self.app.notice.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
-            let loaded = outcome.map(|ready| self.begin(*ready));
+            let loaded = outcome.map(|(name, ready)| self.begin(name, *ready));
             self.update(Event::Loaded(loaded));
             changed = true;
         }
@@ -105,22 +106,24 @@ mod tests {
     use ratatui::layout::Size;
 
     use super::*;
-    use crate::shell::loader::prepare;
-    use crate::shell::screen::Screen;
+    use crate::experiment::Ready;
     use crate::view::colour::ColourDepth;
+    use crate::view::frame::Frames;
     use crate::view::glyphs::Glyphs;
     use crate::view::theme::Theme;
 
     /// The bytes of so many frames of a system in motion, 30 in a second, after its first two seconds.
     fn frames(name: &str, depth: ColourDepth, count: u32) -> Vec<usize> {
         let catalog = Catalog::with_folder(None);
-        let ready = prepare(&catalog, name).expect("a shipped preset");
-        let Ready { name, model, equations, system, mut experiment } = ready;
+        let document = catalog.find(name).expect("a shipped preset");
+        let ready = Ready::of(&document).expect("a preset without mistakes");
+        let Ready { model, equations, system, mut experiment } = ready;
+        let name = name.to_owned();
         experiment.set_epoch(1);
         let (mut app, _) = App::new(&catalog, Some(&name));
         app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, model, equations, system })));
         let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
-        let mut screen = Screen::new(true);
+        let mut screen = Frames::new(true);
         let mut bytes = Vec::new();
         for frame in 0..count + 60 {
             let time = f64::from(frame) / 30.0 * experiment.speed();
@@ -130,7 +133,7 @@ mod tests {
             let draw = |area, buffer: &mut Buffer| {
                 view::draw(&app, &look, area, buffer);
             };
-            bytes.push(screen.frame(Size::new(80, 24), draw).len());
+            bytes.push(screen.next(Size::new(80, 24), draw).len());
         }
         bytes.split_off(60)
     }

@@ -17,9 +17,9 @@ use super::input::{Decoder, Input};
 use super::panic;
 use super::queue::Queue;
 use super::request::Refusal;
-use super::screen::Screen;
 use super::signals::Signals;
 use super::terminal::{Mode, NoTerminal, Ready, Terminal};
+use crate::view::frame::Frames;
 
 /// What can be held up on a terminal.
 pub trait Page {
@@ -88,7 +88,7 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         terminal: &guard.0,
         signals,
         decoder: Decoder::default(),
-        screen: Screen::new(pace.synchronized),
+        screen: Frames::new(pace.synchronized),
         queue: Queue::default(),
         size: None,
         failures: 0,
@@ -110,7 +110,7 @@ struct Stage<'a> {
     terminal: &'a Terminal,
     signals: Signals,
     decoder: Decoder,
-    screen: Screen,
+    screen: Frames,
     queue: Queue,
     size: Option<Size>,
     failures: u32,
@@ -189,7 +189,7 @@ impl Stage<'_> {
         let size = self.size.unwrap_or_default();
         self.decoder.expect_pastes(page.is_typing());
         self.queue.push(self.terminal.switch(Mode::Paste, page.is_typing()));
-        self.queue.push(&self.screen.frame(size, |area, buffer| page.draw(area, buffer)));
+        self.queue.push(&self.screen.next(size, |area, buffer| page.draw(area, buffer)));
     }
 
     /// Sends what the terminal takes. One failed write costs a frame; then all is set up and painted anew.

@@ -1,45 +1,47 @@
-//! The screen: what the terminal shows, and the bytes from there to the next picture.
+//! Frames: what a terminal shows, and the bytes from there to the next picture.
 //!
 //! In: a function that draws. Out: a frame of bytes, between the marks of synchronized output, or nothing if no cell
 //! has changed. Never here: sending them, or when to draw.
+
+mod pen;
 
 use std::mem;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
-use super::pen::Pen;
+use pen::Pen;
 
 /// The marks round a frame, between which a terminal holds back what it shows.
 const SYNCHRONIZED: [&[u8]; 2] = [b"\x1b[?2026h", b"\x1b[?2026l"];
 
-/// The picture on the terminal.
+/// The picture on a terminal, and the way to the next one.
 #[derive(Debug)]
-pub(super) struct Screen {
+pub struct Frames {
     shown: Option<Buffer>,
     next: Buffer,
     pen: Pen,
     synchronized: bool,
 }
 
-impl Screen {
-    /// A screen that shows nobody knows what; `synchronized` puts the marks round each frame.
-    pub(super) fn new(synchronized: bool) -> Self {
+impl Frames {
+    /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
+    pub fn new(synchronized: bool) -> Self {
         Self { shown: None, next: Buffer::default(), pen: Pen::default(), synchronized }
     }
 
     /// What the terminal shows is no longer known: the next frame paints every cell.
-    pub(super) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.shown = None;
     }
 
     /// Whether what the terminal shows is known.
-    pub(super) fn is_known(&self) -> bool {
+    pub fn is_known(&self) -> bool {
         self.shown.is_some()
     }
 
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
-    pub(super) fn frame(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
+    pub fn next(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
         let area = Rect::new(0, 0, size.width, size.height);
         self.next.resize(area);
         self.next.reset();
@@ -157,7 +159,7 @@ mod tests {
         ) {
             let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
             terminal.process("left by somebody else\r\n\x1b[7mso".as_bytes());
-            let mut screen = Screen::new(true);
+            let mut screen = Frames::new(true);
             for (cells, forget) in pictures {
                 if forget {
                     terminal.process(b"\x1b[41mthe terminal was resized");
@@ -165,10 +167,10 @@ mod tests {
                 }
                 let mut drawn = Buffer::empty(Rect::from(SIZE));
                 paint(&cells, drawn.area, &mut drawn);
-                let bytes = screen.frame(SIZE, |area, buffer| paint(&cells, area, buffer));
+                let bytes = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer));
                 terminal.process(&bytes);
                 check(terminal.screen(), &drawn);
-                let again = screen.frame(SIZE, |area, buffer| paint(&cells, area, buffer));
+                let again = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer));
                 prop_assert_eq!(again, Vec::<u8>::new());
             }
         }
@@ -176,9 +178,9 @@ mod tests {
 
     #[test]
     fn a_frame_is_marked_and_small() {
-        let mut screen = Screen::new(true);
+        let mut screen = Frames::new(true);
         let mut frame = |text: &str, style: Style| {
-            let bytes = screen.frame(SIZE, |area, buffer| {
+            let bytes = screen.next(SIZE, |area, buffer| {
                 buffer.set_string(area.x, 1, text, style);
             });
             String::from_utf8(bytes).expect("text")
@@ -191,9 +193,9 @@ mod tests {
 
     #[test]
     fn no_size_is_too_strange() {
-        let mut screen = Screen::new(false);
+        let mut screen = Frames::new(false);
         for (width, height) in [(0, 0), (1, 1), (500, 500), (0, 9), (9, 0), (80, 24)] {
-            screen.frame(Size { width, height }, |area, buffer| {
+            screen.next(Size { width, height }, |area, buffer| {
                 assert_eq!(buffer.area, area);
             });
         }
