@@ -19,6 +19,7 @@ mod trail;
 
 use std::sync::Arc;
 
+use crate::expr::portable;
 use crate::integrate::Stepping;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -333,7 +334,7 @@ impl Experiment {
             return least;
         }
         // in powers of two, so that it does not change with every step
-        (least * (smooth / least).log2().floor().exp2()).min(most)
+        (least * portable::exp2(portable::log2(smooth / least).floor())).min(most)
     }
 
     /// Has the gauges look at the present.

@@ -19,6 +19,7 @@ mod notation;
 mod number;
 mod parse;
 mod pool;
+pub mod portable;
 mod print;
 mod product;
 mod real;

@@ -3,6 +3,8 @@
 //! The way of the data, one folder a stage: a file becomes a [`model`], the model [`mechanics`]'
 //! equations, …; `ARCHITECTURE.md` has the whole picture.
 
+#![warn(clippy::disallowed_methods)]
+
 pub mod analysis;
 pub mod app;
 pub mod cli;

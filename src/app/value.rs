@@ -4,6 +4,7 @@
 //! Never here: the list on the screen, or the command that sets it.
 
 use super::Lab;
+use crate::expr::portable;
 use crate::model::Scale;
 
 /// One value that can be changed.
@@ -113,8 +114,8 @@ impl Lab {
 fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> f64 {
     match range {
         Some((min, max, Scale::Log)) if min > 0.0 && value > 0.0 => {
-            let factor = (max / min).powf(times / 200.0);
-            let moved = significant(value * factor.powf(sign), 4);
+            let factor = portable::powf(max / min, times / 200.0);
+            let moved = significant(value * portable::powf(factor, sign), 4);
             within(moved, value, min, max)
         }
         Some((min, max, _)) => {
@@ -138,7 +139,7 @@ fn nice_step(length: f64) -> f64 {
     if !length.is_finite() || length <= 0.0 {
         return 1.0;
     }
-    let power = 10_f64.powf(length.log10().floor());
+    let power = portable::powf(10.0, portable::log10(length).floor());
     let digit = [1.0, 2.0, 5.0, 10.0].into_iter().rfind(|d| d * power <= length * 1.5);
     significant(digit.unwrap_or(1.0) * power, 3)
 }

@@ -5,6 +5,7 @@
 
 use super::Gauge;
 use super::deviation::Deviation;
+use crate::expr::portable;
 use crate::system::{ChannelKind, System};
 
 /// What a gauge of an attitude remembers.
@@ -72,7 +73,7 @@ fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
     let odd = [a[1][2] - a[2][1], a[2][0] - a[0][2], a[0][1] - a[1][0]];
     let size = odd.iter().map(|x| x * x).sum::<f64>().sqrt();
     let trace = a[0][0] + a[1][1] + a[2][2];
-    let angle = size.atan2(trace - 1.0);
+    let angle = portable::atan2(size, trace - 1.0);
     if size > 1e-6 {
         return (angle, odd.map(|x| x / size));
     }
@@ -92,7 +93,7 @@ mod tests {
 
     /// Turned by an angle about z, as A takes components from space to body.
     fn about_z(angle: f64) -> [[f64; 3]; 3] {
-        let (s, c) = angle.sin_cos();
+        let (s, c) = portable::sin_cos(angle);
         [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
     }
 

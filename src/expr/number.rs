@@ -6,6 +6,7 @@ use std::hash::{Hash, Hasher};
 use std::ops::{Add, Mul, Neg};
 
 use super::double::Double;
+use crate::expr::portable;
 
 /// An exact rational `numerator / denominator` (lowest terms, positive denominator) or a real.
 #[derive(Clone, Copy, Debug)]
@@ -156,7 +157,7 @@ impl Number {
             return match (self, self.value()) {
                 (Number::Rational(..), 1.0) => Number::ONE,
                 (Number::Rational(..), 0.0) => Number::ZERO,
-                (_, x) => Number::Real(x.powf(n as f64)),
+                (_, x) => Number::Real(portable::powf(x, n as f64)),
             };
         }
         let (mut result, mut base, mut n) = (Number::ONE, self, n);
@@ -219,7 +220,7 @@ fn gcd(mut a: u128, mut b: u128) -> u128 {
 
 /// The integer `r` with `r^degree = n`, if there is one.
 fn exact_root(n: i64, degree: i64) -> Option<i64> {
-    let guess = (n as f64).powf(1.0 / degree as f64).round() as i64;
+    let guess = portable::powf(n as f64, 1.0 / degree as f64).round() as i64;
     (guess.max(1) - 1..=guess + 1).find(|&r| Number::integer(r).powi(degree) == Number::integer(n))
 }
 

@@ -5,6 +5,7 @@
 use super::function::FunctionId;
 use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::expr::portable;
 
 type Factor = (Expr, Number);
 
@@ -145,7 +146,7 @@ impl Pool {
         if let Some(exact) = n.exact_power(exponent) {
             return Some((exact, Vec::new()));
         }
-        let inexact = Number::Real(n.value().powf(exponent.value()));
+        let inexact = Number::Real(portable::powf(n.value(), exponent.value()));
         let (Number::Rational(en, ed), false) = (exponent, n.value() <= 0.0) else {
             return Some((inexact, Vec::new()));
         };

@@ -4,6 +4,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::double::Double;
+use crate::expr::portable;
 
 /// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the
 /// arguments up to `k`, the function's own series `y` up to `k − 1` and that of a companion `w`
@@ -101,40 +102,42 @@ impl Real for f64 {
         f64::sqrt(self)
     }
     fn exp(self) -> f64 {
-        f64::exp(self)
+        portable::exp(self)
     }
     fn ln(self) -> f64 {
-        f64::ln(self)
+        portable::ln(self)
     }
     fn sin_cos(self) -> (f64, f64) {
-        f64::sin_cos(self)
+        portable::sin_cos(self)
     }
     fn tan(self) -> f64 {
-        f64::tan(self)
+        portable::tan(self)
     }
     fn sinh_cosh(self) -> (f64, f64) {
-        (f64::sinh(self), f64::cosh(self))
+        (portable::sinh(self), portable::cosh(self))
     }
     fn tanh(self) -> f64 {
-        f64::tanh(self)
+        portable::tanh(self)
     }
     fn atan2(self, x: f64) -> f64 {
-        f64::atan2(self, x)
+        portable::atan2(self, x)
     }
     fn asin(self) -> f64 {
-        f64::asin(self)
+        portable::asin(self)
     }
     fn acos(self) -> f64 {
-        f64::acos(self)
+        portable::acos(self)
     }
     fn power(self, exponent: Double) -> f64 {
         let n = exponent.high;
         match (n.fract() == 0.0, (2.0 * n).fract() == 0.0) {
-            _ if exponent.low != 0.0 || n.abs() > 1024.0 => self.powf(n),
-            (true, _) => self.powi(n as i32),
-            (_, true) if n < 0.0 => 1.0 / (f64::sqrt(self) * self.powi(-(n + 0.5) as i32)),
-            (_, true) => f64::sqrt(self) * self.powi((n - 0.5) as i32),
-            _ => self.powf(n),
+            _ if exponent.low != 0.0 || n.abs() > 1024.0 => portable::powf(self, n),
+            (true, _) => portable::powi(self, n as i32),
+            (_, true) if n < 0.0 => {
+                1.0 / (f64::sqrt(self) * portable::powi(self, -(n + 0.5) as i32))
+            }
+            (_, true) => f64::sqrt(self) * portable::powi(self, (n - 0.5) as i32),
+            _ => portable::powf(self, n),
         }
     }
 }

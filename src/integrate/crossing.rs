@@ -9,7 +9,7 @@
 //! the motion are not stepped over, and neither are two zeros within one piece.
 
 use super::Stepper;
-use crate::expr::Double;
+use crate::expr::{Double, portable};
 use crate::model::Direction;
 use crate::system::{Fault, State, Triggers};
 
@@ -143,8 +143,8 @@ impl Crossings {
         let mut looks: Vec<Vec<Look>> = vec![Vec::new(); self.sides.len()];
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let fresh = std::mem::take(&mut self.fresh);
-        let early = if fresh { ((to - from) / soonest).log2().ceil() as i32 } else { 0 };
-        let early = (3..early).rev().map(|k| 0.5_f64.powi(k));
+        let early = if fresh { portable::log2((to - from) / soonest).ceil() as i32 } else { 0 };
+        let early = (3..early).rev().map(|k| portable::powi(0.5, k));
         let parts = (0..=PIECES).map(|k| k as f64 / PIECES as f64);
         let mut parts: Vec<f64> = early.chain(parts).collect();
         parts.sort_by(f64::total_cmp);

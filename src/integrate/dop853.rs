@@ -15,7 +15,7 @@ use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
 use super::method::{Method, Preserves, Refusal, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{pace, rounding};
-use crate::expr::Double;
+use crate::expr::{Double, portable};
 use crate::system::{Fault, FaultKind, Rates, State, System};
 
 /// The tolerance where none is asked for.
@@ -121,8 +121,8 @@ impl DormandPrince {
             let allowed = self.tolerance * size + ROUNDINGS * step.abs() * self.noise[i];
             if allowed > 0.0 {
                 let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
-                fifth += (sum(FIFTH, &self.slopes, i) / allowed).powi(2);
-                third += ((whole - sum(THIRD, &self.slopes, i)) / allowed).powi(2);
+                fifth += portable::powi(sum(FIFTH, &self.slopes, i) / allowed, 2);
+                third += portable::powi((whole - sum(THIRD, &self.slopes, i)) / allowed, 2);
             }
         }
         let both = fifth + 0.01 * third;
@@ -207,7 +207,7 @@ impl Stepper for DormandPrince {
                 error = self.error(step);
             }
             let most = if failures > 0 { 1.0 } else { LONGER };
-            let factor = (SAFETY * error.powf(-1.0 / 8.0)).clamp(SHORTER, most);
+            let factor = (SAFETY * portable::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
             if error <= 1.0 {
                 let end = if last { Double::from(limit) } else { time + Double::from(step) };
                 (self.next.time, self.next.time_carry) = (end.high, end.low);

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Equations, Flow, WhyNot};
 use super::lagrange::zero_if_proved;
-use crate::expr::{Expr, Number, Rank, Symbol, Zero};
+use crate::expr::{Expr, Number, Rank, Symbol, Zero, portable};
 use crate::model::{Mechanics, Model};
 
 /// \[f, g\] as a function of (q, p, t), or of a Poisson system's variables and t; simplified, and
@@ -290,8 +290,9 @@ fn common_factor(
     candidate: Expr,
 ) -> Option<Expr> {
     let pool = &equations.pool;
-    let value =
-        |symbol: Symbol, turn: f64| 0.7 + 0.5 * (2.4 * symbol.index() as f64 + 1.7 * turn).sin();
+    let value = |symbol: Symbol, turn: f64| {
+        0.7 + 0.5 * portable::sin(2.4 * symbol.index() as f64 + 1.7 * turn)
+    };
     let quotient = |turn: f64, doubled: Option<Symbol>| {
         let at = |symbol: Symbol| {
             let fixed = constants.contains(&symbol);
@@ -312,13 +313,13 @@ fn common_factor(
     let mut rest = first;
     for &symbol in constants {
         let doubled = quotient(1.0, Some(symbol)) / first;
-        let power = doubled.log2().round();
-        if !close(doubled, power.exp2()) {
+        let power = portable::log2(doubled).round();
+        if !close(doubled, portable::exp2(power)) {
             return None;
         }
         if power != 0.0 {
             factors.push((symbol, power as i64));
-            rest /= value(symbol, 0.0).powf(power);
+            rest /= portable::powf(value(symbol, 0.0), power);
         }
     }
     let denominator = (1..=12_i64).find(|&d| {

@@ -7,7 +7,7 @@
 use super::conditions::Conditions;
 use super::legendre::Unsolved;
 use super::value::Values;
-use crate::expr::Double;
+use crate::expr::{Double, portable};
 
 /// Given values may miss a constraint by this part of the size of its terms.
 pub(super) const GIVEN_WITHIN: f64 = 1e-9;
@@ -72,7 +72,7 @@ pub(super) fn begin(
         let (step, _) = problem.step(&missing);
         let before = state.to_vec();
         for halving in 0..=HALVINGS {
-            let part = 0.5_f64.powi(halving as i32);
+            let part = portable::powi(0.5, halving as i32);
             for (&i, &x) in problem.unknown.iter().zip(&step) {
                 state[n + i] = before[n + i] + x * part;
             }

@@ -13,7 +13,7 @@ use super::jet::{Jet, Side};
 use super::program::{Program, Singular};
 use super::solve::Factored;
 use super::state::State;
-use crate::expr::{Double, Real};
+use crate::expr::{Double, Real, portable};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -95,8 +95,8 @@ impl Series {
     /// Chooses the unit of time of the coefficients to be built next: the power of two below
     /// `step`, negative for a step back in time.
     pub fn set_scale(&mut self, step: f64) {
-        let exponent = step.abs().log2().floor().clamp(-1000.0, 1000.0);
-        self.scale = 2.0_f64.powi(exponent as i32).copysign(step);
+        let exponent = portable::log2(step.abs()).floor().clamp(-1000.0, 1000.0);
+        self.scale = portable::powi(2.0, exponent as i32).copysign(step);
     }
 
     /// The time of the origin.

@@ -13,6 +13,7 @@ use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::app::{Eye, Lab};
+use crate::expr::portable;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use body::Outline;
@@ -220,7 +221,7 @@ impl Artist<'_> {
     fn spring(&mut self, from: [f64; 3], to: [f64; 3], pen: &Pen) {
         let (a, b) = (self.flat(from), self.flat(to));
         let along = [b[0] - a[0], b[1] - a[1]];
-        let length = along[0].hypot(along[1]);
+        let length = portable::hypot(along[0], along[1]);
         let width =
             0.025 * (self.frame.x.hi - self.frame.x.lo).min(self.frame.y.hi - self.frame.y.lo);
         let across = [-along[1] / length * width, along[0] / length * width];

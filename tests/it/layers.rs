@@ -176,3 +176,59 @@ fn the_reader_of_uses_sees_them() {
     assert_eq!(refusal("shell", "worker"), None);
     assert_eq!(refusal("app", "App"), None);
 }
+
+/// The elementary functions of `f64` that `std` leaves to the platform: `expr::portable` has its own.
+const ELEMENTARY: [&str; 26] = [
+    "sin", "cos", "sin_cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+    "asinh", "acosh", "atanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log10", "log2",
+    "powf", "powi", "cbrt", "hypot",
+];
+
+/// Where methods of these names belong to other numbers than `f64`: rules over every `Real`, double-doubles, exact
+/// numbers. There only `clippy.toml` can tell.
+const OTHER_NUMBERS: [&str; 5] =
+    ["expr/function/", "expr/double/", "expr/number.rs", "expr/product.rs", "expr/portable.rs"];
+
+/// The calls of `std`'s elementary functions in code, as `name`: methods of anything but the expressions' pool, and paths.
+fn elementary_calls(code: &str) -> Vec<&'static str> {
+    let mut found = Vec::new();
+    for name in ELEMENTARY {
+        let methods = code.match_indices(&format!(".{name}(")).any(|(at, _)| {
+            let receiver = code[..at].rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next();
+            !receiver.is_some_and(|word| word.ends_with("pool") || word == "self")
+        });
+        if methods
+            || code.contains(&format!("f64::{name}("))
+            || code.contains(&format!("f64::{name})"))
+        {
+            found.push(name);
+        }
+    }
+    found
+}
+
+#[test]
+fn no_elementary_function_is_left_to_the_platform() {
+    let refused = |file: &File| {
+        let path = file.path.to_string_lossy().replace('\\', "/");
+        let other = OTHER_NUMBERS.iter().any(|place| path.contains(place));
+        let calls = if other { Vec::new() } else { elementary_calls(&file.code) };
+        (!calls.is_empty()).then(|| format!("{path}: {calls:?}: use expr::portable"))
+    };
+    let wrong: Vec<String> = files().iter().filter_map(refused).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert_eq!(elementary_calls("let y = 2.0 * x.powi(3) + pool.powi(a, 2);"), ["powi"]);
+    assert_eq!(elementary_calls("values.map(f64::sin).map(|x| (x + 1.0).ln())"), ["sin", "ln"]);
+}
+
+#[test]
+fn clippy_refuses_the_same_functions_by_type() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("clippy.toml")).expect("clippy.toml");
+    let table: toml::Table = text.parse().expect("TOML");
+    let rows = table["disallowed-methods"].as_array().expect("a list");
+    let listed: Vec<&str> = rows.iter().filter_map(|row| row["path"].as_str()).collect();
+    assert_eq!(listed, ELEMENTARY.map(|name| format!("f64::{name}")));
+    let library = fs::read_to_string(root.join("src/lib.rs")).expect("src/lib.rs");
+    assert!(library.contains("#![warn(clippy::disallowed_methods)]"));
+}

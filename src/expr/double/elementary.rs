@@ -2,6 +2,7 @@
 //! reduction for exp, sin and cos; one correction of the `f64` value for their inverses.
 
 use super::Double;
+use crate::expr::portable;
 use crate::expr::real::{Real, Recurrence, RecurrenceStep};
 
 /// ln 2.
@@ -20,7 +21,7 @@ const HALVINGS: i32 = 8;
 impl Double {
     /// `self · 2^n`.
     fn scaled(self, n: i32) -> Double {
-        let (a, b) = (2.0_f64.powi(n / 2), 2.0_f64.powi(n - n / 2));
+        let (a, b) = (portable::powi(2.0, n / 2), portable::powi(2.0, n - n / 2));
         Double { high: self.high * a * b, low: self.low * a * b }
     }
 
@@ -89,7 +90,7 @@ impl Real for Double {
 
     fn exp(self) -> Double {
         if !(-700.0..=700.0).contains(&self.high) {
-            return Double::from(self.high.exp());
+            return Double::from(portable::exp(self.high));
         }
         let n = (self.high / LN_2.high).round();
         let r = self - LN_2 * n;
@@ -97,7 +98,7 @@ impl Real for Double {
     }
 
     fn ln(self) -> Double {
-        let y = self.high.ln();
+        let y = portable::ln(self.high);
         if !y.is_finite() || y.abs() > 690.0 {
             return Double::from(y);
         }
@@ -108,7 +109,7 @@ impl Real for Double {
 
     fn sin_cos(self) -> (Double, Double) {
         if self.high.abs().partial_cmp(&LARGE_ANGLE) != Some(std::cmp::Ordering::Less) {
-            let (sine, cosine) = self.high.sin_cos();
+            let (sine, cosine) = portable::sin_cos(self.high);
             return (Double::from(sine), Double::from(cosine));
         }
         let quarters = (self.high / HALF_PI[0]).round();
@@ -132,7 +133,10 @@ impl Real for Double {
 
     fn sinh_cosh(self) -> (Double, Double) {
         if self.high.abs() > 300.0 {
-            return (Double::from(self.high.sinh()), Double::from(self.high.cosh()));
+            return (
+                Double::from(portable::sinh(self.high)),
+                Double::from(portable::cosh(self.high)),
+            );
         }
         let s = self.exp_minus_one();
         let e = s + Double::ONE;
@@ -148,7 +152,7 @@ impl Real for Double {
     }
 
     fn atan2(self, x: Double) -> Double {
-        let angle = self.high.atan2(x.high);
+        let angle = portable::atan2(self.high, x.high);
         if (self.high == 0.0 && x.high == 0.0) || !self.is_finite() || !x.is_finite() {
             return Double::from(angle);
         }
@@ -182,7 +186,7 @@ impl Real for Double {
             return if n < 0.0 { Double::ONE / result } else { result };
         }
         if self.high <= 0.0 {
-            return Double::from(self.high.powf(n));
+            return Double::from(portable::powf(self.high, n));
         }
         (self.ln() * exponent).exp()
     }

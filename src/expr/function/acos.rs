@@ -2,7 +2,7 @@
 
 use super::asin::{advance, slope};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence};
+use crate::expr::{Double, Expr, Real, Recurrence, portable};
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -18,7 +18,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arccos",
     latex: "\\arccos",
     arity: 1,
-    value: |u| u[0].acos(),
+    value: |u| portable::acos(u[0]),
     fold: |_, u| (u[0] == Expr::ONE).then_some(Expr::ZERO),
     derivative: |pool, u, _| {
         let slope = slope(pool, u[0]);

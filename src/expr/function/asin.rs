@@ -2,7 +2,7 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Pool, Real, Recurrence};
+use crate::expr::{Double, Expr, Number, Pool, Real, Recurrence, portable};
 
 /// `1/√(1 − u²)`.
 pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
@@ -36,7 +36,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arcsin",
     latex: "\\arcsin",
     arity: 1,
-    value: |u| u[0].asin(),
+    value: |u| portable::asin(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Asin, u[0]),
     derivative: |pool, u, _| slope(pool, u[0]),
     rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),

@@ -2,7 +2,7 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence};
+use crate::expr::{Double, Number, Real, Recurrence, portable};
 
 /// y = arctan u, w = 1 + u²: y′ w = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -22,7 +22,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arctan",
     latex: "\\arctan",
     arity: 1,
-    value: |u| u[0].atan(),
+    value: |u| portable::atan(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Atan, u[0]),
     derivative: |pool, u, _| {
         let square = pool.powi(u[0], 2);

@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::expr::{Double, Number, Real, Recurrence};
+use crate::expr::{Double, Number, Real, Recurrence, portable};
 
 /// y = cos u, w = sin u: y′ = −w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,7 +20,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cos",
     latex: "\\cos",
     arity: 1,
-    value: |u| u[0].cos(),
+    value: |u| portable::cos(u[0]),
     fold: |pool, u| {
         if let Some(exact) = pool.turns(u[0]).and_then(|r| exact_sine(r + Number::HALF)) {
             return Some(pool.number(exact));

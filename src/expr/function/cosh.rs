@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence};
+use crate::expr::{Double, Expr, Real, Recurrence, portable};
 
 /// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,7 +20,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cosh",
     latex: "\\cosh",
     arity: 1,
-    value: |u| u[0].cosh(),
+    value: |u| portable::cosh(u[0]),
     fold: |pool, u| {
         if u[0] == Expr::ZERO {
             return Some(Expr::ONE);

@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Real, Recurrence};
+use crate::expr::{Double, Expr, Number, Real, Recurrence, portable};
 
 /// y = cot u, w = 1 + y²: y′ = −w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cot",
     latex: "\\cot",
     arity: 1,
-    value: |u| 1.0 / u[0].tan(),
+    value: |u| 1.0 / portable::tan(u[0]),
     fold: |pool, u| {
         if u[0] == Expr::ZERO { None } else { pool.fold_odd(FunctionId::Cot, u[0]) }
     },

@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence};
+use crate::expr::{Double, Expr, Real, Recurrence, portable};
 
 /// y = exp u: y′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -15,7 +15,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "exp",
     latex: "\\exp",
     arity: 1,
-    value: |u| u[0].exp(),
+    value: |u| portable::exp(u[0]),
     fold: |_, u| (u[0] == Expr::ZERO).then_some(Expr::ONE),
     derivative: |pool, u, _| pool.call(FunctionId::Exp, u),
     rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),

@@ -2,7 +2,7 @@
 
 use super::series::known;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Node, Real, Recurrence};
+use crate::expr::{Double, Expr, Node, Real, Recurrence, portable};
 
 /// y = ln u: y′ u = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -16,7 +16,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "ln",
     latex: "\\ln",
     arity: 1,
-    value: |u| u[0].ln(),
+    value: |u| portable::ln(u[0]),
     fold: |pool, u| match pool.node(u[0]) {
         Node::Call(FunctionId::Exp, inner) => Some(inner[0]),
         _ => (u[0] == Expr::ONE).then_some(Expr::ZERO),

@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence};
+use crate::expr::{Double, Number, Real, Recurrence, portable};
 
 /// y = tan u, w = 1 + y²: y′ = w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "tan",
     latex: "\\tan",
     arity: 1,
-    value: |u| u[0].tan(),
+    value: |u| portable::tan(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Tan, u[0]),
     derivative: |pool, u, _| {
         let tangent = pool.call(FunctionId::Tan, u);

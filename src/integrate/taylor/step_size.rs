@@ -5,6 +5,7 @@
 //! last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j |c_j| h^j, and stays inside the radius
 //! of convergence however small those terms are: a body far from a collision hardly feels it.
 
+use crate::expr::portable;
 use crate::system::Series;
 
 /// The part of the tolerance that the last terms may have: they stand for all that is cut off,
@@ -34,7 +35,7 @@ const FARTHEST_ARGUMENT: f64 = 6.0;
 /// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 where each order costs the same work;
 /// orders cost less here).
 pub(super) fn order_for(tolerance: f64) -> usize {
-    ((-tolerance.ln() * 0.66).ceil() as usize).clamp(12, 44)
+    ((-portable::ln(tolerance) * 0.66).ceil() as usize).clamp(12, 44)
 }
 
 /// Whether all rates of change are finite.
@@ -56,13 +57,13 @@ pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
             return None;
         }
         for (log, x) in logs.iter_mut().zip(c) {
-            *log = x.abs().ln();
+            *log = portable::ln(x.abs());
         }
-        shortest = shortest.min(of_one(&logs[..c.len()], tolerance.ln()));
+        shortest = shortest.min(of_one(&logs[..c.len()], portable::ln(tolerance)));
     }
     for u in series.arguments() {
         for k in 1..=3 {
-            let bound = (FARTHEST_ARGUMENT / u[k].abs()).powf(1.0 / k as f64);
+            let bound = portable::powf(FARTHEST_ARGUMENT / u[k].abs(), 1.0 / k as f64);
             if bound.is_finite() {
                 shortest = shortest.min(bound);
             }
@@ -99,12 +100,12 @@ fn of_one(logs: &[f64], log_tolerance: f64) -> f64 {
         }
         let mut log_step = by_tolerance;
         if radius > f64::NEG_INFINITY {
-            log_step = log_step.min(radius + PART_OF_RADIUS.ln());
+            log_step = log_step.min(radius + portable::ln(PART_OF_RADIUS));
         }
         if k + LAST <= p {
-            log_step += INDULGENCE.ln();
+            log_step += portable::ln(INDULGENCE);
         }
-        shortest = shortest.min(log_step.exp());
+        shortest = shortest.min(portable::exp(log_step));
     }
     shortest
 }

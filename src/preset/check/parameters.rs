@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Rank, latex_of_unicode, nearest, unicode_name};
+use crate::expr::{Rank, latex_of_unicode, nearest, portable, unicode_name};
 use crate::model::{Parameter, Scale};
 use crate::preset::draft::DraftParameter;
 use crate::preset::mistake::Mistake;
@@ -106,7 +106,7 @@ fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: Scale) -> (f64, f
 /// The least of 1, 2, 5, 10, … times a power of ten that is not below a positive number; the
 /// number itself where none is finite.
 fn nice_above(x: f64) -> f64 {
-    let power = x.log10().floor();
+    let power = portable::log10(x).floor();
     let steps = [1.0, 2.0, 5.0, 10.0];
     let nice = steps.into_iter().map(|s| decimal(s, power)).find(|&nice| nice >= x);
     nice.filter(|nice| nice.is_finite()).unwrap_or(x)

@@ -12,6 +12,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::scale::{Frame, Scale};
+use crate::expr::portable;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Shade;
 use hand::Hand;
@@ -186,7 +187,8 @@ impl Raster {
     pub fn circle(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
         let sides = 128;
         let corner = |side: i32| {
-            let (sin, cos) = (f64::from(side) * std::f64::consts::TAU / f64::from(sides)).sin_cos();
+            let (sin, cos) =
+                portable::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
             [x + radius * cos, y + radius * sin]
         };
         self.polyline(frame, (0..=sides).map(corner), pen);

@@ -4,6 +4,7 @@
 
 use ratatui::layout::{Position, Rect};
 
+use crate::expr::portable;
 use crate::view::glyphs::Glyphs;
 
 /// A cell is about twice as high as it is wide.
@@ -48,7 +49,7 @@ impl Scale {
         } else {
             (hi * 1e-3).max(f64::MIN_POSITIVE)
         };
-        let lo = if hi.log10() - lo.log10() > 1e-9 { lo } else { hi * 0.5 };
+        let lo = if portable::log10(hi) - portable::log10(lo) > 1e-9 { lo } else { hi * 0.5 };
         Self { lo, hi, kind: Kind::Log, period: None }
     }
 
@@ -106,7 +107,10 @@ impl Scale {
             Kind::Linear | Kind::Angle => {
                 (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
             }
-            Kind::Log if value > 0.0 => (value.ln() - self.lo.ln()) / (self.hi.ln() - self.lo.ln()),
+            Kind::Log if value > 0.0 => {
+                (portable::ln(value) - portable::ln(self.lo))
+                    / (portable::ln(self.hi) - portable::ln(self.lo))
+            }
             Kind::Log => f64::NAN,
         }
     }
@@ -115,7 +119,9 @@ impl Scale {
     pub fn value(&self, fraction: f64) -> f64 {
         match self.kind {
             Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
-            Kind::Log => (self.lo.ln() * (1.0 - fraction) + self.hi.ln() * fraction).exp(),
+            Kind::Log => portable::exp(
+                portable::ln(self.lo) * (1.0 - fraction) + portable::ln(self.hi) * fraction,
+            ),
         }
     }
 

@@ -6,6 +6,7 @@
 use std::f64::consts::PI;
 
 use super::scale::{Kind, Scale};
+use crate::expr::portable;
 use crate::view::glyphs::Glyphs;
 use crate::view::number::{raised, signed};
 
@@ -71,7 +72,7 @@ impl Step {
         if !length.is_finite() || length <= 0.0 {
             return None;
         }
-        let exponent = length.log10().floor() as i32;
+        let exponent = portable::log10(length).floor() as i32;
         let steps = [-1, 0, 1]
             .into_iter()
             .flat_map(|e| [1, 2, 5].map(|digit| Self { digit, exponent: exponent + e }));
@@ -104,9 +105,9 @@ impl Step {
     fn times(self, count: i64) -> f64 {
         let number = (count * self.digit) as f64;
         match self.exponent {
-            0.. => number * 10_f64.powi(self.exponent),
-            -300..0 => number / 10_f64.powi(-self.exponent),
-            _ => number / 1e300 / 10_f64.powi(-300 - self.exponent),
+            0.. => number * portable::powi(10.0, self.exponent),
+            -300..0 => number / portable::powi(10.0, -self.exponent),
+            _ => number / 1e300 / portable::powi(10.0, -300 - self.exponent),
         }
     }
 }
@@ -151,7 +152,7 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
 
 /// The power of ten to take out of the labels of an axis that reaches to `size`: none for everyday numbers.
 fn common_exponent(size: f64) -> i32 {
-    if (1e-2..1e5).contains(&size) { 0 } else { (size.log10() / 3.0).floor() as i32 * 3 }
+    if (1e-2..1e5).contains(&size) { 0 } else { (portable::log10(size) / 3.0).floor() as i32 * 3 }
 }
 
 /// `number` × 10^`exponent`, written out; zero needs no decimals.
@@ -212,7 +213,7 @@ fn of_pi(mut over: i64, mut under: i64, glyphs: Glyphs) -> String {
 
 /// Powers of ten, or 1, 2, 5 within few decades; `None` below one decade, where even steps are better.
 fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
-    let (low, high) = (scale.lo.log10() - 1e-9, scale.hi.log10() + 1e-9);
+    let (low, high) = (portable::log10(scale.lo) - 1e-9, portable::log10(scale.hi) + 1e-9);
     let (first, last) = (low.ceil() as i32, high.floor() as i32);
     if last <= first {
         return None;
@@ -231,7 +232,7 @@ fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     let fine: Vec<_> = (first - 1..=last)
         .flat_map(|exponent| [1, 2, 5].map(|digit| (digit, exponent)))
         .filter(|(digit, exponent)| {
-            (low..=high).contains(&((*digit as f64).log10() + f64::from(*exponent)))
+            (low..=high).contains(&(portable::log10(*digit as f64) + f64::from(*exponent)))
         })
         .collect();
     let marks: Vec<_> = if plain && fine.len() <= most {

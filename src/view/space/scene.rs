@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use super::body::Outline;
 use super::seat::Seat;
 use crate::app::Eye;
+use crate::expr::portable;
 use crate::model::{Point, Shape};
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};
@@ -113,7 +114,7 @@ impl Scene {
 
 /// 1, 2 or 5 times a power of ten, not above a length.
 fn round_step(length: f64) -> f64 {
-    let power = 10_f64.powf(length.log10().floor());
+    let power = portable::powf(10.0, portable::log10(length).floor());
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);
     digit.unwrap_or(1.0) * power
 }
@@ -124,7 +125,7 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
     let moves = own[0] != own[1];
-    let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+    let length = (0..3).map(|k| portable::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
     let plane = is_flat(q, from) && is_flat(q, to);
     if !moves || !plane || !length.is_finite() {
         return own;
@@ -165,7 +166,7 @@ pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f6
     let sides = 96;
     let [u, v] = across(normal);
     let point = |side: i32| {
-        let (sin, cos) = (f64::from(side) * TAU / f64::from(sides)).sin_cos();
+        let (sin, cos) = portable::sin_cos(f64::from(side) * TAU / f64::from(sides));
         [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
     };
     (0..=sides).map(point).collect()

@@ -3,7 +3,7 @@
 //! In: a frame of the model and rows of channels. Out: where a point is as seen from it, at the time of the row.
 //! Never here: the camera, which stands still in the frame; forces.
 
-use crate::expr::Expr;
+use crate::expr::{Expr, portable};
 use crate::system::ChannelKind;
 use crate::view::quantity::{Quantities, Source};
 
@@ -53,7 +53,7 @@ impl Seat {
         let axis = axis.map(|source| source.read(row));
         let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
         let n = axis.map(|a| a / length);
-        let (sin, cos) = angle.read(row).sin_cos();
+        let (sin, cos) = portable::sin_cos(angle.read(row));
         let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
         [0, 1, 2].map(|k| {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -78,10 +78,10 @@ impl Seat {
             Turn::Body(_) => false,
         };
         if upright {
-            let radius = far[0].hypot(far[1]);
+            let radius = portable::hypot(far[0], far[1]);
             return [[-radius, -radius, low[2]], [radius, radius, high[2]]];
         }
-        let radius = far[0].hypot(far[1]).hypot(far[2]);
+        let radius = portable::hypot(portable::hypot(far[0], far[1]), far[2]);
         [[-radius; 3], [radius; 3]]
     }
 }

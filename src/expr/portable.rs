@@ -1,0 +1,167 @@
+//! The elementary functions of `f64`, by the same arithmetic on every machine.
+//!
+//! `std`'s own are those of the platform's C library and may differ in their last bit from one to the
+//! next; a chaotic motion makes of that bit another motion, and a demo recorded here would not be the
+//! one recorded there. These are `libm`'s, which are written out in operations that IEEE 754 fixes to
+//! the bit; so are `sqrt`, `mul_add`, `floor`, … of `std`, which are used as they are.
+//!
+//! In and out: numbers. Never here: other precisions (`double`), expressions. Everywhere else `std`'s
+//! elementary functions are refused, by `clippy.toml` and by a test.
+
+/// The sine.
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// The cosine.
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// Sine and cosine, as [`sin`] and [`cos`] give them.
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+/// The tangent.
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+
+/// The inverse sine, in [−π/2, π/2].
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x)
+}
+
+/// The inverse cosine, in [0, π].
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The inverse tangent, in [−π/2, π/2].
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+
+/// The angle of the point with ordinate `y` and abscissa `x`, in [−π, π].
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// The hyperbolic sine.
+pub fn sinh(x: f64) -> f64 {
+    libm::sinh(x)
+}
+
+/// The hyperbolic cosine.
+pub fn cosh(x: f64) -> f64 {
+    libm::cosh(x)
+}
+
+/// The hyperbolic tangent.
+pub fn tanh(x: f64) -> f64 {
+    libm::tanh(x)
+}
+
+/// e to this power.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// 2 to this power.
+pub fn exp2(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
+/// The natural logarithm.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// The natural logarithm of 1 + `x`, without loss where `x` is small.
+pub fn ln_1p(x: f64) -> f64 {
+    libm::log1p(x)
+}
+
+/// The logarithm to base 10.
+pub fn log10(x: f64) -> f64 {
+    libm::log10(x)
+}
+
+/// The logarithm to base 2.
+pub fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
+/// `x` to a real power.
+pub fn powf(x: f64, n: f64) -> f64 {
+    libm::pow(x, n)
+}
+
+/// `x` to an integer power, by squaring; a negative one is the reciprocal of the positive.
+///
+/// `std` leaves the order of the products, and so their rounding, to the compiler.
+pub fn powi(x: f64, n: i32) -> f64 {
+    let (mut power, mut square, mut left) = (1.0, x, n.unsigned_abs());
+    loop {
+        if left & 1 == 1 {
+            power *= square;
+        }
+        left >>= 1;
+        if left == 0 {
+            return if n < 0 { 1.0 / power } else { power };
+        }
+        square *= square;
+    }
+}
+
+/// The cube root.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
+/// √(x² + y²), without overflow on the way.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bits that must come out on every machine, of arguments where C libraries are known to differ;
+    /// each lies within two units of the last place of the true value.
+    #[test]
+    fn the_bits_are_the_same_everywhere() {
+        let check = |name: &str, found: f64, expected: u64| {
+            assert_eq!(found.to_bits(), expected, "{name}: {found:?} = {:#018x}", found.to_bits());
+        };
+        check("sin 1e22", sin(1e22), 0xbfeb_453a_b76b_f397);
+        check("cos 0.5", cos(0.5), 0x3fec_1528_065b_7d50);
+        check("tan 1.57", tan(1.57), 0x4093_9f0f_f737_e7f3);
+        check("asin 0.9", asin(0.9), 0x3ff1_ea93_705f_a172);
+        check("acos -0.3", acos(-0.3), 0x3ffe_0200_bbc9_6ad8);
+        check("atan 3", atan(3.0), 0x3ff3_fc17_6b7a_8560);
+        check("atan2 -1 2", atan2(-1.0, 2.0), 0xbfdd_ac67_0561_bb4f);
+        check("sinh 1.3", sinh(1.3), 0x3ffb_2c93_1004_5c64);
+        check("cosh 1.3", cosh(1.3), 0x3fff_88dd_5c27_9504);
+        check("tanh 0.7", tanh(0.7), 0x3fe3_56fb_17af_2e90);
+        check("exp 0.7", exp(0.7), 0x4000_1c2a_6126_8987);
+        check("exp2 0.7", exp2(0.7), 0x3ff9_fdf8_bcce_533d);
+        check("ln 10", ln(10.0), 0x4002_6bb1_bbb5_5516);
+        check("ln_1p 1e-5", ln_1p(1e-5), 0x3ee4_f8ae_a9ae_7317);
+        check("log10 2", log10(2.0), 0x3fd3_4413_509f_79ff);
+        check("log2 10", log2(10.0), 0x400a_934f_0979_a371);
+        check("powf 1.1 2.4", powf(1.1, 2.4), 0x3ff4_1cc1_c85f_4457);
+        check("powi 1.1 13", powi(1.1, 13), 0x400b_9e40_5ed5_ecb6);
+        check("cbrt 2", cbrt(2.0), 0x3ff4_28a2_f98d_728b);
+        check("hypot 1 2", hypot(1.0, 2.0), 0x4001_e377_9b97_f4a8);
+    }
+
+    #[test]
+    fn integer_powers_reach_both_ends() {
+        assert_eq!(powi(2.0, i32::MIN), 0.0);
+        assert_eq!(powi(0.5, i32::MIN), f64::INFINITY);
+        assert_eq!((powi(0.0, 0), powi(-3.0, 3), powi(-2.0, -2)), (1.0, -27.0, 0.25));
+    }
+}
