@@ -1,6 +1,6 @@
 //! A page of one's own in phaselab's shell: a clock that runs until it is told otherwise.
 //!
-//! `cargo run --example page`, then: Space holds it, `f` fills the screen with its digits, `i` opens a line of text, `z` suspends, `p` panics, `t` panics on
+//! `cargo run --example page`, then: Space holds it, `f` fills the screen with its digits, `i` opens a line of text, `M` has the mouse reported, `z` suspends, `p` panics, `t` panics on
 //! another thread, `q` quits. The tests of the shell run it on a pseudo-terminal.
 
 use std::io::{Write, stderr};
@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use color_eyre::eyre::Result;
-use phaselab::app::{Code, Key};
+use phaselab::app::{Code, Key, Mouse};
 use phaselab::shell::{Ending, Input, Pace, Page, Refusal, Wish, perform, report_panics};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -20,6 +20,7 @@ struct Clock {
     time: Duration,
     held: bool,
     full: bool,
+    mouse: bool,
     typing: Option<String>,
     inputs: usize,
     size: (u16, u16),
@@ -52,8 +53,15 @@ impl Page for Clock {
                 self.typing = Some(format!("caught: {}", broken.is_err()));
             }
             Input::Paste(text) => self.typing = Some(text),
+            Input::Key(key) if key == Key::char('M') => {
+                self.mouse = !self.mouse;
+                return Wish::Mouse(self.mouse);
+            }
+            Input::Mouse(Mouse { column, row, act }) => {
+                self.typing = Some(format!("{act:?} {column} {row}"));
+            }
             Input::Resize(columns, rows) => self.size = (columns, rows),
-            Input::Key(_) => {}
+            Input::Key(_) | Input::Focus(_) => {}
         }
         Wish::Nothing
     }
@@ -102,7 +110,7 @@ impl Page for Clock {
 
 fn main() -> Result<ExitCode> {
     report_panics()?;
-    match perform(&mut Clock::default(), Pace { frames: 30, synchronized: true }) {
+    match perform(&mut Clock::default(), Pace { frames: 30, synchronized: true, mouse: false }) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),
         Err(Refusal::NoTerminal(why)) => {

@@ -16,6 +16,7 @@ mod lab;
 mod landscape;
 mod menu;
 mod meter;
+mod mouse;
 mod notice;
 mod perform;
 mod picker;
@@ -34,6 +35,7 @@ pub use key::{Code, Key};
 pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
 pub use meter::Meter;
+pub use mouse::{Act, Mouse};
 pub use notice::Notice;
 pub use picker::Picker;
 pub use plot::{Eye, Lens, Plot};
@@ -60,6 +62,8 @@ pub struct App {
     pub notice: Option<Notice>,
     /// How fast things go.
     pub meter: Meter,
+    /// Whether the terminal is to report the mouse; its own selection of text does not work meanwhile.
+    pub mouse: bool,
     /// How many rows the page of text is scrolled down.
     pub scroll: u16,
     drawn: Drawn,
@@ -107,6 +111,7 @@ impl App {
             lab: None,
             notice: None,
             meter: Meter::default(),
+            mouse: false,
             scroll: 0,
             drawn: Drawn::default(),
             asked: None,

@@ -39,7 +39,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         catalog.find(name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
-    let mut session = Session::new(catalog, request.open.as_deref(), request.look(&variable))?;
+    let mut session = Session::new(catalog, request, request.look(&variable))?;
     let ending = perform(&mut session, request.pace(&variable));
     // The worker may be in the middle of a long step, and nobody waits for it any more.
     std::mem::forget(session);

@@ -17,6 +17,8 @@ pub enum Action {
     Help,
     /// Search all actions by name.
     Palette,
+    /// Have the mouse reported, or leave it to the terminal again.
+    Mouse,
     /// Leave the innermost thing that is open.
     Back,
     /// Show a page.

@@ -21,6 +21,8 @@ pub enum Event {
     Paste(String),
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
+    /// The window of the terminal has got the keyboard, or lost it.
+    Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
     Snapshot(Arc<Snapshot>),
     /// A system asked for by [`Effect::Load`] is there, or is not.
@@ -73,6 +75,8 @@ pub enum Effect {
     Load(String),
     /// Draw every cell anew.
     Repaint,
+    /// Have the terminal report the mouse, or leave it alone.
+    Mouse(bool),
     /// Stop the process as the terminal's Ctrl-Z does.
     Suspend,
     /// End the program.

@@ -16,6 +16,7 @@ impl App {
             Action::Repaint => vec![Effect::Repaint],
             Action::Help => self.help(),
             Action::Palette => self.open_palette(),
+            Action::Mouse => self.switch_mouse(),
             Action::Back => self.back(),
             Action::Show(page) => {
                 self.go(page);
@@ -150,6 +151,16 @@ impl App {
                 change(lens);
             }
         })
+    }
+
+    fn switch_mouse(&mut self) -> Vec<Effect> {
+        self.mouse = !self.mouse;
+        self.notice = Some(Notice::info(if self.mouse {
+            "The mouse is phaselab's now; M gives it back, to select text with."
+        } else {
+            "The mouse is the terminal's again."
+        }));
+        vec![Effect::Mouse(self.mouse)]
     }
 
     fn help(&mut self) -> Vec<Effect> {

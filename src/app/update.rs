@@ -15,7 +15,7 @@ impl App {
         match event {
             Event::Key(key) => self.press(key),
             Event::Paste(text) => self.paste(&text),
-            Event::Resize(..) => Vec::new(),
+            Event::Resize(..) | Event::Focus(_) => Vec::new(),
             Event::Snapshot(snapshot) => self.see(&snapshot),
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),
             Event::Loaded(Err(failure)) => self.failed(failure),

@@ -26,6 +26,11 @@ pub(super) struct Arguments {
     /// Leave out the marks round each frame, for a terminal that shows them.
     #[arg(long)]
     no_sync: bool,
+    /// Use the mouse from the beginning; in the lab M switches it on and off.
+    ///
+    /// While it is on, the terminal's own selection of text needs Shift held.
+    #[arg(long)]
+    mouse: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -76,6 +81,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         },
         frames: arguments.fps,
         unsynchronized: arguments.no_sync,
+        mouse: arguments.mouse,
     };
     match shell::run(&request) {
         Ok(Ending::Quit) => Ok(()),

@@ -1,6 +1,7 @@
-//! Input: the bytes a terminal sends, as keys and pasted text.
+//! Input: the bytes a terminal sends, as keys, pasted text and reports of the mouse.
 //!
-//! In: bytes, in pieces of any size, and the news that no more came for a while. Out: [`Input`]s.
+//! In: bytes, in pieces of any size, and the news that no more came for a while; which reports were asked for.
+//! Out: [`Input`]s.
 //! Never here: reading them, or what a key does. No byte string makes it panic or get stuck.
 //!
 //! The sequences are taken apart by `vte`, which alacritty's terminal lives on; what a lone Esc is, time tells.
@@ -11,7 +12,8 @@ use std::time::{Duration, Instant};
 
 use vte::{Params, Parser, Perform};
 
-use crate::app::{Code, Key};
+use super::terminal::Mode;
+use crate::app::{Act, Code, Key, Mouse};
 
 /// What a person did at the terminal.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +22,10 @@ pub enum Input {
     Key(Key),
     /// Text was pasted, and the terminal said so; longer text is cut after [`PASTE_LIMIT`] bytes.
     Paste(String),
+    /// Something was done with the mouse.
+    Mouse(Mouse),
+    /// The window has got the keyboard, or lost it.
+    Focus(bool),
     /// The window has another size: columns, rows.
     Resize(u16, u16),
 }
@@ -64,6 +70,10 @@ impl Decoder {
 
     fn parse(&mut self, bytes: &[u8]) {
         for &byte in bytes {
+            if self.sink.skip > 0 {
+                self.sink.skip -= 1;
+                continue;
+            }
             if self.escaped && byte == ESC {
                 self.sink.press(Code::Esc);
                 continue;
@@ -87,9 +97,15 @@ impl Decoder {
         }
     }
 
-    /// Whether the terminal was told to put pastes in brackets; if not, a bracket is noise.
-    pub(super) fn expect_pastes(&mut self, expected: bool) {
-        self.sink.brackets = expected;
+    /// Whether the terminal was told to send what a mode brings; if not, it is noise.
+    pub(super) fn expect(&mut self, mode: Mode, expected: bool) {
+        let expects = &mut self.sink.expects;
+        match mode {
+            Mode::Paste => expects.pastes = expected,
+            Mode::Mouse => expects.mouse = expected,
+            Mode::Focus => expects.focus = expected,
+            Mode::AlternateScreen | Mode::HiddenCursor => {}
+        }
     }
 
     /// When [`Self::expire`] is due; `None` where nothing is unfinished.
@@ -103,7 +119,9 @@ impl Decoder {
         if self.sink.paste.is_some() {
             Some(PASTE)
         } else {
-            (self.begun > 0 || self.sink.prefix != Prefix::None).then_some(SEQUENCE)
+            let unfinished =
+                self.begun > 0 || self.sink.prefix != Prefix::None || self.sink.skip > 0;
+            unfinished.then_some(SEQUENCE)
         }
     }
 
@@ -126,8 +144,8 @@ impl Decoder {
     }
 
     fn reset(&mut self) {
-        let (inputs, brackets) = (mem::take(&mut self.sink.inputs), self.sink.brackets);
-        *self = Self { sink: Sink { inputs, brackets, ..Sink::default() }, ..Self::default() };
+        let (inputs, expects) = (mem::take(&mut self.sink.inputs), self.sink.expects);
+        *self = Self { sink: Sink { inputs, expects, ..Sink::default() }, ..Self::default() };
     }
 }
 
@@ -142,6 +160,17 @@ enum Prefix {
     Console,
 }
 
+/// What the terminal was told to send.
+#[derive(Clone, Copy, Default)]
+struct Expected {
+    /// Pastes in brackets.
+    pastes: bool,
+    /// Reports of the mouse.
+    mouse: bool,
+    /// Reports of the window's focus.
+    focus: bool,
+}
+
 /// What the parser has found.
 #[derive(Default)]
 struct Sink {
@@ -150,8 +179,10 @@ struct Sink {
     /// Alt goes with the next key.
     alt: bool,
     paste: Option<String>,
-    /// Pastes come in brackets.
-    brackets: bool,
+    /// What is no noise.
+    expects: Expected,
+    /// Bytes still to come of a mouse report of the old form, which is not understood.
+    skip: usize,
     /// The parser has finished something since it was last asked.
     settled: bool,
 }
@@ -192,7 +223,7 @@ impl Sink {
             11..=15 => Code::F((number - 10) as u8),
             17..=21 => Code::F((number - 11) as u8),
             23 | 24 => Code::F((number - 12) as u8),
-            200 if self.brackets => {
+            200 if self.expects.pastes => {
                 self.paste = Some(String::new());
                 return;
             }
@@ -203,6 +234,30 @@ impl Sink {
             _ => return,
         };
         self.press_with(code, modifiers);
+    }
+
+    /// A mouse report of xterm's mode 1006: button and modifiers, column and row from 1.
+    fn report(&mut self, [button, column, row]: [u16; 3], released: bool) {
+        // Shift, alt and ctrl held with it make no difference.
+        let act = match (button & !0b1_1100, released) {
+            (0, false) => Act::Press,
+            (0, true) => Act::Release,
+            (32, false) => Act::Drag,
+            (64, false) => Act::WheelUp,
+            (65, false) => Act::WheelDown,
+            _ => return,
+        };
+        if let (Some(column), Some(row)) = (column.checked_sub(1), row.checked_sub(1))
+            && self.paste.is_none()
+        {
+            self.inputs.push_back(Input::Mouse(Mouse { column, row, act }));
+        }
+    }
+
+    fn focus(&mut self, gained: bool) {
+        if self.paste.is_none() {
+            self.inputs.push_back(Input::Focus(gained));
+        }
     }
 
     /// Keys that end in a letter of their own.
@@ -263,11 +318,19 @@ impl Perform for Sink {
 
     fn csi_dispatch(&mut self, params: &Params, intermediates: &[u8], _: bool, action: char) {
         self.settled = true;
-        let mut params = params.iter().map(|p| p.first().copied().unwrap_or(0));
-        let (first, modifiers) = (params.next().unwrap_or(0), params.next().unwrap_or(1));
+        let numbers = || params.iter().map(|p| p.first().copied().unwrap_or(0));
+        let (first, modifiers) = (numbers().next().unwrap_or(0), numbers().nth(1).unwrap_or(1));
         match action {
-            // Mouse reports and answers to questions nobody here asks.
+            'M' | 'm' if intermediates == b"<" && self.expects.mouse => {
+                if let [button, column, row] = numbers().collect::<Vec<_>>()[..] {
+                    self.report([button, column, row], action == 'm');
+                }
+            }
+            // Answers to questions nobody here asks.
             _ if !intermediates.is_empty() => {}
+            // A terminal that knows the mouse only in its oldest form: three bytes more.
+            'M' if self.expects.mouse => self.skip = 3,
+            'I' | 'O' if self.expects.focus && first == 0 => self.focus(action == 'I'),
             '[' => self.prefix = Prefix::Console,
             '~' => self.numbered(first, modifiers),
             // With another number it is an answer, such as the cursor's place.
@@ -299,8 +362,13 @@ mod tests {
 
     /// What whole bytes, and then silence, mean.
     fn decode(bytes: &[u8]) -> Vec<Input> {
+        decode_with(Mode::Paste, bytes)
+    }
+
+    /// The same where a mode is on.
+    fn decode_with(mode: Mode, bytes: &[u8]) -> Vec<Input> {
         let mut decoder = Decoder::default();
-        decoder.expect_pastes(true);
+        decoder.expect(mode, true);
         decoder.feed(bytes, Instant::now());
         if decoder.deadline().is_some() {
             decoder.expire();
@@ -355,7 +423,9 @@ mod tests {
     fn what_nobody_asked_for_is_no_key() {
         for noise in [
             "\x1b[<0;0;0M",
+            "\x1b[<0;10;3M",
             "\x1b[<0;10;3m",
+            "\x1b[M",
             "\x1b]11;rgb:1010/1010/1414\x1b\\",
             "\x1b]0;q\x07",
             "\x1bP1$r0m\x1b\\",
@@ -365,6 +435,48 @@ mod tests {
         ] {
             check(&format!("{noise}q"), &[Key::char('q')]);
         }
+    }
+
+    #[test]
+    fn the_mouse_is_its_left_button_and_its_wheel() {
+        let check = |bytes: &str, expected: &[(u16, u16, Act)]| {
+            let expected: Vec<_> = expected
+                .iter()
+                .map(|&(column, row, act)| Input::Mouse(Mouse { column, row, act }))
+                .collect();
+            assert_eq!(decode_with(Mode::Mouse, bytes.as_bytes()), expected, "{bytes:?}");
+        };
+        check("\x1b[<0;1;1M\x1b[<0;1;1m", &[(0, 0, Act::Press), (0, 0, Act::Release)]);
+        check("\x1b[<32;80;24M", &[(79, 23, Act::Drag)]);
+        check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, Act::WheelUp), (4, 5, Act::WheelDown)]);
+        // With shift, alt and ctrl.
+        check("\x1b[<28;2;3M", &[(1, 2, Act::Press)]);
+        check("\x1b[<0;99999;99999M", &[(65534, 65534, Act::Press)]);
+        for nothing in [
+            "\x1b[<0;0;0M",
+            "\x1b[<0;1;0M",
+            "\x1b[<0;1M",
+            "\x1b[<0;1;1;1M",
+            "\x1b[<M",
+            // The middle and the right button, motion without a button, the wheel aside, more buttons.
+            "\x1b[<1;1;1M\x1b[<2;1;1m",
+            "\x1b[<34;1;1M\x1b[<35;1;1M",
+            "\x1b[<66;1;1M\x1b[<67;1;1M\x1b[<64;1;1m",
+            "\x1b[<128;1;1M\x1b[<65535;1;1M",
+            // Without mode 1006.
+            "\x1b[M !!\x1b[M#!\x7f",
+            "\x1b[M",
+        ] {
+            check(nothing, &[]);
+        }
+    }
+
+    #[test]
+    fn focus_is_told_where_it_was_asked_for() {
+        let expected = [false, true].map(Input::Focus);
+        assert_eq!(decode_with(Mode::Focus, b"\x1b[O\x1b[I"), expected);
+        assert_eq!(decode_with(Mode::Mouse, b"\x1b[O\x1b[I"), []);
+        assert_eq!(decode_with(Mode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
     }
 
     #[test]
@@ -379,12 +491,12 @@ mod tests {
     proptest! {
         #[test]
         fn nothing_swallows_q_for_ever(
-            brackets: bool,
+            modes in prop::sample::subsequence(vec![Mode::Paste, Mode::Mouse, Mode::Focus], 0..=3),
             bytes: Vec<u8>,
-            tail in "\x1b[\\[\\]PO_X]?(200~)?.{0,8}",
+            tail in "\x1b[\\[\\]PO_X]?(200~|M|<[0-9]{0,6}(;[0-9]{0,6}){0,4}[Mm])?.{0,8}",
         ) {
             let mut decoder = Decoder::default();
-            decoder.expect_pastes(brackets);
+            modes.into_iter().for_each(|mode| decoder.expect(mode, true));
             let mut now = Instant::now();
             decoder.feed(&bytes, now);
             decoder.feed(tail.as_bytes(), now);

@@ -31,6 +31,8 @@ pub struct Request {
     pub frames: Option<u16>,
     /// Leaves out the marks round each frame, for terminals that show them.
     pub unsynchronized: bool,
+    /// Has the mouse reported from the beginning.
+    pub mouse: bool,
 }
 
 /// Why the laboratory does not open.
@@ -59,7 +61,7 @@ impl Request {
     pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> Pace {
         let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
         let frames = self.frames.unwrap_or(if far { FAR } else { NEAR });
-        Pace { frames, synchronized: !self.unsynchronized }
+        Pace { frames, synchronized: !self.unsynchronized, mouse: self.mouse }
     }
 }
 

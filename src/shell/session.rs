@@ -12,6 +12,7 @@ use ratatui::layout::Rect;
 
 use super::input::Input;
 use super::loader::Loader;
+use super::request::Request;
 use super::stage::{Page, Wish};
 use crate::app::{App, Effect, Event, Loaded};
 use crate::experiment::Ready;
@@ -29,8 +30,9 @@ pub(super) struct Session {
 
 impl Session {
     /// The laboratory, opened at a preset or file, or at the picker.
-    pub(super) fn new(catalog: Catalog, open: Option<&str>, look: Look) -> io::Result<Self> {
-        let (app, effects) = App::new(&catalog, open);
+    pub(super) fn new(catalog: Catalog, request: &Request, look: Look) -> io::Result<Self> {
+        let (mut app, effects) = App::new(&catalog, request.open.as_deref());
+        app.mouse = request.mouse;
         let loader = Loader::new(Arc::new(catalog));
         let mut session = Self { app, look, worker: Worker::idle()?, loader };
         session.perform(effects);
@@ -50,6 +52,7 @@ impl Session {
                 Effect::Tell(command) => self.worker.tell(command),
                 Effect::Load(name) => self.loader.load(name),
                 Effect::Repaint => wish = Wish::Repaint,
+                Effect::Mouse(on) => wish = Wish::Mouse(on),
                 Effect::Suspend => wish = Wish::Suspend,
                 Effect::Quit => return Wish::Quit,
             }
@@ -70,6 +73,9 @@ impl Page for Session {
         self.update(match input {
             Input::Key(key) => Event::Key(key),
             Input::Paste(text) => Event::Paste(text),
+            // Nothing on the screen answers to it yet.
+            Input::Mouse(_) => return Wish::Nothing,
+            Input::Focus(gained) => Event::Focus(gained),
             Input::Resize(columns, rows) => Event::Resize(columns, rows),
         })
     }

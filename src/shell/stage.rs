@@ -19,6 +19,7 @@ use super::queue::Queue;
 use super::request::Refusal;
 use super::signals::Signals;
 use super::terminal::{Mode, NoTerminal, Ready, Terminal};
+use crate::app::Mouse;
 use crate::view::frame::Frames;
 
 /// What can be held up on a terminal.
@@ -43,6 +44,8 @@ pub enum Wish {
     Nothing,
     /// Every cell painted, whatever the terminal shows.
     Repaint,
+    /// The mouse reported, or left to the terminal.
+    Mouse(bool),
     /// To be stopped as by Ctrl-Z.
     Suspend,
     /// To end.
@@ -56,6 +59,8 @@ pub struct Pace {
     pub frames: u16,
     /// Whether they come between the marks of synchronized output.
     pub synchronized: bool,
+    /// Whether the mouse is reported from the beginning.
+    pub mouse: bool,
 }
 
 /// How a page came to its end.
@@ -74,6 +79,9 @@ const READ: usize = 4096;
 /// Frames that may fail one after the other before the terminal is given up.
 const FAILURES: u32 = 20;
 
+/// Between two frames while the window has not got the keyboard: two in a second are enough to see that it lives.
+const ASIDE: Duration = Duration::from_millis(500);
+
 /// Holds a page up on the terminal until it ends. The terminal is then as it was, whatever the way out.
 ///
 /// # Errors
@@ -91,6 +99,8 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         screen: Frames::new(pace.synchronized),
         queue: Queue::default(),
         size: None,
+        focused: true,
+        mouse: pace.mouse,
         failures: 0,
     };
     stage.enter()?;
@@ -113,6 +123,10 @@ struct Stage<'a> {
     screen: Frames,
     queue: Queue,
     size: Option<Size>,
+    /// The window has got the keyboard, as far as is known.
+    focused: bool,
+    /// The mouse is wanted.
+    mouse: bool,
     failures: u32,
 }
 
@@ -136,9 +150,14 @@ impl Stage<'_> {
             }
             while let Some(input) = self.decoder.next() {
                 changed = true;
+                due = due.min(Instant::now() + interval);
+                if !self.admits(&input) {
+                    continue;
+                }
                 match page.input(input) {
                     Wish::Nothing => {}
                     Wish::Repaint => self.screen.forget(),
+                    Wish::Mouse(on) => self.mouse = on,
                     Wish::Suspend => self.suspend()?,
                     Wish::Quit => return Ok(Ending::Quit),
                 }
@@ -149,6 +168,7 @@ impl Stage<'_> {
                 if changed {
                     self.frame(page);
                 }
+                let interval = if self.focused { interval } else { interval.max(ASIDE) };
                 (last, due, changed) = (now, now + interval, false);
             }
             self.send()?;
@@ -164,8 +184,31 @@ impl Stage<'_> {
     fn enter(&mut self) -> io::Result<()> {
         self.queue.clear();
         self.queue.push(&self.terminal.enter()?);
+        self.decoder.expect(Mode::Focus, true);
+        self.focused = true;
         self.screen.forget();
         Ok(())
+    }
+
+    /// Switches a mode, and knows what may then come in.
+    fn switch(&mut self, mode: Mode, on: bool) {
+        self.queue.push(self.terminal.switch(mode, on));
+        self.decoder.expect(mode, on);
+    }
+
+    /// Whether an input is for the page: what lies beyond the window is not. Who types or clicks looks here, even
+    /// where the terminal has not said so.
+    fn admits(&mut self, input: &Input) -> bool {
+        match *input {
+            Input::Focus(gained) => self.focused = gained,
+            Input::Key(_) | Input::Paste(_) => self.focused = true,
+            Input::Mouse(Mouse { column, row, .. }) => {
+                let size = self.size.unwrap_or_default();
+                return column < size.width && row < size.height;
+            }
+            Input::Resize(..) => {}
+        }
+        true
     }
 
     /// Gives the terminal back until the program goes on.
@@ -187,8 +230,8 @@ impl Stage<'_> {
 
     fn frame(&mut self, page: &mut impl Page) {
         let size = self.size.unwrap_or_default();
-        self.decoder.expect_pastes(page.is_typing());
-        self.queue.push(self.terminal.switch(Mode::Paste, page.is_typing()));
+        self.switch(Mode::Paste, page.is_typing());
+        self.switch(Mode::Mouse, self.mouse);
         self.queue.push(&self.screen.next(size, |area, buffer| page.draw(area, buffer)));
     }
 

@@ -65,6 +65,10 @@ pub(super) enum Mode {
     HiddenCursor,
     /// Pasted text comes in brackets.
     Paste,
+    /// Buttons, drags and the wheel are reported, in decimal numbers.
+    Mouse,
+    /// It is told when the window gets the keyboard and loses it.
+    Focus,
 }
 
 impl Mode {
@@ -74,6 +78,10 @@ impl Mode {
             Self::AlternateScreen => [b"\x1b[?1049h", b"\x1b[?1049l"],
             Self::HiddenCursor => [b"\x1b[?25l", b"\x1b[?25h"],
             Self::Paste => [b"\x1b[?2004h", b"\x1b[?2004l"],
+            Self::Mouse => {
+                [b"\x1b[?1000h\x1b[?1002h\x1b[?1006h", b"\x1b[?1006l\x1b[?1002l\x1b[?1000l"]
+            }
+            Self::Focus => [b"\x1b[?1004h", b"\x1b[?1004l"],
         }
     }
 }
@@ -124,7 +132,7 @@ impl Terminal {
             Some(held) => held,
             None => Held {
                 cooked: tcgetattr(self.input)?,
-                modes: vec![Mode::AlternateScreen, Mode::HiddenCursor],
+                modes: vec![Mode::AlternateScreen, Mode::HiddenCursor, Mode::Focus],
             },
         };
         let mut raw = now.cooked.clone();

@@ -80,11 +80,30 @@ fn a_paused_lab_sends_nothing() {
 fn a_far_terminal_gets_fewer_frames() {
     let mut lab = lab(&["pendulum"]).variable("SSH_TTY", "/dev/pts/0").start();
     lab.shows("running");
-    let before = lab.sent.len();
-    lab.bytes_in(Duration::from_secs(2));
-    let frames = String::from_utf8_lossy(&lab.sent[before..]).matches("\x1b[?2026h").count();
+    let frames = lab.frames_in(Duration::from_secs(2));
     assert!(frames <= 31, "{frames} frames in two seconds");
     quits(lab);
+}
+
+#[test]
+fn the_mouse_is_the_terminals_until_it_is_asked_for() {
+    let reported = |lab: &Session| {
+        lab.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::ButtonMotion
+    };
+    let mut plain = pendulum();
+    assert!(["1000", "1002", "1003", "1006"].iter().all(|m| !plain.sent().contains(m)));
+    plain.press("M");
+    plain.until("the mouse is reported", reported);
+    plain.shows("mouse");
+    plain.press("\x1b[<0;0;0M\x1b[<0;10;10M\x1b[<32;11;10M\x1b[<0;11;10m\x1b[<64;99999;1M");
+    plain.press("M");
+    plain.until("the mouse is left alone", |lab| !reported(lab));
+    quits(plain);
+
+    let mut asked = lab(&["pendulum", "--mouse"]).start();
+    asked.until("the mouse is reported", reported);
+    asked.shows("running");
+    quits(asked);
 }
 
 /// All numbers of the `CSI … m` sequences in what was sent.

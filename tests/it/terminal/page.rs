@@ -245,13 +245,98 @@ fn frames_are_whole_and_ask_nothing() {
         assert!(frame.starts_with("\x1b[?2026h"), "{frame:?}");
         assert_eq!(frame.matches("\x1b[?2026").count(), 1, "{frame:?}");
     }
-    assert_eq!(end, "\x1b[0m\x1b[?25h\x1b[?1049l");
+    assert_eq!(end, "\x1b[0m\x1b[?1004l\x1b[?25h\x1b[?1049l");
     for question in ["6n", "[c", "[0c", "[>", "]10", "]11", "?u", "\x1bP"] {
         assert!(!sent.contains(question), "{question:?} was sent");
     }
-    for mode in ["1000h", "1002h", "1003h", "1006h", "1004h", "2004h"] {
+    for mode in ["1000h", "1002h", "1003h", "1006h", "2004h"] {
         assert!(!sent.contains(mode), "{mode} was set");
     }
+}
+
+/// A page that has the mouse reported.
+fn pointed_at() -> Session {
+    let mut page = started();
+    page.press("M");
+    page.until("the mouse is reported", |page| {
+        page.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::ButtonMotion
+            && page.screen().mouse_protocol_encoding() == vt100::MouseProtocolEncoding::Sgr
+    });
+    page
+}
+
+#[test]
+fn the_mouse_is_reported_only_while_it_is_wanted() {
+    let mut page = started();
+    page.press("\x1b[<0;5;3M");
+    page.until("the report is read", |page| page.text().contains("inputs 1"));
+    assert!(!page.text().contains("Press"), "{}", page.text());
+
+    let mut page = pointed_at();
+    for (report, shown) in [
+        ("\x1b[<0;5;3M", "Press 4 2"),
+        ("\x1b[<32;80;24M", "Drag 79 23"),
+        ("\x1b[<0;80;24m", "Release 79 23"),
+        ("\x1b[<64;1;1M", "WheelUp 0 0"),
+        ("\x1b[<0;0;0M\x1b[<0;81;1M\x1b[<65;99999;99999M\x1b[<0;2;1M", "Press 1 0"),
+    ] {
+        page.press(report);
+        page.shows(shown);
+    }
+    page.press("\rM");
+    page.until("it is left alone", |page| {
+        page.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::None
+    });
+    let mouse = ["1000", "1002", "1003", "1006"];
+    assert!(page.modes_on().iter().all(|mode| !mouse.contains(&mode.as_str())));
+    page.press("q");
+    assert_eq!(page.ends().0, 0);
+    page.assert_restored();
+}
+
+#[test]
+fn the_mouse_is_left_alone_on_every_way_out() {
+    for (key, status) in [("q", 0), ("p", 101)] {
+        let mut page = pointed_at();
+        page.press(key);
+        assert_eq!(page.ends().0, status);
+        page.assert_restored();
+    }
+    let mut page = pointed_at();
+    page.signal(Signal::TERM);
+    assert_eq!(page.ends().0, 143);
+    page.assert_restored();
+
+    let mut page = pointed_at();
+    page.press("z");
+    page.stops();
+    page.until("the screen is given back", |page| !page.screen().alternate_screen());
+    page.assert_restored();
+    page.signal(Signal::CONT);
+    page.until("it is reported again", |page| {
+        page.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::ButtonMotion
+    });
+}
+
+#[test]
+fn a_window_that_nobody_looks_at_gets_few_frames() {
+    let mut page = started();
+    assert!(page.modes_on().contains(&"1004".to_owned()));
+    page.press("\x1b[O");
+    page.quiet(Duration::from_millis(300));
+    let frames = page.frames_in(Duration::from_secs(2));
+    assert!((1..=5).contains(&frames), "{frames} frames in two seconds");
+    let shown = page.text();
+    page.until("the clock goes on", |page| page.text() != shown);
+    page.press("\x1b[I");
+    let before = page.sent.len();
+    // Two in a second would take longer than anything may take here.
+    page.until("frames come fast again", |page| {
+        String::from_utf8_lossy(&page.sent[before..]).matches("\x1b[?2026h").count() > 50
+    });
+    page.press("q");
+    assert_eq!(page.ends().0, 0);
+    page.assert_restored();
 }
 
 #[test]

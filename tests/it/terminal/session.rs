@@ -262,6 +262,29 @@ impl Session {
         assert!(!screen.hide_cursor(), "the cursor is hidden");
         assert!(!screen.bracketed_paste(), "pastes are still bracketed");
         assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+        assert_eq!(self.modes_on(), Vec::<String>::new());
+    }
+
+    /// The private modes that were switched on and are so still; the cursor, which is on at first, where it is off.
+    pub(super) fn modes_on(&self) -> Vec<String> {
+        let mut on = Vec::new();
+        let sent = self.sent();
+        for rest in sent.split("\x1b[?").skip(1) {
+            let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+            let (mode, switched) = (rest[..end].to_owned(), rest[end..].starts_with('h'));
+            on.retain(|other| *other != mode);
+            if switched != (mode == "25") {
+                on.push(mode);
+            }
+        }
+        on
+    }
+
+    /// How many frames come in so much time.
+    pub(super) fn frames_in(&mut self, time: Duration) -> usize {
+        let before = self.sent.len();
+        self.bytes_in(time);
+        String::from_utf8_lossy(&self.sent[before..]).matches("\x1b[?2026h").count()
     }
 
     /// What was sent, as text.
