@@ -9,6 +9,7 @@ mod action;
 mod choose;
 mod event;
 mod field;
+mod fuzzy;
 mod history;
 mod key;
 pub mod keymap;
@@ -18,6 +19,7 @@ mod menu;
 mod meter;
 mod mouse;
 mod notice;
+mod palette;
 mod perform;
 mod picker;
 mod plot;
@@ -31,6 +33,7 @@ mod value;
 pub use action::{Action, Axes, Way};
 pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
 pub use field::{Field, Purpose};
+pub use fuzzy::Fit;
 pub use key::{Code, Key};
 pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
@@ -134,12 +137,7 @@ impl App {
 
     /// Whether an action can do something with the loaded system; most always can.
     pub fn offers(&self, action: Action) -> bool {
-        let Some(lab) = &self.lab else { return true };
-        match action {
-            Action::Strike => !lab.blows().is_empty(),
-            Action::NextFrame => !lab.loaded.model.frames.is_empty(),
-            _ => true,
-        }
+        self.lack(action).is_none()
     }
 
     /// Whether text is being typed, so that a paste means something.

@@ -3,7 +3,6 @@
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
 //! Never here: how a list is moved in.
 
-use super::keymap::{KEYS, Place};
 use super::plot::Lens;
 use super::{
     App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Over, Pane, Plot, Purpose,
@@ -18,6 +17,7 @@ impl App {
         let item = |method: &'static crate::integrate::Method| Item {
             label: method.name.to_owned(),
             about: format!("{}. {}", method.title, method.about),
+            keys: String::new(),
             refusal: (method.fits)(&lab.loaded.system).err().map(|refusal| refusal.reason),
             choice: Choice::Method(method.name),
         };
@@ -31,29 +31,6 @@ impl App {
             Some(now) => menu.on(now),
             None => menu,
         }));
-        Vec::new()
-    }
-
-    pub(super) fn open_palette(&mut self) -> Vec<Effect> {
-        let places = self.places();
-        let rows = KEYS.iter().filter(|row| {
-            places.contains(&row.place) && row.place != Place::Typing && self.offers(row.action)
-        });
-        let item = |row: &super::keymap::Binding| Item {
-            label: if row.hint.is_empty() {
-                row.help.to_owned()
-            } else {
-                format!("{}: {}", row.hint, row.help)
-            },
-            about: row.keys.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "),
-            refusal: None,
-            choice: Choice::Action(row.action),
-        };
-        let mut items: Vec<Item> = rows.map(item).collect();
-        if places.contains(&Place::Lab) {
-            items.extend(self.lab.iter().flat_map(Lab::blow_lines));
-        }
-        self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
 
@@ -133,6 +110,9 @@ impl App {
             (_, Choice::Method(name)) => vec![Effect::Tell(Command::Method(name.to_owned()))],
             (_, Choice::Blow(index)) => self.strike_by(index),
             (_, Choice::Action(action)) => self.perform(action),
+            (_, Choice::System(index)) => self.open_system(index),
+            (_, Choice::Value(target)) => self.type_into(target),
+            (_, Choice::Pane(pane)) => self.look_at(pane),
             (Choosing::Across { plot }, Choice::Space) => {
                 self.put(plot, |lab| Plot::Space(Eye::for_shapes(&lab.loaded)))
             }
@@ -209,7 +189,13 @@ impl App {
 }
 
 fn line(label: &str, about: &str, choice: Choice) -> Item {
-    Item { label: label.to_owned(), about: about.to_owned(), refusal: None, choice }
+    Item {
+        label: label.to_owned(),
+        about: about.to_owned(),
+        keys: String::new(),
+        refusal: None,
+        choice,
+    }
 }
 
 /// A line for every channel that can be told from the others.

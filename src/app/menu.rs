@@ -5,7 +5,8 @@
 use tui_input::Input;
 
 use super::action::Action;
-use super::picker::matches;
+use super::fuzzy::{Fit, Query};
+use super::{Pane, Target};
 
 /// A list from which one line, or several, can be taken.
 #[derive(Clone, Debug)]
@@ -54,6 +55,8 @@ pub struct Item {
     pub label: String,
     /// What it is, in a line.
     pub about: String,
+    /// The keys that do the same, with spaces between them.
+    pub keys: String,
     /// Why it cannot be taken here.
     pub refusal: Option<String>,
     /// What it stands for.
@@ -77,6 +80,12 @@ pub enum Choice {
     Time,
     /// A channel.
     Channel(usize),
+    /// The system of this place in the catalog.
+    System(usize),
+    /// A value to be typed.
+    Value(Target),
+    /// A pane of the lab.
+    Pane(Pane),
 }
 
 impl Menu {
@@ -94,11 +103,28 @@ impl Menu {
         self
     }
 
-    /// The places of the lines that fit what is typed.
+    /// The places of the lines that fit what is typed, the best first, and how each fits.
+    pub fn found(&self) -> Vec<(usize, Fit)> {
+        let text = self.filter.as_ref().map_or("", Input::value);
+        if text.trim().is_empty() {
+            return (0..self.items.len()).map(|index| (index, Fit::default())).collect();
+        }
+        let mut query = Query::new(text);
+        let lines = self.items.iter().enumerate();
+        let mut found: Vec<(usize, Fit)> = lines
+            .filter_map(|(index, item)| Some((index, query.fit(&item.label, &item.about)?)))
+            .collect();
+        // Of equals what can be done comes first, and then the order of the list.
+        found.sort_by_key(|(index, fit)| {
+            let item = &self.items[*index];
+            (std::cmp::Reverse(fit.score), item.refusal.is_some())
+        });
+        found
+    }
+
+    /// The places of the lines that fit what is typed, the best first.
     pub fn shown(&self) -> Vec<usize> {
-        let query = self.filter.as_ref().map_or("", Input::value);
-        let fits = |item: &Item| matches(query, &[&item.label, &item.about]);
-        (0..self.items.len()).filter(|&index| fits(&self.items[index])).collect()
+        self.found().into_iter().map(|(index, _)| index).collect()
     }
 
     /// The selected line.

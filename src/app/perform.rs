@@ -238,7 +238,7 @@ impl App {
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
 
-    fn open_selected(&mut self) -> Vec<Effect> {
+    pub(super) fn open_selected(&mut self) -> Vec<Effect> {
         let Some(name) = self.picker.take() else {
             return self.say("No system fits this search.");
         };

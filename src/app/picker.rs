@@ -114,7 +114,7 @@ impl Picker {
 }
 
 /// Whether every word of the query stands in one of the texts; neither case nor accents matter.
-pub(super) fn matches(query: &str, texts: &[&str]) -> bool {
+fn matches(query: &str, texts: &[&str]) -> bool {
     let texts: Vec<String> = texts.iter().map(|text| folded(text)).collect();
     folded(query).split_whitespace().all(|word| texts.iter().any(|text| text.contains(word)))
 }

@@ -26,6 +26,7 @@ impl Lab {
             Item {
                 label: format!("strike: {}", impulse.name),
                 about: impulse.about.clone(),
+                keys: String::new(),
                 refusal: None,
                 choice: Choice::Blow(index),
             }

@@ -3,19 +3,19 @@
 //! In: the menu. Out: cells. Never here: what its lines do.
 
 use ratatui::layout::Rect;
-use unicode_width::UnicodeWidthStr;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use super::canvas::{Canvas, columns, row};
+use super::canvas::{Canvas, Span, columns, row};
 use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
-use super::wrap::words;
-use crate::app::Menu;
+use super::wrap::{capitalised, words};
+use crate::app::{Choice, Fit, Item, Menu};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     let width = area.width.saturating_sub(2).min(78);
-    let shown = menu.shown();
+    let shown = menu.found();
     let search = u16::from(menu.filter.is_some());
     let about = 4;
     // As high as for all its lines, so that it does not jump while they are searched.
@@ -40,11 +40,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     }
     let (list, below) = split_rows(rest, rest.height.saturating_sub(about));
     let rows = usize::from(list.height);
-    let widest = menu.items.iter().map(|item| canvas.text(&item.label).width()).max().unwrap_or(0);
-    let widest = (widest as u16).min(list.width * 3 / 4);
+    let columns_of = Columns::of(canvas, menu, list.width);
     let first = window(menu.selected, shown.len(), rows);
-    for (place, index) in shown.iter().enumerate().skip(first).take(rows) {
-        let item = &menu.items[*index];
+    for (place, (index, fit)) in shown.iter().enumerate().skip(first).take(rows) {
         let area = row(list, place - first);
         let marked = menu.marked.contains(index);
         let mark = if marked {
@@ -55,10 +53,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             " "
         };
         canvas.left(columns(area, 0, 1), Role::Accent, mark);
-        let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
-        canvas.left(columns(area, 2, widest), role, &item.label);
-        let note = item.refusal.as_ref().map_or(item.about.as_str(), |_| "not for this system");
-        canvas.left(columns(area, widest + 4, area.width), Role::Dim, note);
+        line(canvas, area, (&menu.items[*index], fit), &columns_of);
         if place == menu.selected {
             canvas.tint(area, Role::Selected);
         }
@@ -68,12 +63,80 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     }
     if let Some((_, item)) = menu.current() {
         let (role, text) = match &item.refusal {
-            Some(reason) => (Role::Warn, format!("Not for this system: {reason}")),
+            Some(reason) => (Role::Warn, format!("{}: {reason}", capitalised(refused(item)))),
             None => (Role::Text, item.about.clone()),
         };
         let text = canvas.text(&text);
         for (index, line) in words(&text, inner.width.into()).iter().enumerate() {
             canvas.left(row(below, index + 1), role, line);
         }
+    }
+}
+
+/// Where the columns of the lines stand: as wide as the longest label and keys.
+struct Columns {
+    label: u16,
+    keys: u16,
+}
+
+impl Columns {
+    fn of(canvas: &Canvas<'_>, menu: &Menu, width: u16) -> Self {
+        let widest = |text: fn(&Item) -> &str| {
+            let wide = menu.items.iter().map(|item| canvas.text(text(item)).width());
+            wide.max().unwrap_or(0).min(usize::from(width)) as u16
+        };
+        let keys = widest(|item| &item.keys).min(width / 3);
+        let label = widest(|item| &item.label);
+        // Where there are keys they matter more than what is said about the line, which stands below the list too.
+        let most = if keys > 0 { width.saturating_sub(keys + 4) } else { width * 3 / 4 };
+        Self { label: label.min(most), keys }
+    }
+}
+
+/// A line: its label with the letters found, what is said about it or why not, the keys at the right.
+fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &Columns) {
+    let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
+    canvas.spans(columns(area, 2, grid.label), &label(canvas, item, (fit, role)));
+    canvas.right(
+        columns(area, area.width.saturating_sub(grid.keys), grid.keys),
+        Role::Accent,
+        &item.keys,
+    );
+    let room =
+        area.width.saturating_sub(grid.label + 4 + if grid.keys > 0 { grid.keys + 2 } else { 0 });
+    let note = if item.refusal.is_some() { refused(item) } else { &item.about };
+    if room >= LEAST_NOTE {
+        canvas.left(columns(area, grid.label + 4, room), Role::Dim, note);
+    }
+}
+
+/// What is said about a line needs so many columns beside it.
+const LEAST_NOTE: u16 = 8;
+
+/// The label in pieces, those that were found marked.
+fn label(canvas: &Canvas<'_>, item: &Item, (fit, role): (&Fit, Role)) -> Vec<Span> {
+    let mut spans: Vec<Span> = Vec::new();
+    let mut last = None;
+    for (place, letter) in item.label.chars().enumerate() {
+        let found = fit.letters.binary_search(&place).is_ok();
+        // A combining dot goes with its letter.
+        let combining = letter.width() == Some(0);
+        if last != Some(found) && !combining || spans.is_empty() {
+            let marked = canvas.style(Role::Accent).underlined();
+            spans.push((String::new(), if found { marked } else { canvas.style(role) }));
+            last = Some(found);
+        }
+        if let Some((text, _)) = spans.last_mut() {
+            text.push(letter);
+        }
+    }
+    spans.into_iter().map(|(text, style)| (canvas.text(&text), style)).collect()
+}
+
+/// Why a line cannot be taken, in three words.
+fn refused(item: &Item) -> &'static str {
+    match item.choice {
+        Choice::Method(_) => "not for this system",
+        _ => "not here",
     }
 }

@@ -1,10 +1,11 @@
 //! The table of keys: no twins, and nothing in it that does nothing.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::keymap::{self, Binding, CHAINS, KEYS, Place};
-use phaselab::app::{App, Drawn, Event, Page};
+use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
+use phaselab::app::{App, Choice, Drawn, Effect, Event, Key, Menu, Over, Page, Plot, Target};
 use phaselab::experiment::Status;
 
 use super::scripts::with_blows;
@@ -47,7 +48,7 @@ fn states(place: Place) -> Vec<App> {
     };
     match place {
         Place::Always | Place::Anywhere => vec![lab("")],
-        Place::Lab => vec![lab(""), with_blows(&["push"])],
+        Place::Lab => vec![with_blows(&["push"]), lab("")],
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
         Place::Experiment => vec![lab("Right Wait Right u"), lab("4")],
@@ -80,36 +81,191 @@ fn with_frame() -> App {
     app
 }
 
-fn does_something(row: &Binding, key: phaselab::app::Key) -> bool {
-    states(row.place).into_iter().any(|mut app| {
-        assert!(
-            app.places().contains(&row.place),
-            "{:?} is not active in its own state",
-            row.place
-        );
-        let before = summary(&app);
-        let effects = app.update(Event::Key(key));
-        !effects.is_empty() || summary(&app) != before
-    })
+/// What a person sees of an application, fact by fact.
+fn facts(app: &App) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
+    fact("page", format!("{:?}", app.page));
+    let over = match &app.over {
+        None => "nothing".to_owned(),
+        Some(Over::Help(_)) => "the keys".to_owned(),
+        Some(Over::Message(failure)) => failure.message.clone(),
+        Some(Over::Menu(menu)) => {
+            format!("list {:?} line {} marked {:?}", menu.title, menu.selected, menu.marked)
+        }
+        Some(Over::Field(field)) => format!("field {:?}", field.input.value()),
+        Some(Over::Prompt(prompt)) => format!("prompt {:?}", prompt.input.value()),
+    };
+    fact("over it", over);
+    fact("scrolled", app.scroll.to_string());
+    let notice = app.notice.as_ref().map_or("nothing", |notice| notice.text.as_str());
+    fact("told", notice.to_owned());
+    let search = app.picker.search.as_ref().map(|search| search.value().to_owned());
+    fact("search", format!("{search:?}"));
+    let system = app.picker.current().map_or("none", |entry| entry.name.as_str());
+    fact("system", system.to_owned());
+    let Some(lab) = &app.lab else { return facts };
+    fact("focus", format!("{:?}", lab.focus));
+    fact("zoomed", lab.zoomed.to_string());
+    let selection = lab.selection;
+    fact("parameter", selection.parameter.to_string());
+    fact("initial value", selection.initial.to_string());
+    fact("gauge", selection.gauge.to_string());
+    for index in 0..lab.count(Target::Parameter) {
+        let target = Target::Parameter(index);
+        let name = lab.facts(target).unwrap().name;
+        fact(&name, format!("{:?}", lab.value(target).unwrap()));
+    }
+    for (index, plot) in lab.plots.iter().enumerate() {
+        let about = |name: &str| format!("plot {index}, {name}");
+        match plot {
+            Plot::Space(eye) => {
+                fact(&about("direction"), format!("{:.4} {:.4}", eye.yaw, eye.pitch));
+                fact(&about("zoom"), eye.zoom.to_string());
+                fact(&about("frame"), format!("{:?}", eye.frame));
+            }
+            Plot::Phase { lens, .. } | Plot::Time { lens, .. } | Plot::Potential { lens, .. } => {
+                fact(&about("zoom"), format!("{:?}", lens.zoom));
+                fact(&about("pan"), format!("{:?}", lens.pan));
+                fact(&about("log"), lens.log.to_string());
+                fact(&about("cursor"), format!("{:?}", lens.cursor));
+            }
+        }
+    }
+    facts
 }
 
-/// All that a key can change.
-fn summary(app: &App) -> String {
-    let lab = app.lab.as_ref().map(|lab| {
-        let values: Vec<_> =
-            (0..4).map(|i| lab.value(phaselab::app::Target::Parameter(i))).collect();
-        format!("{:?} {:?} {} {:?} {values:?}", lab.plots, lab.focus, lab.zoomed, lab.selection)
+/// What a key does to an application: what is asked for, and which facts change.
+fn outcome(app: &mut App, act: impl FnOnce(&mut App) -> Vec<Effect>) -> String {
+    let before = facts(app);
+    let effects = act(app);
+    let asked = effects.iter().map(|effect| match effect {
+        Effect::Tell(command) => format!("{command:?}"),
+        other => format!("{other:?}"),
     });
-    let picker = (app.picker.selected, app.picker.search.as_ref().map(|s| s.value().to_owned()));
-    format!("{:?} {:?} {} {picker:?} {lab:?}", app.page, app.over, app.scroll)
+    let after = facts(app);
+    let changed = before.iter().zip(&after).filter(|(before, after)| before != after);
+    let changed = changed.map(|((name, before), (_, after))| format!("{name} {before} -> {after}"));
+    asked.chain(changed).collect::<Vec<_>>().join("; ")
+}
+
+/// The table of keys beside what each of them does in a state where it means something, in `tests/screens/keys.txt`.
+/// `PHASELAB_BLESS=1 cargo test app::keys` writes it anew; look at what changed before you commit it.
+#[test]
+fn every_key_in_the_table_does_what_is_written() {
+    let mut table = String::new();
+    for row in KEYS {
+        let does = |key: Key| {
+            let outcomes = states(row.place).into_iter().map(|mut app| {
+                let active = app.places().contains(&row.place);
+                assert!(active, "{:?} is not active in its own state", row.place);
+                outcome(&mut app, |app| app.update(Event::Key(key)))
+            });
+            outcomes.into_iter().find(|outcome| !outcome.is_empty()).unwrap_or_default()
+        };
+        let first = does(row.keys[0]);
+        assert!(!first.is_empty(), "{} does nothing: {}", row.keys[0], row.help);
+        for key in &row.keys[1..] {
+            assert_eq!(does(*key), first, "{key} and {}: {}", row.keys[0], row.help);
+        }
+        let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
+        let (place, help) = (row.place.title(), row.help);
+        table.push_str(&format!("{place} | {} | {help}\n    {first}\n", keys.join(" ")));
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/screens/keys.txt");
+    if std::env::var_os("PHASELAB_BLESS").is_some() {
+        std::fs::write(&path, &table).unwrap();
+    }
+    let meant = std::fs::read_to_string(&path).unwrap_or_default();
+    let wrong = table.lines().zip(meant.lines().chain([""])).find(|(now, meant)| now != meant);
+    assert!(table == meant, "a key has changed what it does: {wrong:?}");
+}
+
+/// The palette of an application.
+fn palette(app: &App) -> (App, Menu) {
+    let mut app = app.clone();
+    press(&mut app, ":");
+    let Some(Over::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    let menu = menu.clone();
+    (app, menu)
 }
 
 #[test]
-fn every_key_in_the_table_does_something() {
-    for row in KEYS {
-        for key in row.keys {
-            assert!(does_something(row, *key), "{key} does nothing: {}", row.help);
+fn the_palette_lists_every_row_and_does_what_its_key_does() {
+    for place in Place::ALL.into_iter().filter(|p| !matches!(p, Place::Field | Place::Typing)) {
+        for app in states(place) {
+            if app.over.is_some() || place == Place::Search {
+                continue;
+            }
+            let (open, menu) = palette(&app);
+            let places = app.places();
+            for row in KEYS {
+                let line = menu.items.iter().position(|item| {
+                    item.choice == Choice::Action(row.action)
+                        && item.label == row.help
+                        && item.about.starts_with(row.place.title())
+                });
+                let line = line.unwrap_or_else(|| panic!("{} is not listed", row.help));
+                let item = &menu.items[line];
+                let here = places.contains(&row.place);
+                assert!(item.refusal.is_none() == (here && app.offers(row.action)), "{item:?}");
+                let mut open = open.clone();
+                if let Some(Over::Menu(menu)) = &mut open.over {
+                    menu.selected = line;
+                }
+                if !here || !app.offers(row.action) {
+                    press(&mut open, "Enter");
+                    let told = open.notice.map(|notice| notice.text).unwrap_or_default();
+                    assert!(told.contains(item.refusal.as_ref().unwrap()), "{told}");
+                    continue;
+                }
+                let mut taken = app.clone();
+                let taken = outcome(&mut taken, |app| {
+                    *app = open;
+                    app.update(Event::Key(crate::hand::key("Enter")))
+                });
+                let mut pressed = app.clone();
+                let pressed = outcome(&mut pressed, |app| app.update(Event::Key(row.keys[0])));
+                assert_eq!(taken, pressed, "{:?}: {}", row.place, row.help);
+            }
         }
+    }
+}
+
+#[test]
+fn the_palette_opens_types_and_chooses() {
+    let first = |query: &str| {
+        let (mut app, _) = palette(&in_lab());
+        app.update(Event::Paste(query.to_owned()));
+        let Some(Over::Menu(menu)) = &app.over else { panic!() };
+        let label = menu.current().unwrap().1.label.clone();
+        let effects = press(&mut app, "Enter");
+        (
+            label,
+            outcome(&mut in_lab(), |before| {
+                *before = app;
+                effects
+            }),
+        )
+    };
+    for (query, label, does) in [
+        ("ene", "measure the drift of energy and all gauges from here", "Reference"),
+        ("kapitza", "open: Kapitza's pendulum", "Load(\"kapitza\")"),
+        ("henon", "open: Hénon–Heiles", "Load(\"henon-heiles\")"),
+        ("rk4", "method: rk4", "Method(\"rk4\")"),
+        ("type l", "type l", "over it nothing -> field \"1\""),
+        ("theta0", "type θ₀", "over it nothing -> field \"2\""),
+        ("gauges focus", "focus: gauges", "focus Parameters -> Gauges"),
+        (
+            "zoom",
+            "zoom: let the focused pane fill the page, or put it back",
+            "zoomed false -> true",
+        ),
+        ("page 3", "page 3: notes, source and expectations", "page Lab -> Notes"),
+    ] {
+        let (found, done) = first(query);
+        assert!(found.starts_with(label), "{query} finds {found}");
+        assert!(done.contains(does), "{query}: {done}");
     }
 }
 
@@ -118,7 +274,7 @@ fn the_palette_finds_the_energy() {
     let mut app = in_lab();
     press(&mut app, ": e n e Enter");
     assert_eq!(app.page, Page::Lab);
-    press(&mut app, ": e n e r g Space 4 Enter");
+    press(&mut app, "/ p a g e Space 4 Enter");
     assert_eq!(app.page, Page::Numbers);
 }
 

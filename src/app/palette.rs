@@ -1,0 +1,209 @@
+//! The palette: every action of the program by name, and all that can be chosen or typed by its own.
+//!
+//! In: the table of keys, the loaded system, the catalog. Out: a menu; what means nothing here is listed too, with why.
+//! Never here: how a line is searched, drawn or carried out.
+
+use super::keymap::{Binding, KEYS, Place};
+use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Over, Pane, Plot, Target};
+use crate::integrate::METHODS;
+use crate::system::System;
+
+impl App {
+    pub(super) fn open_palette(&mut self) -> Vec<Effect> {
+        // What is chosen is done to the page, not to the help above it.
+        if let Some(Over::Help(scroll)) = self.over {
+            self.scroll = scroll;
+        }
+        self.over = None;
+        let places = self.places_below();
+        let here = places.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place));
+        let elsewhere = KEYS.iter().filter(|row| !places.contains(&row.place));
+        let mut items: Vec<Item> = here.map(|row| self.line_of(row, None)).collect();
+        if let Some(lab) = &self.lab {
+            items.extend(lab.blow_lines());
+            items.extend(lab.value_lines());
+            items.extend(lab.pane_lines());
+            items.extend(method_lines(&lab.loaded.system));
+        }
+        items.extend(self.system_lines());
+        items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
+        self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
+        Vec::new()
+    }
+
+    fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
+        let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
+        let hint = if row.hint.is_empty() { String::new() } else { format!(" · {}", row.hint) };
+        let refusal = elsewhere.or_else(|| self.lack(row.action));
+        Item {
+            label: row.help.to_owned(),
+            about: format!("{}{hint}", row.place.title()),
+            keys: keys.join(" "),
+            refusal: refusal.map(str::to_owned),
+            choice: Choice::Action(row.action),
+        }
+    }
+
+    /// Why an action can do nothing with the loaded system; most always can.
+    pub fn lack(&self, action: Action) -> Option<&'static str> {
+        let lab = self.lab.as_ref()?;
+        match action {
+            Action::Strike if lab.blows().is_empty() => {
+                Some("this system has no blow that waits for a key")
+            }
+            Action::NextFrame if lab.loaded.model.frames.is_empty() => {
+                Some("this system has no frames to look from")
+            }
+            _ => None,
+        }
+    }
+
+    /// A line for each system of the catalog.
+    fn system_lines(&self) -> Vec<Item> {
+        let open = self.lab.as_ref().filter(|_| self.page != super::Page::Picker);
+        let open = open.map(|lab| lab.loaded.name.as_str());
+        let entries = self.picker.entries.iter().enumerate();
+        entries
+            .map(|(index, entry)| Item {
+                label: format!("open: {}", entry.info.title),
+                about: format!("{} · {}", entry.name, entry.info.summary),
+                keys: String::new(),
+                refusal: (open == Some(&entry.name)).then(|| "it is open".to_owned()),
+                choice: Choice::System(index),
+            })
+            .collect()
+    }
+
+    /// Shows the pane of a value and opens the field in which it is typed.
+    pub(super) fn type_into(&mut self, target: Target) -> Vec<Effect> {
+        self.go(super::Page::Lab);
+        if let Some(lab) = &mut self.lab {
+            lab.choose(target);
+        }
+        self.perform(Action::TypeValue)
+    }
+
+    /// Shows a pane of the lab.
+    pub(super) fn look_at(&mut self, pane: Pane) -> Vec<Effect> {
+        self.go(super::Page::Lab);
+        if let Some(lab) = &mut self.lab {
+            lab.focus = pane;
+        }
+        Vec::new()
+    }
+
+    /// Opens the system of this index in the lab.
+    pub(super) fn open_system(&mut self, index: usize) -> Vec<Effect> {
+        let Some(name) = self.picker.entries.get(index).map(|entry| entry.name.clone()) else {
+            return Vec::new();
+        };
+        self.picker.forget_search();
+        self.picker.select(&name);
+        self.open_selected()
+    }
+}
+
+/// Where the keys of a place hold, for one who looks for them elsewhere.
+fn where_it_holds(place: Place) -> &'static str {
+    match place {
+        Place::Always | Place::Anywhere => "it holds where no text is typed",
+        Place::Picker => "it is for the list of systems, to which Esc leads",
+        Place::Search => "it is for a search among the systems",
+        Place::Experiment => "it is for a system that is open",
+        Place::Lab => "it is for page 1, the lab",
+        Place::Space => "it is for a picture of the motion in space; Tab focuses one",
+        Place::Plot => "it is for a plot; Tab focuses one",
+        Place::Values => "it is for parameters or initial values; Tab focuses them",
+        Place::Gauges => "it is for the gauges; Tab focuses them",
+        Place::Text => "it is for pages of text",
+        Place::Menu => "it is for pop-up lists, as this one",
+        Place::Field => "it is for a field in which a value is typed",
+        Place::Typing => "it is for fields in which text is typed",
+    }
+}
+
+fn method_lines(system: &System) -> impl Iterator<Item = Item> {
+    METHODS.iter().map(|method| Item {
+        label: format!("method: {}", method.name),
+        about: format!("{}. {}", method.title, method.about),
+        keys: String::new(),
+        refusal: (method.fits)(system).err().map(|refusal| refusal.reason),
+        choice: Choice::Method(method.name),
+    })
+}
+
+impl Lab {
+    /// Selects a value.
+    pub(super) fn choose(&mut self, target: Target) {
+        match target {
+            Target::Parameter(index) => {
+                (self.focus, self.selection.parameter) = (Pane::Parameters, index);
+            }
+            Target::Initial(index) => {
+                (self.focus, self.selection.initial) = (Pane::Initial, index);
+            }
+        }
+    }
+
+    /// A line for each value that can be typed.
+    fn value_lines(&self) -> Vec<Item> {
+        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
+        let initial = (0..self.count(Target::Initial)).map(Target::Initial);
+        let line = |target: Target| {
+            let facts = self.facts(target)?;
+            let what = match target {
+                Target::Parameter(_) => "type",
+                Target::Initial(_) => "type the initial",
+            };
+            Some(Item {
+                label: format!("{what} {}", facts.shown),
+                about: format!("{}: {}", facts.name, facts.about),
+                keys: String::new(),
+                refusal: None,
+                choice: Choice::Value(target),
+            })
+        };
+        parameters.chain(initial).filter_map(line).collect()
+    }
+
+    /// A line for each pane.
+    fn pane_lines(&self) -> Vec<Item> {
+        let line = |pane: Pane| Item {
+            label: format!("focus: {}", self.name_of(pane)),
+            about: "a pane of the lab".to_owned(),
+            keys: String::new(),
+            refusal: None,
+            choice: Choice::Pane(pane),
+        };
+        self.panes().map(line).collect()
+    }
+
+    /// What a pane is called: its title, or the quantities it shows.
+    pub fn name_of(&self, pane: Pane) -> String {
+        let Pane::Plot(index) = pane else {
+            let name = match pane {
+                Pane::Parameters => "parameters",
+                Pane::Initial => "initial values",
+                Pane::Gauges | Pane::Plot(_) => "gauges",
+            };
+            return name.to_owned();
+        };
+        let channels = self.loaded.system.channels();
+        let shown = |channel: &usize| channels.get(*channel).map_or("?", |c| c.shown.as_str());
+        let title = |view: usize| self.loaded.model.views.get(view).map(|view| &view.title);
+        let titled = |view: Option<usize>, else_called: &str| {
+            let title = view.and_then(title).filter(|title| !title.is_empty());
+            title.map_or(else_called, String::as_str).to_owned()
+        };
+        match self.plots.get(index) {
+            None => "nothing".to_owned(),
+            Some(Plot::Space(eye)) => titled(eye.view, "motion in space"),
+            Some(Plot::Phase { x, y, .. }) => format!("{} against {}", shown(y), shown(x)),
+            Some(Plot::Potential { view, .. }) => titled(Some(*view), "potential"),
+            Some(Plot::Time { y, .. }) => {
+                let names: Vec<&str> = y.iter().map(shown).collect();
+                format!("{} against t", names.join(", "))
+            }
+        }
+    }
+}
