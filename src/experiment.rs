@@ -8,6 +8,7 @@ mod command;
 mod deviation;
 mod gauges;
 mod law;
+mod moment;
 mod motion;
 mod obey;
 mod ready;
@@ -27,6 +28,7 @@ use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
 pub use command::Command;
+pub use moment::{Changed, Moment, Named, Reference, Whereabouts};
 pub use ready::{Ready, Unready};
 pub use setup::{NoMethod, Setup, choose_method};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
@@ -191,6 +193,8 @@ impl Experiment {
             speed: self.setup.speed,
             parameters: self.setup.parameters.as_slice().into(),
             initial: Arc::clone(&self.initial),
+            setup: Arc::new(self.setup.clone()),
+            state: Arc::new(self.motion.state().clone()),
             values: self.motion.values().into(),
             bounds: self.recorder.bounds(),
             trail: self.recorder.trail(),

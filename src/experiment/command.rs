@@ -1,5 +1,7 @@
 //! What can be asked of an experiment: plain data that can be logged and replayed.
 
+use super::Moment;
+
 /// One request.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Command {
@@ -40,4 +42,6 @@ pub enum Command {
     Tolerance(f64),
     /// Takes the present values as the gauges' reference.
     Reference,
+    /// Takes up a motion that was left elsewhere.
+    TakeUp(Box<Moment>),
 }

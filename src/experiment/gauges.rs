@@ -7,10 +7,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::Gauge;
 use super::attitude::Attitude;
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::Residual;
+use super::{Gauge, Reference};
 use crate::analysis::{History, Stretch, Verdict, rounding_floor};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, casimir_rate};
@@ -133,6 +133,24 @@ impl Gauges {
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
         self.sample(now);
+    }
+
+    /// Measures from where other gauges of the same names measured from, where these show the same values as those did.
+    pub(super) fn restore(&mut self, references: &[Reference]) {
+        let known = |needle: &Needle| {
+            let value = needle.reference.to_bits();
+            references.iter().find(|r| r.name == needle.name && r.value.to_bits() == value)
+        };
+        let Some(since) = self.needles.iter().find_map(known).map(|r| r.since) else { return };
+        self.reference_time = since;
+        self.reference_steps = 0;
+        for needle in &mut self.needles {
+            if let Some(reference) = known(needle) {
+                needle.reference = reference.from;
+                needle.size = needle.size.max(reference.from.abs());
+                needle.farthest = reference.max_drift * needle.size;
+            }
+        }
     }
 
     /// A blow has led from some values to others: the references jump with them, so that drift is

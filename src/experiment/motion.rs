@@ -49,6 +49,24 @@ impl Motion {
         self.look()
     }
 
+    /// Takes up a motion that began at `start` and was left at this state.
+    pub(super) fn take_up(
+        &mut self,
+        state: &State,
+        parameters: &[f64],
+        start: f64,
+        released: &[usize],
+    ) -> Result<(), Fault> {
+        self.inner.take_up(state, parameters, start, released)?;
+        self.observer = self.inner.system().observer(parameters);
+        self.look()
+    }
+
+    /// How far the present is from keeping each constraint.
+    pub(super) fn residuals(&self) -> &[[f64; 2]] {
+        &self.residuals
+    }
+
     /// Goes on from a state at the present time.
     pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.inner.go_on(state, parameters)?;
@@ -143,6 +161,10 @@ impl Motion {
 
     pub(super) fn steps(&self) -> u64 {
         self.inner.steps()
+    }
+
+    pub(super) fn set_steps(&mut self, steps: u64) {
+        self.inner.set_steps(steps);
     }
 
     /// Forgets what was, until it [begins](Motion::begin); the clock shows `time`.

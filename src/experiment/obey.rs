@@ -36,12 +36,10 @@ impl Experiment {
                 self.setup.given.clear();
                 self.restart();
             }
-            Command::Method(name) => match choose_method(self.system(), &name) {
-                Ok(method) => self.change_method(method, self.motion.settings()),
-                Err(why) => self.tell(why.to_string()),
-            },
+            Command::Method(name) => self.take_method(&name, self.motion.settings()),
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
+            Command::TakeUp(moment) => self.take_up(&moment),
             Command::Reference => {
                 self.gauge(Gauges::refer);
                 self.tell(format!("the gauges measure from t = {}", short(self.time())));
@@ -160,6 +158,14 @@ impl Experiment {
         }
         let settings = Settings { tolerance: Some(tolerance), ..self.motion.settings() };
         self.change_method(self.motion.method(), settings);
+    }
+
+    /// Takes the method of a name, or tells why not.
+    pub(super) fn take_method(&mut self, name: &str, settings: Settings) {
+        match choose_method(self.system(), name) {
+            Ok(method) => self.change_method(method, settings),
+            Err(why) => self.tell(why.to_string()),
+        }
     }
 
     /// Goes on from the present state by another method. What drifted so far is not its doing, so

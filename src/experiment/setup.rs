@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::system::{Given, System};
 
 /// Everything an experiment is told at its beginning.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Setup {
     /// The parameters, in the model's order.
     pub parameters: Vec<f64>,

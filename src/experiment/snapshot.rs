@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::Trail;
+use super::{Setup, Trail};
 use crate::analysis::Verdict;
 use crate::integrate::Happening;
+use crate::system::{Form, State};
 
 /// The state of an experiment as the screen and the reports see it.
 #[derive(Clone, Debug)]
@@ -21,6 +22,10 @@ pub struct Snapshot {
     pub parameters: Arc<[f64]>,
     /// Initial values: coordinates, then velocities or momenta.
     pub initial: Arc<[f64]>,
+    /// What a restart would begin with: all that was asked for.
+    pub setup: Arc<Setup>,
+    /// Where the motion is, to the last bit; without numbers where it has not begun.
+    pub state: Arc<State>,
     /// The value of every channel now, in the order of the system's channels.
     pub values: Arc<[f64]>,
     /// The least and greatest value of every channel since the last restart, for axes that keep
@@ -50,6 +55,8 @@ impl Snapshot {
             speed: 1.0,
             parameters: Arc::default(),
             initial: Arc::default(),
+            setup: Arc::default(),
+            state: Arc::new(State::new(0.0, Form::Velocity, Vec::new())),
             values: Arc::default(),
             bounds: Arc::default(),
             trail: Trail::default(),

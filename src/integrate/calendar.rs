@@ -27,6 +27,11 @@ impl Calendar {
         self.fallen = None;
     }
 
+    /// All that falls at this time has fallen.
+    pub(super) fn pass(&mut self, now: f64) {
+        self.fallen = Some((now, usize::MAX));
+    }
+
     /// Whether an impulse has not fallen at a time yet: of several at one time those further down
     /// in the file are still to fall.
     fn is_open(&self, impulse: usize, time: f64) -> bool {

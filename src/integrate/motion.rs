@@ -167,6 +167,31 @@ impl Motion {
         self.resume(state)
     }
 
+    /// Takes up a motion that began at `start` and was left at this state, with these constraints
+    /// let go and all that happens at its time behind it. The state stays as it is, to the last
+    /// bit, if it has the form that the method works in.
+    ///
+    /// # Errors
+    /// Where the motion cannot go on from there.
+    pub fn take_up(
+        &mut self,
+        state: &State,
+        parameters: &[f64],
+        start: f64,
+        released: &[usize],
+    ) -> Result<(), Fault> {
+        self.begin(state, parameters)?;
+        for &constraint in released {
+            let own = self.own()?;
+            self.release(constraint, &own)?;
+        }
+        self.start = start;
+        self.calendar.begin(start);
+        self.calendar.pass(state.time);
+        self.state.copy_from(state);
+        self.stepper.start(state, &self.parameters)
+    }
+
     /// Takes another method or other settings, and goes on from the present state by it.
     ///
     /// # Errors
@@ -340,21 +365,26 @@ impl Motion {
             Action::Release(constraint) => {
                 self.before.copy_from(&self.state);
                 let state = self.own()?;
-                self.system = self.system.release(constraint, &state, &self.parameters);
-                if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
-                    self.stepper = stepper;
-                }
-                let known = self.crossings.take();
-                self.take_system();
-                if let (Some(crossings), Some(known)) = (&mut self.crossings, known) {
-                    crossings.inherit(known, &state)?;
-                }
-                self.resume(&state)?;
+                self.release(constraint, &state)?;
                 Kind::Release(constraint)
             }
             Action::Impulse(impulse) => return self.strike(impulse, Some(found.event)),
         };
         Ok(Happening { name: trigger.name, time: found.exact.high, kind })
+    }
+
+    /// Lets a constraint go at the present, which is `state` in the system's own form.
+    fn release(&mut self, constraint: usize, state: &State) -> Result<(), Fault> {
+        self.system = self.system.release(constraint, state, &self.parameters);
+        if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
+            self.stepper = stepper;
+        }
+        let known = self.crossings.take();
+        self.take_system();
+        if let (Some(crossings), Some(known)) = (&mut self.crossings, known) {
+            crossings.inherit(known, state)?;
+        }
+        self.resume(state)
     }
 
     /// An event that comes again and again without end stops the motion with a reason.
@@ -425,6 +455,11 @@ impl Motion {
             (Some(keeper), Form::Velocity) => keeper.residuals(&self.state),
             _ => Vec::new(),
         }
+    }
+
+    /// Counts on from so many steps.
+    pub fn set_steps(&mut self, steps: u64) {
+        self.steps = steps;
     }
 
     /// Forgets the count of steps; the clock shows `time`.

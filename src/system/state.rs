@@ -1,9 +1,12 @@
 //! A state of motion, and what a user may say of the first one.
 
+use serde::{Deserialize, Serialize};
+
 use crate::expr::Double;
 
 /// Which rates a state holds beside its coordinates.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Form {
     /// (q, q̇): what a Lagrangian is a function of.
     Velocity,

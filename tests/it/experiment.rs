@@ -2,6 +2,7 @@
 
 mod commands;
 mod gauges;
+mod moment;
 mod record;
 
 use std::sync::Arc;

@@ -1,0 +1,202 @@
+//! Moments: a motion left here and taken up there is the same to the last bit; in a changed system, as far as names go.
+
+use phaselab::experiment::{Command, Experiment, Moment, Status};
+use phaselab::preset::Catalog;
+
+use super::{PLENTY, build, gauge, run, shipped, value};
+
+/// A moment as it is kept in a file, and read back.
+fn kept(experiment: &Experiment) -> Moment {
+    let moment = Moment::of(experiment.model(), experiment.system(), &experiment.snapshot());
+    let text = toml::to_string(&moment).expect("it can be written");
+    let read: Moment = toml::from_str(&text).expect("it can be read");
+    assert_eq!(read, moment, "{text}");
+    read
+}
+
+/// Everything that is to be seen of the present, bit by bit.
+fn present(experiment: &Experiment) -> (u64, Vec<u64>, Vec<(String, u64, u64, u64)>, Status) {
+    let snapshot = experiment.snapshot();
+    let gauges = snapshot.gauges.iter().filter(|g| g.name != "attitude").map(|g| {
+        (g.name.clone(), g.value.to_bits(), g.reference.to_bits(), g.reference_time.to_bits())
+    });
+    // what keeps a condition measures from zero, since it was taken up
+    let constraints: Vec<&str> =
+        experiment.model().constraints.iter().map(|c| c.name.as_str()).collect();
+    let gauges = gauges.filter(|(name, ..)| !constraints.contains(&name.as_str())).collect();
+    let values = snapshot.values.iter().map(|x| x.to_bits()).collect();
+    (snapshot.time.to_bits(), values, gauges, snapshot.status)
+}
+
+#[test]
+fn every_preset_is_taken_up_to_the_last_bit() {
+    for entry in Catalog::with_folder(None).entries() {
+        let mut left = shipped(&entry.name);
+        let time = left.time() + 0.7 * left.speed();
+        left.advance(time, 2_000);
+        left.obey(Command::Reference);
+        left.advance(time + 0.3 * left.speed(), 2_000);
+        left.obey(Command::Pause);
+        let mut taken = shipped(&entry.name);
+        taken.obey(Command::TakeUp(Box::new(kept(&left))));
+        assert_eq!(present(&taken), present(&left), "{}", entry.name);
+    }
+}
+
+#[test]
+fn both_go_on_alike() {
+    for (name, time) in
+        [("pendulum", 3.3), ("heavy-top", 2.1), ("kicked-rotor", 4.0), ("free-rigid-body", 5.0)]
+    {
+        let mut left = shipped(name);
+        run(&mut left, time);
+        let mut taken = shipped(name);
+        taken.obey(Command::TakeUp(Box::new(kept(&left))));
+        let later = time + 0.9;
+        run(&mut left, later);
+        run(&mut taken, later);
+        for (a, b) in left.values().iter().zip(taken.values()) {
+            let size = a.abs().max(1.0);
+            assert!(a == b || (a - b).abs() <= 1e-12 * size, "{name}: {a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn a_constraint_that_was_let_go_stays_so() {
+    let mut left = shipped("smooth-sphere");
+    while left.snapshot().released.is_empty() {
+        left.advance(left.time() + 0.01, PLENTY);
+        assert_eq!(left.status(), Status::Running);
+    }
+    let mut taken = shipped("smooth-sphere");
+    taken.obey(Command::TakeUp(Box::new(kept(&left))));
+    assert_eq!(taken.snapshot().released, [0]);
+    let later = left.time() + 0.05;
+    run(&mut left, later);
+    run(&mut taken, later);
+    assert_eq!(taken.snapshot().released, [0]);
+    for (a, b) in left.values().iter().zip(taken.values()) {
+        assert!(a == b || (a - b).abs() <= 1e-13 * a.abs().max(1.0), "{a} and {b}");
+    }
+}
+
+#[test]
+fn every_method_is_taken_up_as_it_is() {
+    for method in ["taylor", "dop853", "gauss6", "rk4"] {
+        let mut left = shipped("double-pendulum");
+        left.obey(Command::Method(method.to_owned()));
+        assert_eq!(left.snapshot().method.name, method);
+        left.advance(1.234, PLENTY);
+        let mut taken = shipped("double-pendulum");
+        taken.obey(Command::TakeUp(Box::new(kept(&left))));
+        assert_eq!(present(&taken).1, present(&left).1, "{method}");
+        assert_eq!(taken.snapshot().method.name, method);
+    }
+    let mut left = shipped("planet");
+    left.obey(Command::Method("leapfrog".to_owned()));
+    left.obey(Command::StepSize(0.01));
+    left.advance(1.234, PLENTY);
+    let mut taken = shipped("planet");
+    taken.obey(Command::TakeUp(Box::new(kept(&left))));
+    assert_eq!(present(&taken).1, present(&left).1);
+    assert_eq!(taken.snapshot().setup.settings.step, Some(0.01));
+}
+
+const SPRING: &str = r#"
+title = "Mass on a spring"
+[coordinates]
+x = { initial = 1.0 }
+y = { initial = 2.0, velocity = 0.5 }
+[parameters]
+k = 4.0
+m = 1.0
+[lagrangian]
+L = "1/2*m*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
+"#;
+
+/// The spring at t = 0.8 with k turned to 5, taken up by a changed file.
+fn carried(change: impl FnOnce(String) -> String) -> (Experiment, Experiment) {
+    let mut left = build(SPRING, |_| ());
+    let index = left.model().parameter("k").expect("it is there");
+    left.obey(Command::Parameter { index, value: 5.0 });
+    left.obey(Command::Initial { index: 1, value: 3.0 });
+    run(&mut left, 0.8);
+    let mut taken = build(&change(SPRING.to_owned()), |_| ());
+    taken.obey(Command::TakeUp(Box::new(kept(&left))));
+    (left, taken)
+}
+
+#[test]
+fn a_changed_law_keeps_the_state_and_measures_anew() {
+    let (left, taken) = carried(|text| text.replace("(x^2 + y^2)", "(x^2 + y^2 + x^4)"));
+    for name in ["x", "y", "x'", "y'"] {
+        assert_eq!(value(&taken, name), value(&left, name), "{name}");
+    }
+    assert_eq!(taken.time(), 0.8);
+    let energy = gauge(&taken.snapshot(), "energy");
+    assert_eq!((energy.reference, energy.drift), (energy.value, 0.0));
+    assert!(energy.value != value(&left, "energy"));
+    // what was turned by hand is kept, also for the next reset
+    let parameters = taken.snapshot().parameters;
+    assert_eq!(parameters[0], 5.0);
+    assert_eq!(taken.snapshot().initial[1], 3.0);
+}
+
+#[test]
+fn a_value_changed_in_the_file_wins() {
+    let (_, taken) = carried(|text| text.replace("k = 4.0", "k = 7.0"));
+    assert_eq!(taken.snapshot().parameters[0], 7.0);
+}
+
+#[test]
+fn what_is_no_longer_there_is_told() {
+    let (left, taken) = carried(|text| {
+        let text =
+            text.replace("y = { initial = 2.0, velocity = 0.5 }\n", "z = { initial = 9.0 }\n");
+        text.replace("y'^2", "z'^2")
+            .replace("y^2", "z^2")
+            .replace("k = 4.0", "c = 4.0")
+            .replace("1/2*k*", "1/2*c*")
+    });
+    assert_eq!(value(&taken, "x"), value(&left, "x"));
+    assert_eq!((value(&taken, "z"), value(&taken, "z'")), (9.0, 0.0));
+    let notices = taken.snapshot().notices;
+    assert_eq!(notices.last().map(String::as_str), Some("no longer there: k, y"));
+}
+
+#[test]
+fn a_lagrangian_goes_on_as_a_hamiltonian() {
+    let (left, taken) = carried(|text| {
+        let law = "[hamiltonian]\nH = \"(p_x^2 + p_y^2)/(2*m) + 1/2*k*(x^2 + y^2)\"\n";
+        let text = text.replace("velocity", "momentum");
+        text[..text.find("[lagrangian]").expect("it has one")].to_owned() + law
+    });
+    for name in ["x", "y", "p_x", "p_y"] {
+        assert_eq!(value(&taken, name), value(&left, name), "{name}");
+    }
+}
+
+#[test]
+fn a_constraint_that_the_state_misses_begins_anew_and_says_why() {
+    let (_, taken) = carried(|text| {
+        text.replace("y = { initial = 2.0, velocity = 0.5 }", "y = { initial = 0.0 }")
+            + "[[constraints]]\nname = \"line\"\nexpression = \"y\"\n"
+    });
+    assert_eq!(taken.time(), 0.0);
+    let notices = taken.snapshot().notices;
+    assert!(notices.iter().any(|n| n.starts_with("the motion begins anew: ")), "{notices:?}");
+}
+
+#[test]
+fn an_ended_motion_is_still_ended() {
+    let mut left = shipped("rolling-race");
+    if left.advance(1e3, PLENTY) == phaselab::experiment::Progress::Ended {
+        let mut taken = shipped("rolling-race");
+        taken.obey(Command::TakeUp(Box::new(kept(&left))));
+        assert_eq!(taken.status(), left.status());
+        assert_eq!(present(&taken), present(&left));
+    } else {
+        panic!("the race has no end");
+    }
+}
