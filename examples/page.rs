@@ -113,6 +113,7 @@ fn main() -> Result<ExitCode> {
     match perform(&mut Clock::default(), Pace { frames: 30, synchronized: true, mouse: false }) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),
+        Ok(Ending::Signal(number)) => Ok(ExitCode::from(128 + number as u8)),
         Err(Refusal::NoTerminal(why)) => {
             writeln!(stderr(), "{why}")?;
             Ok(ExitCode::from(2))

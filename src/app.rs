@@ -25,6 +25,7 @@ mod picker;
 mod plot;
 mod potential;
 mod prompt;
+mod saved;
 mod speed;
 mod strike;
 mod update;
@@ -44,7 +45,10 @@ pub use picker::Picker;
 pub use plot::{Eye, Lens, Plot};
 pub use potential::Potential;
 pub use prompt::Prompt;
+pub use saved::{Quantity, Saved, SavedPlot};
 pub use value::{Facts, Target};
+
+use serde::{Deserialize, Serialize};
 
 use crate::experiment::Snapshot;
 use crate::preset::Catalog;
@@ -72,10 +76,13 @@ pub struct App {
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
+    /// The session to go on with once its system is there.
+    resuming: Option<Saved>,
 }
 
 /// A whole screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Page {
     /// The systems, and a preview of the selected one.
     Picker,
@@ -118,6 +125,7 @@ impl App {
             scroll: 0,
             drawn: Drawn::default(),
             asked: None,
+            resuming: None,
         };
         let first = match open {
             Some(name) => {

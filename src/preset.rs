@@ -15,7 +15,7 @@ mod report;
 
 use crate::model::Model;
 
-pub use catalog::{Catalog, Entry, NotFound, Origin};
+pub use catalog::{Catalog, Entry, NotFound, Origin, is_path};
 pub use document::Document;
 pub use mistake::{Mistake, Severity};
 pub use report::report;

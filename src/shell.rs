@@ -17,31 +17,50 @@ mod request;
 mod session;
 mod signals;
 mod stage;
+mod store;
 mod terminal;
 
 pub use input::{Input, PASTE_LIMIT};
 pub use panic::report_panics;
 pub use request::{Refusal, Request};
 pub use stage::{Ending, Pace, Page, Wish, perform};
+pub use store::NoSession;
 pub use terminal::NoTerminal;
+
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use crate::preset::Catalog;
 use session::Session;
+use store::Store;
 
 /// Opens the laboratory on the terminal until it is left.
 ///
 /// # Errors
-/// Where there is no terminal or nothing of that name; before the screen is touched.
+/// Where there is no terminal, no session or nothing of that name, before the screen is touched; and where the session
+/// could not be saved, after it was left.
 pub fn run(request: &Request) -> Result<Ending, Refusal> {
     NoTerminal::check()?;
     let catalog = Catalog::load();
+    let mut request = request.clone();
+    let saved = if request.resume { Some(store::read()?) } else { None };
+    if let Some(saved) = &saved {
+        request.open = Some(saved.open.clone());
+    }
     if let Some(name) = &request.open {
         catalog.find(name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
-    let mut session = Session::new(catalog, request, request.look(&variable))?;
-    let ending = perform(&mut session, request.pace(&variable));
+    let mut session = Session::new(catalog, &request, request.look(&variable))?;
+    session.keep_in(Store::open());
+    if let Some(saved) = saved {
+        session.resume(saved);
+    }
+    let pace = request.pace(&variable);
+    let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
+    let kept = session.keep();
     // The worker may be in the middle of a long step, and nobody waits for it any more.
     std::mem::forget(session);
-    ending
+    let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
+    kept.map_err(Refusal::Unsaved)?;
+    Ok(ending)
 }

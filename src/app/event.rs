@@ -10,6 +10,7 @@ use super::Key;
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
+use crate::preset::Document;
 use crate::system::System;
 
 /// Something that happened.
@@ -27,6 +28,8 @@ pub enum Event {
     Snapshot(Arc<Snapshot>),
     /// A system asked for by [`Effect::Load`] is there, or is not.
     Loaded(Result<Loaded, LoadFailure>),
+    /// The system in the lab was built anew from its changed file.
+    Rebuilt(Loaded),
     /// A frame has passed, and this much time since the last one.
     Tick(Duration),
     /// The screen was drawn, and this is what came of it.
@@ -49,6 +52,8 @@ pub struct Loaded {
     pub name: String,
     /// The epoch of its snapshots.
     pub epoch: u64,
+    /// The file's text.
+    pub document: Arc<Document>,
     /// What the file says.
     pub model: Arc<Model>,
     /// What follows from it.

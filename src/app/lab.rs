@@ -6,6 +6,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use super::history::{Change, History};
 use super::landscape::{self, Survey};
 use super::plot::{Eye, Plot};
@@ -15,7 +17,8 @@ use crate::expr::Zero;
 use crate::model::Shape;
 
 /// A pane of the lab.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Pane {
     /// A picture, by its place among the plots.
     Plot(usize),
@@ -28,7 +31,7 @@ pub enum Pane {
 }
 
 /// The selected lines of the lists.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Selection {
     /// Among the parameters.
     pub parameter: usize,

@@ -4,6 +4,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use serde::{Deserialize, Serialize};
+
 use super::Loaded;
 use super::action::{Axes, Way};
 use crate::model::{Model, Shape, ViewKind};
@@ -40,7 +42,7 @@ pub enum Plot {
 }
 
 /// What is seen, from which frame, and where the camera stands in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Eye {
     /// Turn about the vertical axis, in radians.
     pub yaw: f64,
@@ -55,7 +57,7 @@ pub struct Eye {
 }
 
 /// How a plot is looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lens {
     /// Magnification across and upwards.
     pub zoom: [f64; 2],

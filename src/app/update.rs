@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::field::{edit, paste};
 use super::keymap::{self, Place};
 use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
-use crate::experiment::{Command, Snapshot};
+use crate::experiment::Snapshot;
 
 impl App {
     /// Takes an event in, and says what is to be done about it.
@@ -19,6 +19,7 @@ impl App {
             Event::Snapshot(snapshot) => self.see(&snapshot),
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),
             Event::Loaded(Err(failure)) => self.failed(failure),
+            Event::Rebuilt(loaded) => self.rebuilt(loaded),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.notice = self.notice.take().and_then(|notice| notice.after(elapsed));
@@ -108,7 +109,7 @@ impl App {
         Vec::new()
     }
 
-    fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
+    pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.lab = Some(Lab::new(loaded));
         self.notice = None;
@@ -117,7 +118,7 @@ impl App {
         if answered == Some(true) {
             self.go(Page::Lab);
         }
-        vec![Effect::Tell(Command::Play)]
+        self.begin()
     }
 
     fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {

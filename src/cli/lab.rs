@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 
 use super::failure::Failure;
-use crate::shell::{self, Ending, Refusal, Request};
+use crate::shell::{self, Ending, NoSession, Refusal, Request};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 
@@ -14,6 +14,9 @@ pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: Option<String>,
+    /// Go on with the last session: its system, views, values and motion.
+    #[arg(long, conflicts_with = "name")]
+    resume: bool,
     /// How many colours to use.
     #[arg(long, value_enum, value_name = "COLOURS", default_value_t)]
     color: Colours,
@@ -66,6 +69,7 @@ enum Drawn {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let request = Request {
         open: arguments.name.clone(),
+        resume: arguments.resume,
         colour: match arguments.color {
             Colours::Auto => None,
             Colours::Never => Some(ColourDepth::None),
@@ -86,7 +90,12 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     match shell::run(&request) {
         Ok(Ending::Quit) => Ok(()),
         Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
+        Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),
         Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
+        Err(refusal @ Refusal::Unsaved(_)) => Err(Failure::CouldNotWrite(refusal.to_string())),
+        Err(Refusal::NoSession(why @ (NoSession::Newer { .. } | NoSession::Malformed { .. }))) => {
+            Err(Failure::WrongFile(why.to_string()))
+        }
         Err(refusal) => Err(Failure::WrongUse(refusal.to_string())),
     }
 }

@@ -14,6 +14,8 @@ use crate::system::System;
 
 /// A system on all its stages.
 pub struct Ready {
+    /// The file's text.
+    pub document: Arc<Document>,
     /// What the file says.
     pub model: Arc<Model>,
     /// What follows from it.
@@ -48,6 +50,7 @@ impl Ready {
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
         let experiment = experiment.map_err(|error| why(&error))?;
-        Ok(Ready { model, equations, system: Arc::new(system), experiment })
+        let document = Arc::new(document.clone());
+        Ok(Ready { document, model, equations, system: Arc::new(system), experiment })
     }
 }

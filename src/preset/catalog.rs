@@ -103,7 +103,7 @@ impl Catalog {
 }
 
 /// Whether what a user writes is a file's path.
-fn is_path(wanted: &str) -> bool {
+pub fn is_path(wanted: &str) -> bool {
     let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     wanted.contains('/') || wanted.contains(std::path::MAIN_SEPARATOR) || ends
 }

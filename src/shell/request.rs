@@ -10,6 +10,7 @@ use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
 use super::stage::Pace;
+use super::store::NoSession;
 use super::terminal::NoTerminal;
 
 /// Frames in a second where the terminal is near.
@@ -23,6 +24,8 @@ const FAR: u16 = 15;
 pub struct Request {
     /// A preset's name or a file's path; without one the picker opens.
     pub open: Option<String>,
+    /// Goes on with the last session.
+    pub resume: bool,
     /// How many colours to use; the environment says it otherwise.
     pub colour: Option<ColourDepth>,
     /// What to draw with; the environment says it otherwise.
@@ -44,6 +47,12 @@ pub enum Refusal {
     /// What was asked for is not there.
     #[error(transparent)]
     NotFound(#[from] NotFound),
+    /// There is no session to go on with.
+    #[error(transparent)]
+    NoSession(#[from] NoSession),
+    /// The laboratory was left, and its session could not be saved.
+    #[error("the session is not saved: {0}")]
+    Unsaved(std::io::Error),
     /// The system refuses something that the laboratory needs.
     #[error("the laboratory cannot go on: {0}")]
     System(#[from] std::io::Error),

@@ -14,9 +14,10 @@ use super::input::Input;
 use super::loader::Loader;
 use super::request::Request;
 use super::stage::{Page, Wish};
-use crate::app::{App, Effect, Event, Loaded};
+use super::store::{NoStore, Store};
+use crate::app::{App, Effect, Event, Loaded, Notice, Saved};
 use crate::experiment::Ready;
-use crate::preset::Catalog;
+use crate::preset::{Catalog, is_path};
 use crate::view::{self, Look};
 use crate::worker::Worker;
 
@@ -26,7 +27,13 @@ pub(super) struct Session {
     look: Look,
     worker: Worker,
     loader: Loader,
+    store: Option<Store>,
+    /// Since the session was last saved.
+    unsaved: Duration,
 }
+
+/// How often the session is saved while the laboratory is open.
+const SAVING: Duration = Duration::from_secs(15);
 
 impl Session {
     /// The laboratory, opened at a preset or file, or at the picker.
@@ -34,9 +41,49 @@ impl Session {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = request.mouse;
         let loader = Loader::new(Arc::new(catalog));
-        let mut session = Self { app, look, worker: Worker::idle()?, loader };
+        let (store, unsaved) = (None, Duration::ZERO);
+        let mut session = Self { app, look, worker: Worker::idle()?, loader, store, unsaved };
         session.perform(effects);
         Ok(session)
+    }
+
+    /// Goes on with a session once its system is loaded.
+    pub(super) fn resume(&mut self, saved: Saved) {
+        self.app.resume(saved);
+    }
+
+    /// Keeps the session in a store from now on; where there is none the user is told.
+    pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>) {
+        match store {
+            Ok(store) => self.store = Some(store),
+            Err(why) => self.app.notice = Some(Notice::error(why.to_string())),
+        }
+    }
+
+    /// Saves the session as it is now.
+    pub(super) fn keep(&mut self) -> io::Result<()> {
+        self.unsaved = Duration::ZERO;
+        if let Some(snapshot) = self.worker.newest() {
+            self.update(Event::Snapshot(snapshot));
+        }
+        let Some((store, mut saved)) = self.store.as_ref().zip(self.app.saved()) else {
+            return Ok(());
+        };
+        if is_path(&saved.open) {
+            saved.open = std::path::absolute(&saved.open)?.display().to_string();
+        }
+        store.save(&saved)
+    }
+
+    /// Saves the session now and then. What goes wrong is told once; it will go wrong again at the end.
+    fn keep_now_and_then(&mut self, elapsed: Duration) {
+        self.unsaved = self.unsaved.saturating_add(elapsed);
+        if self.unsaved >= SAVING
+            && let Err(error) = self.keep()
+        {
+            self.app.notice = Some(Notice::error(error.to_string()));
+            self.unsaved = Duration::ZERO;
+        }
     }
 
     fn update(&mut self, event: Event) -> Wish {
@@ -62,9 +109,9 @@ impl Session {
 
     /// Sets a loaded system in motion.
     fn begin(&mut self, name: String, ready: Ready) -> Loaded {
-        let Ready { model, equations, system, experiment } = ready;
+        let Ready { document, model, equations, system, experiment } = ready;
         let epoch = self.worker.load(experiment);
-        Loaded { name, epoch, model, equations, system }
+        Loaded { name, epoch, document, model, equations, system }
     }
 }
 
@@ -82,6 +129,7 @@ impl Page for Session {
 
     /// Time by itself changes nothing that is worth a frame, except that a notice goes.
     fn advance(&mut self, elapsed: Duration) -> bool {
+        self.keep_now_and_then(elapsed);
         let noticed = self.app.notice.is_some();
         self.update(Event::Tick(elapsed));
         let mut changed = self.app.notice.is_some() != noticed;
@@ -123,11 +171,12 @@ mod tests {
         let catalog = Catalog::with_folder(None);
         let document = catalog.find(name).expect("a shipped preset");
         let ready = Ready::of(&document).expect("a preset without mistakes");
-        let Ready { model, equations, system, mut experiment } = ready;
+        let Ready { document, model, equations, system, mut experiment } = ready;
         let name = name.to_owned();
         experiment.set_epoch(1);
         let (mut app, _) = App::new(&catalog, Some(&name));
-        app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, model, equations, system })));
+        let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+        app.update(Event::Loaded(Ok(loaded)));
         let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         let mut screen = Frames::new(true);
         let mut bytes = Vec::new();

@@ -1,6 +1,7 @@
 //! Signals: a thread that ends the program as it should end, and passes on what the frame loop has to do.
 //!
-//! In: signals. Out: a restored terminal and the exit status 128 + n, or a note. Never here: work inside a signal
+//! In: signals. Out: a note of what the frame loop has to do; where that does not end the program in time, a restored
+//! terminal and the exit status 128 + n. Never here: work inside a signal
 //! handler; the thread is an ordinary one, woken through a pipe.
 
 use std::io::{self, Read, Write};
@@ -8,6 +9,7 @@ use std::mem;
 use std::os::unix::net::UnixStream;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
+use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{Signal, kill_current_process_group};
@@ -15,6 +17,9 @@ use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SI
 use signal_hook::iterator::Signals as Caught;
 
 use super::terminal::Terminal;
+
+/// How long the frame loop has to save what there is and end, before the program is ended all the same.
+const LAST_WORDS: Duration = Duration::from_millis(150);
 
 /// The way from the signal thread to the frame loop.
 #[derive(Debug)]
@@ -32,6 +37,8 @@ pub(super) struct Notes {
     pub(super) resumed: bool,
     /// The window has changed its size (SIGWINCH).
     pub(super) resized: bool,
+    /// The program was asked to end by this signal; it stays noted.
+    pub(super) fatal: Option<i32>,
 }
 
 impl Signals {
@@ -51,14 +58,18 @@ impl Signals {
                     SIGTSTP => notes.stop = true,
                     SIGCONT => notes.resumed = true,
                     SIGWINCH => notes.resized = true,
-                    fatal => {
-                        terminal.leave();
-                        signal_hook::low_level::exit(128 + fatal);
-                    }
+                    fatal => notes.fatal = Some(fatal),
                 }
+                let fatal = notes.fatal;
                 drop(notes);
                 // A full pipe wakes as well as one more byte.
                 let _ = bell.write(&[0]);
+                if let Some(fatal) = fatal {
+                    // The frame loop ends the program; one that is stuck is not waited for.
+                    thread::sleep(LAST_WORDS);
+                    terminal.leave();
+                    signal_hook::low_level::exit(128 + fatal);
+                }
             }
         })?;
         Ok(Self { posted, wake })
@@ -72,7 +83,9 @@ impl Signals {
     /// Takes the notes.
     pub(super) fn take(&self) -> Notes {
         while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
-        mem::take(&mut *self.posted.lock().unwrap_or_else(PoisonError::into_inner))
+        let mut posted = self.posted.lock().unwrap_or_else(PoisonError::into_inner);
+        let left = Notes { fatal: posted.fatal, ..Notes::default() };
+        mem::replace(&mut *posted, left)
     }
 
     /// Stops the program and all that was started with it in one pipeline, as the terminal's own Ctrl-Z does, and
@@ -80,7 +93,7 @@ impl Signals {
     pub(super) fn stop(&self) -> io::Result<()> {
         // Not SIGTSTP: that is caught here, and by default it does nothing in a group that has no shell.
         kill_current_process_group(Signal::STOP)?;
-        while !self.take().resumed {
+        while !matches!(self.take(), Notes { resumed: true, .. } | Notes { fatal: Some(_), .. }) {
             let mut fds = [PollFd::new(&self.wake, PollFlags::IN)];
             match poll(&mut fds, None) {
                 Ok(_) | Err(rustix::io::Errno::INTR) => {}

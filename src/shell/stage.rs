@@ -70,6 +70,8 @@ pub enum Ending {
     Quit,
     /// The terminal has hung up.
     Gone,
+    /// This signal asked for it.
+    Signal(i32),
 }
 
 /// Reads in a row before a frame is drawn, each of [`READ`] bytes; a flood must not keep the screen still.
@@ -137,6 +139,9 @@ impl Stage<'_> {
         let mut changed = true;
         loop {
             let notes = self.signals.take();
+            if let Some(signal) = notes.fatal {
+                return Ok(Ending::Signal(signal));
+            }
             if notes.stop {
                 self.suspend()?;
             } else if notes.resumed {

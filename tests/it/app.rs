@@ -1,5 +1,6 @@
 //! The application by its keys: a state, keys, the state and the effects after them.
 
 mod keys;
+mod saved;
 mod scripts;
 mod values;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::{self, Catalog};
+use phaselab::preset::{Catalog, Document};
 use phaselab::system::{ChannelKind, Given, System};
 
 /// The shipped presets, without the user's.
@@ -18,20 +18,21 @@ pub(crate) fn catalog() -> &'static Catalog {
 
 /// A shipped preset, lowered.
 pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
-    lower(name, epoch, catalog().find(name).unwrap().read().unwrap().model)
+    lower(name, epoch, catalog().find(name).unwrap())
 }
 
 /// The text of a file, lowered; epoch 1.
 pub(crate) fn lowered(text: &str) -> Loaded {
-    let read = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
-    lower("test", 1, read.model)
+    lower("test", 1, Document::new("test", text))
 }
 
-fn lower(name: &str, epoch: u64, model: phaselab::model::Model) -> Loaded {
+fn lower(name: &str, epoch: u64, document: Document) -> Loaded {
+    let model = document.read().unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = derive(&model).unwrap();
     let system = System::compile(&model, &equations, &[]).unwrap();
     let (model, equations, system) = (Arc::new(model), Arc::new(equations), Arc::new(system));
-    Loaded { name: name.to_owned(), epoch, model, equations, system }
+    let document = Arc::new(document);
+    Loaded { name: name.to_owned(), epoch, document, model, equations, system }
 }
 
 /// The pendulum, derived once.

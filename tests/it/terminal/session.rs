@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use rustix::process::{Pid, Signal, WaitOptions, kill_process, waitpid};
+use tempfile::TempDir;
 
 /// How long anything may take before it counts as never.
 const NEVER: Duration = Duration::from_secs(20);
@@ -21,7 +22,7 @@ const NEVER: Duration = Duration::from_secs(20);
 pub(super) struct Setup {
     command: Vec<OsString>,
     size: (u16, u16),
-    environment: Vec<(&'static str, &'static str)>,
+    environment: Vec<(&'static str, OsString)>,
 }
 
 impl Setup {
@@ -29,7 +30,8 @@ impl Setup {
     pub(super) fn new(program: impl Into<OsString>, arguments: &[&str]) -> Self {
         let mut command = vec![program.into()];
         command.extend(arguments.iter().map(OsString::from));
-        let environment = vec![("TERM", "xterm-256color"), ("LANG", "C.UTF-8")];
+        let environment = [("TERM", "xterm-256color"), ("LANG", "C.UTF-8")];
+        let environment = environment.map(|(name, value)| (name, value.into())).to_vec();
         Self { command, size: (80, 24), environment }
     }
 
@@ -58,8 +60,8 @@ impl Setup {
     }
 
     /// One more environment variable; the last of a name counts.
-    pub(super) fn variable(mut self, name: &'static str, value: &'static str) -> Self {
-        self.environment.push((name, value));
+    pub(super) fn variable(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
+        self.environment.push((name, value.into()));
         self
     }
 
@@ -100,6 +102,8 @@ pub(super) struct Session {
     screen: vt100::Parser,
     /// The terminal's settings before the program started.
     before: String,
+    /// Where it keeps what it keeps, unless it was told otherwise.
+    _state: TempDir,
 }
 
 impl Session {
@@ -110,6 +114,8 @@ impl Session {
         command.env_clear();
         command.env("PATH", std::env::var_os("PATH").unwrap_or_default());
         command.env("HOME", "/nonexistent");
+        let state = tempfile::tempdir().expect("a folder of its own");
+        command.env("XDG_STATE_HOME", state.path());
         setup.environment.iter().for_each(|(name, value)| command.env(name, value));
         command.cwd(env!("CARGO_MANIFEST_DIR"));
 
@@ -133,7 +139,8 @@ impl Session {
         let (rows, cols) = if cols == 0 { (24, 80) } else { (rows, cols) };
         let screen = vt100::Parser::new(rows, cols, 0);
         let master = pair.master;
-        Self { master, keyboard, child, output, gate, sent: Vec::new(), screen, before }
+        let sent = Vec::new();
+        Self { master, keyboard, child, output, gate, sent, screen, before, _state: state }
     }
 
     /// Types.

@@ -1,0 +1,214 @@
+//! A session as it can be kept and gone on with: which system, how it is looked at, and where its motion is.
+//!
+//! In: the application. Out: plain data by names, and the application as it was. Never here: the file it is kept in.
+//!
+//! A system that was rebuilt from a changed file is taken up the same way: what has a name here and there stays.
+
+use serde::{Deserialize, Serialize};
+
+use super::{App, Effect, Eye, Lab, Lens, Loaded, Page, Pane, Plot, Selection};
+use crate::experiment::{Command, Moment};
+
+/// A session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Saved {
+    /// The version of this form, [`Saved::VERSION`].
+    pub version: u32,
+    /// The program that wrote it.
+    pub phaselab: String,
+    /// The preset's name or the file's path.
+    pub open: String,
+    /// The page that was shown.
+    pub page: Page,
+    /// The pane that keys went to.
+    pub focus: Pane,
+    /// Whether it filled the page.
+    pub zoomed: bool,
+    /// The selected lines.
+    pub selection: Selection,
+    /// The pictures.
+    pub plots: Vec<SavedPlot>,
+    /// The motion.
+    pub moment: Moment,
+}
+
+/// A picture by the names of what it shows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum SavedPlot {
+    /// The motion in space.
+    Space {
+        /// Where it is seen from.
+        eye: Eye,
+    },
+    /// One quantity against another.
+    Phase {
+        /// Across.
+        x: Quantity,
+        /// Upwards.
+        y: Quantity,
+        /// How it is looked at.
+        lens: Lens,
+    },
+    /// The potential of a view of the file.
+    Potential {
+        /// Its place among the views.
+        view: usize,
+        /// How it is looked at.
+        lens: Lens,
+    },
+    /// Quantities against time.
+    Time {
+        /// Upwards.
+        y: Vec<Quantity>,
+        /// How it is looked at.
+        lens: Lens,
+    },
+}
+
+/// A channel by its name, and by its place where it has none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    name: String,
+    place: usize,
+}
+
+impl Saved {
+    /// The version of this form that this program writes and reads.
+    pub const VERSION: u32 = 1;
+
+    /// The session of a lab on a page; `None` before its motion was seen.
+    fn of(lab: &Lab, page: Page) -> Option<Self> {
+        let Loaded { name, model, system, .. } = &lab.loaded;
+        let snapshot = lab.seen()?;
+        Some(Self {
+            version: Self::VERSION,
+            phaselab: env!("CARGO_PKG_VERSION").to_owned(),
+            open: name.clone(),
+            page,
+            focus: lab.focus,
+            zoomed: lab.zoomed,
+            selection: lab.selection,
+            plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, &lab.loaded)).collect(),
+            moment: Moment::of(model, system, snapshot),
+        })
+    }
+}
+
+impl SavedPlot {
+    fn of(plot: &Plot, loaded: &Loaded) -> Self {
+        let quantity = |&place: &usize| {
+            let channel = loaded.system.channels().get(place);
+            Quantity { name: channel.map_or_else(String::new, |c| c.name.clone()), place }
+        };
+        match plot {
+            Plot::Space(eye) => Self::Space { eye: *eye },
+            Plot::Phase { x, y, lens } => {
+                Self::Phase { x: quantity(x), y: quantity(y), lens: *lens }
+            }
+            Plot::Potential { view, lens } => Self::Potential { view: *view, lens: *lens },
+            Plot::Time { y, lens } => {
+                Self::Time { y: y.iter().map(quantity).collect(), lens: *lens }
+            }
+        }
+    }
+
+    /// The picture in a system, if that has all it shows.
+    fn place(&self, loaded: &Loaded) -> Option<Plot> {
+        let (model, channels) = (&loaded.model, loaded.system.channels());
+        let channel = |quantity: &Quantity| {
+            let named = |c: &crate::system::Channel| c.name == quantity.name;
+            match quantity.name.as_str() {
+                "" => Some(quantity.place).filter(|&i| channels.get(i).is_some_and(named)),
+                _ => channels.iter().position(named),
+            }
+        };
+        Some(match self {
+            Self::Space { eye } => {
+                let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
+                let viewed = eye.view.is_none_or(|view| view < model.views.len());
+                if !(framed && viewed) || eye.shapes(model).is_empty() {
+                    return None;
+                }
+                Plot::Space(*eye)
+            }
+            Self::Phase { x, y, lens } => {
+                Plot::Phase { x: channel(x)?, y: channel(y)?, lens: *lens }
+            }
+            Self::Potential { view, lens } => {
+                let kind = model.views.get(*view)?.kind;
+                let potential = kind == crate::model::ViewKind::Potential;
+                potential.then_some(Plot::Potential { view: *view, lens: *lens })?
+            }
+            Self::Time { y, lens } => {
+                let y: Vec<usize> = y.iter().filter_map(channel).collect();
+                (!y.is_empty()).then_some(Plot::Time { y, lens: *lens })?
+            }
+        })
+    }
+}
+
+impl Lab {
+    /// Looks at the system as a session did, as far as it is the same.
+    fn look_as(&mut self, saved: &Saved) {
+        let plots: Vec<Plot> =
+            saved.plots.iter().filter_map(|plot| plot.place(&self.loaded)).collect();
+        // pictures of a system with other quantities are better opened anew
+        if plots.len() == saved.plots.len() {
+            self.plots = plots;
+        }
+        if self.panes().any(|pane| pane == saved.focus) {
+            (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
+        }
+        self.selection = saved.selection;
+        self.select(|place| place);
+    }
+}
+
+impl App {
+    /// The session to be kept, once a system moves in the lab.
+    pub fn saved(&self) -> Option<Saved> {
+        if self.page == Page::Picker {
+            return None;
+        }
+        Saved::of(self.lab.as_ref()?, self.page)
+    }
+
+    /// Goes on with a session as soon as its system is loaded.
+    pub fn resume(&mut self, saved: Saved) {
+        self.resuming = Some(saved);
+    }
+
+    /// The system that was asked for is there: goes on with the session that was left with it, or lets it move.
+    pub(super) fn begin(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let saved = self.resuming.take().filter(|saved| saved.open == lab.loaded.name);
+        let Some(saved) = saved else { return vec![Effect::Tell(Command::Play)] };
+        lab.look_as(&saved);
+        self.page = saved.page;
+        vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
+    }
+
+    /// The system in the lab was built anew from a changed file: the motion goes on, and is looked at as before.
+    pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
+        let Some(old) = self.lab.take() else { return self.loaded(loaded) };
+        let saved = Saved::of(&old, self.page);
+        let mut lab = Lab::new(loaded);
+        let names = |lab: &Lab| {
+            let model = &lab.loaded.model;
+            let parameters = model.parameters.iter().map(|p| p.name.clone());
+            parameters.chain(model.coordinates.iter().map(|c| c.name.clone())).collect::<Vec<_>>()
+        };
+        if names(&old) == names(&lab) {
+            lab.history = old.history;
+        }
+        self.meter.forget();
+        let Some(saved) = saved else {
+            self.lab = Some(lab);
+            return vec![Effect::Tell(Command::Play)];
+        };
+        lab.look_as(&saved);
+        self.lab = Some(lab);
+        vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
+    }
+}

@@ -1,0 +1,113 @@
+//! A session as data: the application goes on as it was left, and a rebuilt system is looked at as before.
+
+use std::sync::Arc;
+
+use phaselab::app::{App, Effect, Event, Page, Pane, Plot, Saved};
+use phaselab::experiment::Command;
+
+use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
+
+/// A session as its file has it, read back.
+fn kept(app: &App) -> Saved {
+    let saved = app.saved().expect("a lab is open");
+    let text = toml::to_string(&saved).expect("it can be written");
+    let read: Saved = toml::from_str(&text).expect("it can be read");
+    assert_eq!(read, saved, "{text}");
+    read
+}
+
+fn resumed(saved: Saved) -> (App, Vec<Effect>) {
+    let (mut app, _) = App::new(catalog(), Some(&saved.open));
+    app.resume(saved);
+    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    (app, effects)
+}
+
+#[test]
+fn what_was_looked_at_is_looked_at_again() {
+    let mut app = in_lab();
+    // a phase plot, looked at closer and from another place, with a cursor
+    press(&mut app, "Tab Tab Tab");
+    press(&mut app, "+ + x Right c g z");
+    let saved = kept(&app);
+    let (again, effects) = resumed(saved.clone());
+    let (lab, before) = (again.lab.as_ref().unwrap(), app.lab.as_ref().unwrap());
+    assert_eq!(lab.plots, before.plots);
+    assert_eq!((lab.focus, lab.zoomed, lab.selection), (before.focus, true, before.selection));
+    assert_eq!(effects, [Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]);
+    press(&mut app, "2");
+    assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
+}
+
+#[test]
+fn nothing_is_kept_of_the_list_of_systems() {
+    let mut app = in_lab();
+    press(&mut app, "Esc");
+    assert_eq!(app.page, Page::Picker);
+    assert_eq!(app.saved(), None);
+}
+
+#[test]
+fn another_system_than_the_session_s_begins_as_always() {
+    let saved = Saved { open: "planet".to_owned(), ..kept(&in_lab()) };
+    let (app, effects) = resumed(saved);
+    assert_eq!(effects, [Effect::Tell(Command::Play)]);
+    assert_eq!(app.lab.unwrap().focus, Pane::Parameters);
+}
+
+const FILE: &str = r#"
+title = "Two masses"
+[coordinates]
+x = { initial = 1.0 }
+y = { initial = 2.0 }
+[parameters]
+k = 4.0
+[lagrangian]
+L = "1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
+"#;
+
+fn opened(text: &str) -> App {
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    let loaded = lowered(text);
+    app.update(Event::Loaded(Ok(loaded.clone())));
+    app.update(Event::Snapshot(Arc::new(snapshot(&loaded, 1.0))));
+    app
+}
+
+#[test]
+fn a_rebuilt_system_is_looked_at_as_before() {
+    let mut app = opened(FILE);
+    press(&mut app, "Tab Tab Tab + + x");
+    let before = app.lab.as_ref().unwrap().clone();
+    // two observables more: the channels have other places now
+    let text = format!("{FILE}[[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n");
+    let effects = app.update(Event::Rebuilt(lowered(&text)));
+    let lab = app.lab.as_ref().unwrap();
+    assert_eq!((lab.focus, lab.plots.len()), (before.focus, before.plots.len()));
+    let names = |lab: &phaselab::app::Lab| {
+        let name = |i: &usize| lab.loaded.system.channels()[*i].name.clone();
+        let names = lab.plots.iter().map(|plot| match plot {
+            Plot::Phase { x, y, lens } => (vec![name(x), name(y)], Some(*lens)),
+            Plot::Time { y, lens } => (y.iter().map(name).collect(), Some(*lens)),
+            _ => (Vec::new(), None),
+        });
+        names.collect::<Vec<_>>()
+    };
+    assert_eq!(names(lab), names(&before));
+    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::TakeUp(_))]), "{effects:?}");
+}
+
+#[test]
+fn a_system_that_lost_what_was_shown_opens_its_own_views() {
+    let mut app = opened(FILE);
+    let text = FILE.replace("y = { initial = 2.0 }\n", "").replace("y'^2", "x'^2");
+    app.update(Event::Rebuilt(lowered(&text.replace("y^2", "x^2"))));
+    let lab = app.lab.as_ref().unwrap();
+    assert!(!lab.plots.is_empty());
+    for plot in &lab.plots {
+        if let Plot::Phase { x, y, .. } = plot {
+            assert!(lab.loaded.system.channels().len() > *x.max(y));
+        }
+    }
+}

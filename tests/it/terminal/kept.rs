@@ -1,0 +1,139 @@
+//! Sessions: saved on every way out, and gone on with where they were left.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use rustix::process::Signal;
+use tempfile::TempDir;
+
+use super::session::{Session, Setup};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
+
+fn lab(arguments: &[&str], state: &Path) -> Session {
+    Setup::new(PROGRAM, arguments).size(120, 40).variable("XDG_STATE_HOME", state).start()
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn file(state: &Path) -> PathBuf {
+    state.join("phaselab/session.toml")
+}
+
+/// The session that is kept, without the lines of what says how it was left.
+fn kept(state: &Path) -> String {
+    fs::read_to_string(file(state)).expect("a session")
+}
+
+/// A double pendulum that was changed, looked at otherwise and held; its session is saved at the end.
+fn changed(state: &Path) -> Session {
+    let mut lab = lab(&["double-pendulum"], state);
+    lab.shows("running");
+    lab.press("llL");
+    lab.press("\t");
+    lab.press(" ");
+    lab.shows("paused");
+    lab.press("..");
+    lab.quiet(Duration::from_millis(300));
+    lab
+}
+
+#[test]
+fn quitting_saves_and_resuming_goes_on_bit_by_bit() {
+    let state = folder();
+    let mut first = changed(state.path());
+    let shown = first.text();
+    first.press("q");
+    assert_eq!(first.ends().0, 0);
+    let left = kept(state.path());
+    assert!(left.contains("running = false"), "{left}");
+
+    let mut second = lab(&["--resume"], state.path());
+    second.shows("paused");
+    second.quiet(Duration::from_millis(500));
+    // the trail is not kept, but every number of the lists is as it was
+    for number in shown.split_whitespace().filter(|word| word.starts_with("t=")) {
+        assert!(second.text().contains(number), "{number} in\n{}", second.text());
+    }
+    second.press("q");
+    assert_eq!(second.ends().0, 0);
+    assert_eq!(kept(state.path()), left);
+}
+
+#[test]
+fn every_signal_saves() {
+    for (signal, status) in
+        [(Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131), (Signal::TERM, 143)]
+    {
+        let state = folder();
+        let mut lab = changed(state.path());
+        lab.signal(signal);
+        assert_eq!(lab.ends().0, status);
+        lab.assert_restored();
+        assert!(kept(state.path()).contains("double-pendulum"));
+    }
+}
+
+#[test]
+fn a_lost_line_saves() {
+    let state = folder();
+    let lab = changed(state.path());
+    let mut child = lab.hang_up();
+    child.wait().expect("it ends");
+    assert!(kept(state.path()).contains("double-pendulum"));
+}
+
+#[test]
+fn a_home_that_cannot_be_written_costs_a_warning() {
+    let mut lab = lab(&["pendulum"], Path::new("/proc/nowhere"));
+    lab.shows("the session will not be saved");
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
+}
+
+#[test]
+fn the_second_copy_is_told() {
+    let state = folder();
+    let mut first = lab(&["pendulum"], state.path());
+    first.shows("running");
+    let mut second = lab(&["planet"], state.path());
+    second.shows("another phaselab is running");
+    for lab in [&mut second, &mut first] {
+        lab.press("q");
+        assert_eq!(lab.ends().0, 0);
+    }
+    assert!(kept(state.path()).contains("open = \"pendulum\""));
+}
+
+#[test]
+fn a_session_that_cannot_be_resumed_is_told_before_the_screen_is_touched() {
+    let state = folder();
+    let mut none = lab(&["--resume"], state.path());
+    assert_eq!(none.ends().0, 2);
+    assert!(none.sent().contains("there is no session to resume"), "{}", none.sent());
+    fs::create_dir_all(state.path().join("phaselab")).expect("a folder");
+    for (text, message) in [("version = 9\n", "newer phaselab"), ("version = ]\n", "is no session")]
+    {
+        fs::write(file(state.path()), text).expect("it is written");
+        let mut lab = lab(&["--resume"], state.path());
+        assert_eq!(lab.ends().0, 65);
+        assert!(lab.sent().contains(message) && !lab.sent().contains("\x1b[?1049h"));
+    }
+}
+
+#[test]
+fn a_disk_that_is_full_at_the_end_is_told() {
+    let state = folder();
+    let mut lab = changed(state.path());
+    let folder = state.path().join("phaselab");
+    fs::remove_dir_all(&folder).expect("it is there");
+    fs::write(&folder, "in the way").expect("it is written");
+    lab.press("q");
+    assert_eq!(lab.ends().0, 74);
+    lab.assert_restored();
+    assert!(lab.text().contains("the session is not saved: cannot write"), "{}", lab.text());
+}
