@@ -496,7 +496,9 @@ mod tests {
             tail in "\x1b[\\[\\]PO_X]?(200~|M|<[0-9]{0,6}(;[0-9]{0,6}){0,4}[Mm])?.{0,8}",
         ) {
             let mut decoder = Decoder::default();
-            modes.into_iter().for_each(|mode| decoder.expect(mode, true));
+            for mode in modes {
+                decoder.expect(mode, true);
+            }
             let mut now = Instant::now();
             decoder.feed(&bytes, now);
             decoder.feed(tail.as_bytes(), now);
