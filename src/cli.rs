@@ -8,6 +8,7 @@
 mod assignment;
 mod bracket;
 mod check;
+mod config;
 mod decimal;
 mod derive;
 mod failure;
@@ -72,6 +73,8 @@ enum Command {
     Run(Box<run::Arguments>),
     /// List the integrators: order, what they preserve, what they need.
     Methods(methods::Arguments),
+    /// Show where the configuration stands and what it may say, or look for mistakes in it.
+    Config(config::Arguments),
 }
 
 /// Does what the arguments say; the first is the program's name.
@@ -106,6 +109,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Bracket(arguments)) => bracket::perform(&arguments),
         Some(Command::Run(arguments)) => run::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
+        Some(Command::Config(arguments)) => config::perform(&arguments),
         None => lab::perform(&arguments.lab),
     }
 }

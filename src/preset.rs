@@ -12,6 +12,7 @@ mod draft;
 mod grammar;
 mod mistake;
 mod report;
+mod settings;
 
 use crate::model::Model;
 
@@ -19,6 +20,7 @@ pub use catalog::{Catalog, Entry, NotFound, Origin, is_path};
 pub use document::Document;
 pub use mistake::{Mistake, Severity};
 pub use report::report;
+pub use settings::{Entry as Setting, Plain};
 
 use mistake::Mistakes;
 

@@ -9,8 +9,10 @@
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 
+pub mod config;
 mod input;
 mod loader;
+pub mod options;
 mod panic;
 mod queue;
 mod request;
@@ -21,6 +23,7 @@ mod store;
 mod terminal;
 
 pub use input::{Input, PASTE_LIMIT};
+pub use options::Options;
 pub use panic::report_panics;
 pub use request::{Refusal, Request};
 pub use stage::{Ending, Pace, Page, Wish, perform};

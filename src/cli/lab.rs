@@ -1,93 +1,100 @@
 //! `phaselab [PRESET|FILE]`: the laboratory on the screen.
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgMatches, Command, FromArgMatches};
 
+use super::config;
 use super::failure::Failure;
-use crate::shell::{self, Ending, NoSession, Refusal, Request};
-use crate::view::colour::ColourDepth;
-use crate::view::glyphs::Glyphs;
+use crate::shell::options::{Choice, Kind, OPTIONS};
+use crate::shell::{self, Ending, NoSession, Options, Refusal, Request};
 
-/// What to open and how to show it.
-#[derive(Debug, clap::Args)]
-#[group(skip)]
+/// What to open and how to show it: a name, and an argument for each row of [`OPTIONS`].
+#[derive(Debug)]
 pub(super) struct Arguments {
-    /// A preset's name, or a file.
-    #[arg(value_name = "PRESET|FILE")]
     name: Option<String>,
-    /// Go on with the last session: its system, views, values and motion.
-    #[arg(long, conflicts_with = "name")]
-    resume: bool,
-    /// How many colours to use.
-    #[arg(long, value_enum, value_name = "COLOURS", default_value_t)]
-    color: Colours,
-    /// What to draw with.
-    #[arg(long, value_enum, value_name = "GLYPHS", default_value_t)]
-    glyphs: Drawn,
-    /// The most frames in a second; 30 where it is left out, 15 over ssh.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=240))]
-    fps: Option<u16>,
-    /// Leave out the marks round each frame, for a terminal that shows them.
-    #[arg(long)]
-    no_sync: bool,
-    /// Use the mouse from the beginning; in the lab M switches it on and off.
-    ///
-    /// While it is on, the terminal's own selection of text needs Shift held.
-    #[arg(long)]
-    mouse: bool,
+    options: Options,
 }
 
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Colours {
-    /// What the environment says: NO_COLOR, COLORTERM, TERM.
-    #[default]
-    Auto,
-    /// None.
-    Never,
-    /// The terminal's own sixteen.
-    #[value(name = "16")]
-    Sixteen,
-    /// The xterm palette.
-    #[value(name = "256")]
-    Palette,
-    /// 24 bits.
-    True,
+impl clap::Args for Arguments {
+    fn augment_args(command: Command) -> Command {
+        let name = Arg::new("name").value_name("PRESET|FILE").help("A preset's name, or a file");
+        OPTIONS.iter().fold(command.arg(name), |command, choice| command.arg(argument(choice)))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
 }
 
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Drawn {
-    /// What the locale says: LC_ALL, LC_CTYPE, LANG.
-    #[default]
-    Auto,
-    /// Braille patterns, the finest.
-    Braille,
-    /// Half blocks.
-    Half,
-    /// ASCII only.
-    Ascii,
+impl FromArgMatches for Arguments {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut options = Options::default();
+        for choice in OPTIONS {
+            if let Some(word) = matches.get_one::<String>(choice.name) {
+                options.ask(choice.name, word);
+            }
+        }
+        Ok(Self { name: matches.get_one("name").cloned(), options })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// A row of the table as an argument.
+fn argument(choice: &'static Choice) -> Arg {
+    let about = choice.about.trim_end_matches('.').to_owned();
+    let argument = Arg::new(choice.name).long(choice.name);
+    let argument = match choice.letter {
+        Some(letter) => argument.short(letter),
+        None => argument,
+    };
+    let argument = if choice.excludes_name { argument.conflicts_with("name") } else { argument };
+    match choice.kind {
+        Kind::Switch => argument
+            .num_args(0..=1)
+            .require_equals(true)
+            .default_missing_value("true")
+            .value_name("true|false")
+            .value_parser(["true", "false"])
+            .hide_possible_values(true)
+            .help(about),
+        Kind::Word(words) => {
+            let value = |&(word, about): &(&'static str, &'static str)| {
+                PossibleValue::new(word).help(about)
+            };
+            argument
+                .value_name("WORD")
+                .value_parser(PossibleValuesParser::new(words.iter().map(value)))
+                .help(about)
+        }
+        Kind::Count { auto, .. } => argument
+            .value_name("N")
+            .allow_hyphen_values(true)
+            .value_parser(clap::builder::StringValueParser::new().try_map(|word: String| {
+                choice.accept(&word).map(|()| word).map_err(|wrong| wrong.message)
+            }))
+            .help(format!("{about}; {auto} where it is left out")),
+    }
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
-    let request = Request {
-        open: arguments.name.clone(),
-        resume: arguments.resume,
-        colour: match arguments.color {
-            Colours::Auto => None,
-            Colours::Never => Some(ColourDepth::None),
-            Colours::Sixteen => Some(ColourDepth::Ansi16),
-            Colours::Palette => Some(ColourDepth::Ansi256),
-            Colours::True => Some(ColourDepth::True),
-        },
-        glyphs: match arguments.glyphs {
-            Drawn::Auto => None,
-            Drawn::Braille => Some(Glyphs::Braille),
-            Drawn::Half => Some(Glyphs::HalfBlock),
-            Drawn::Ascii => Some(Glyphs::Ascii),
-        },
-        frames: arguments.fps,
-        unsynchronized: arguments.no_sync,
-        mouse: arguments.mouse,
-    };
-    match shell::run(&request) {
+    let variable = |name: &str| std::env::var(name).ok();
+    let environment = Options::of_environment(&variable).map_err(Failure::WrongUse)?;
+    let configured = config::options()?.within(&variable);
+    let options = arguments.options.clone().or(environment).or(configured);
+    let mut request = Request::new(arguments.name.clone(), &options);
+    let mut ended = shell::run(&request);
+    if let Err(Refusal::NoSession(NoSession::NoHome | NoSession::Unread { .. })) = ended
+        && !arguments.options.is_on("resume")
+    {
+        // a session is gone on with wherever there is one; here there is none yet
+        request.resume = false;
+        ended = shell::run(&request);
+    }
+    match ended {
         Ok(Ending::Quit) => Ok(()),
         Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
         Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),

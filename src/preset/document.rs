@@ -59,6 +59,11 @@ impl Document {
         Ok(Document::from_bytes(shown, &bytes))
     }
 
+    /// What is wrong with it before a word of it is read.
+    pub(super) fn unreadable(&self) -> Option<&Mistake> {
+        self.unreadable.as_ref()
+    }
+
     /// Reads the preset in it.
     ///
     /// # Errors
@@ -87,6 +92,6 @@ impl Document {
 
 /// The refusal of a file beyond the limit.
 pub(super) fn too_long(bytes: u64) -> Mistake {
-    let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
+    let message = format!("the file has {bytes} bytes; it may have {TEXT_LIMIT} (1 MiB)");
     Mistake::error(0..0, message)
 }

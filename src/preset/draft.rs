@@ -24,7 +24,6 @@ use toml::de::DeTable;
 use super::Mistakes;
 use super::mistake::Mistake;
 use crate::model::{Info, Place};
-use table::Table;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
 pub(super) use claims::{
@@ -37,6 +36,8 @@ pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{DraftShape, DraftShapeKind, DraftView, DraftViewKind};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
+pub(super) use table::Table;
+pub(super) use value::kind;
 pub(super) use vector::Formulas;
 
 /// A text with its place, quotes included: an expression still to be read. A number of TOML is

@@ -86,7 +86,9 @@ fn told(said: &str, there: &str) -> (Told, Loses) {
         let key = there.trim_matches(['"', '\'']);
         return tell(&format!("`{key}` is given twice"), "keep one of them", Loses::Key);
     }
-    if said.starts_with("string values must be quoted") {
+    // a word that begins as `nan` does
+    let word = said.starts_with("invalid float") && there.starts_with(char::is_alphabetic);
+    if word || said.starts_with("string values must be quoted") {
         if there.is_empty() {
             return tell("a value is missing here", "", Loses::Value);
         }

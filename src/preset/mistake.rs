@@ -133,6 +133,17 @@ impl Mistakes {
         self.lost_track
     }
 
+    /// All of them, in the order of their places.
+    pub(super) fn into_list(mut self) -> Vec<Mistake> {
+        self.sort();
+        if self.left_out > 0 {
+            let place = self.list.last().map_or(0..0, |m| m.place.clone());
+            let message = format!("{} more mistakes are not listed", self.left_out);
+            self.list.push(Mistake::error(place, message));
+        }
+        self.list
+    }
+
     /// Whether there is a mistake that makes the file unusable.
     pub(super) fn any_error(&self) -> bool {
         self.list.iter().any(|m| m.severity == Severity::Error)
@@ -140,18 +151,17 @@ impl Mistakes {
 
     /// The verdict on the file.
     pub(super) fn conclude(mut self, model: Option<Model>) -> Result<Checked, Vec<Mistake>> {
-        self.list.sort_by_key(|m| (m.place.start, m.place.end));
         match model {
-            Some(model) if !self.any_error() => Ok(Checked { model, warnings: self.list }),
-            _ => {
-                if self.left_out > 0 {
-                    let place = self.list.last().map_or(0..0, |m| m.place.clone());
-                    let message = format!("{} more mistakes are not listed", self.left_out);
-                    self.list.push(Mistake::error(place, message));
-                }
-                Err(self.list)
+            Some(model) if !self.any_error() => {
+                self.sort();
+                Ok(Checked { model, warnings: self.list })
             }
+            _ => Err(self.into_list()),
         }
+    }
+
+    fn sort(&mut self) {
+        self.list.sort_by_key(|m| (m.place.start, m.place.end));
     }
 }
 

@@ -1,7 +1,6 @@
 //! The request: what to open and how to show it, and what the environment says where nothing is asked for.
 //!
-//! In: options of the command line. Out: the look and the pace. Never here: the options' spelling; a question put to
-//! the terminal.
+//! In: [`Options`]. Out: the look and the pace. Never here: where options come from; a question put to the terminal.
 
 use crate::preset::NotFound;
 use crate::view::Look;
@@ -9,6 +8,7 @@ use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
+use super::options::Options;
 use super::stage::Pace;
 use super::store::NoSession;
 use super::terminal::NoTerminal;
@@ -59,6 +59,34 @@ pub enum Refusal {
 }
 
 impl Request {
+    /// What the options ask for; words no row of the table of options accepts count as not said.
+    pub fn new(open: Option<String>, options: &Options) -> Self {
+        let colour = match options.get("color") {
+            Some("never") => Some(ColourDepth::None),
+            Some("16") => Some(ColourDepth::Ansi16),
+            Some("256") => Some(ColourDepth::Ansi256),
+            Some("true") => Some(ColourDepth::True),
+            _ => None,
+        };
+        let glyphs = match options.get("glyphs") {
+            Some("braille") => Some(Glyphs::Braille),
+            Some("half") => Some(Glyphs::HalfBlock),
+            Some("ascii") => Some(Glyphs::Ascii),
+            _ => None,
+        };
+        let frames = options.count("fps");
+        Self {
+            // a name wins over going on with the last session
+            resume: open.is_none() && options.is_on("resume"),
+            open,
+            colour,
+            glyphs,
+            frames,
+            unsynchronized: options.is_on("no-sync"),
+            mouse: options.is_on("mouse"),
+        }
+    }
+
     /// How the screen looks, `variable` being the environment.
     pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> Look {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));

@@ -20,7 +20,7 @@ pub(crate) struct Done {
 }
 
 /// The program with an environment that is the same everywhere: English, UTF-8, an empty home.
-fn program(home: &Path) -> Command {
+pub(crate) fn program(home: &Path) -> Command {
     let mut command = Command::cargo_bin("phaselab").expect("cargo builds the program for tests");
     command
         .env_clear()
@@ -31,7 +31,7 @@ fn program(home: &Path) -> Command {
     command
 }
 
-fn done(command: &mut Command) -> Done {
+pub(crate) fn done(command: &mut Command) -> Done {
     let output = command.output().expect("the program can be started");
     Done {
         code: output.status.code().expect("it exits by itself"),

@@ -5,6 +5,7 @@ mod analysis;
 mod app;
 mod build;
 mod cli;
+mod config;
 mod constrain;
 mod double;
 mod experiment;

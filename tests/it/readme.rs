@@ -7,6 +7,7 @@ use std::path::Path;
 
 use phaselab::app::keymap::{KEYS, Place};
 use phaselab::integrate::{METHODS, Preserves, Stepping};
+use phaselab::shell::options::OPTIONS;
 
 fn keys() -> String {
     let mut table = "| where | key | what it does |\n|---|---|---|\n".to_owned();
@@ -41,6 +42,18 @@ fn methods() -> String {
     table
 }
 
+fn options() -> String {
+    let mut table =
+        "| option and key | what it may be | without it | what it is for |\n|---|---|---|---|\n"
+            .to_owned();
+    for choice in OPTIONS {
+        let (name, usual) = (choice.name, choice.usual);
+        let row = format!("| `{name}` | {} | {usual} | {} |", choice.words(), choice.about);
+        writeln!(table, "{row}").unwrap();
+    }
+    table
+}
+
 /// Checks (or writes) the part of the README between `<!-- name -->` and `<!-- end -->`.
 fn check(name: &str, table: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
@@ -63,4 +76,5 @@ fn check(name: &str, table: &str) {
 fn the_tables_are_those_of_the_code() {
     check("keys", &keys());
     check("methods", &methods());
+    check("options", &options());
 }

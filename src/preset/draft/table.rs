@@ -8,10 +8,10 @@ use super::{Formula, Mistake, Mistakes, Place, TOP_LEVEL, value};
 use crate::expr::nearest;
 
 /// A value of TOML with its span.
-pub(super) type Value<'d> = Spanned<DeValue<'d>>;
+pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
 
 /// A table that is being read.
-pub(super) struct Table<'d> {
+pub(in crate::preset) struct Table<'d> {
     /// What messages call it: `[run]`, `the coordinate x`.
     pub(super) called: String,
     /// Where it stands.
@@ -23,7 +23,7 @@ pub(super) struct Table<'d> {
 }
 
 impl<'d> Table<'d> {
-    pub(super) fn new(
+    pub(in crate::preset) fn new(
         called: impl Into<String>,
         place: Place,
         entries: &'d DeTable<'d>,
@@ -58,7 +58,7 @@ impl<'d> Table<'d> {
     }
 
     /// A key's place and value.
-    pub(super) fn take(&mut self, key: &'static str) -> Option<(Place, &'d Value<'d>)> {
+    pub(in crate::preset) fn take(&mut self, key: &'static str) -> Option<(Place, &'d Value<'d>)> {
         self.asked.push(key);
         let (written, value) = self.entries.get_key_value(key)?;
         Some((written.span(), value))
@@ -204,7 +204,7 @@ impl<'d> Table<'d> {
     }
 
     /// Complains of every key that nobody asked for, and of those that are missing.
-    pub(super) fn finish(mut self, mistakes: &mut Mistakes) {
+    pub(in crate::preset) fn finish(mut self, mistakes: &mut Mistakes) {
         for (key, value) in self.entries {
             let name: &str = key.get_ref();
             if self.asked.contains(&name) || self.passed.contains(&name) {
@@ -220,7 +220,7 @@ impl<'d> Table<'d> {
             let help = if let Some(near) = nearest(name, self.asked.iter().copied()) {
                 self.absent.retain(|(key, _)| *key != near);
                 format!("did you mean `{near}`?")
-            } else if TOP_LEVEL.contains(&name) {
+            } else if TOP_LEVEL.contains(&name) && !self.place.is_empty() {
                 format!("`{name}` belongs at the top of the file, before the first [table]")
             } else {
                 let mut known: Vec<&str> = self.asked.clone();

@@ -7,7 +7,7 @@ use super::table::Value;
 use super::{Formula, Mistake, Mistakes};
 
 /// What a value is, with its article.
-pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a text in quotes",
         DeValue::Integer(_) | DeValue::Float(_) => "a number",

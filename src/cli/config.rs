@@ -1,0 +1,90 @@
+//! `phaselab config`: where the configuration stands, what it may say, and whether it is right.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::output::Output;
+use super::{open, stderr};
+use crate::preset::Document;
+use crate::shell::{Options, config};
+
+/// Show where the configuration stands and what it may say, or look for mistakes in it.
+///
+/// The laboratory reads `phaselab/config.toml` in your configuration folder, if it is there. Its
+/// keys are the laboratory's options. An option on the command line wins over a variable of the
+/// environment (`PHASELAB_FPS=10`), and that over the file. Commands without a screen never read
+/// it.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab config print-default > \"$(phaselab config path)\"   begin a configuration
+  phaselab config check                                       look for mistakes in it")]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Command {
+    /// Print a configuration that says what is so without one, with a comment on each key.
+    PrintDefault,
+    /// Print where the configuration is looked for, whether it is there or not.
+    Path,
+    /// Tell every mistake in the configuration, or in a file that is to become one.
+    Check {
+        /// The file to look at in place of the configuration.
+        #[arg(value_name = "FILE")]
+        file: Option<PathBuf>,
+    },
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.command {
+        Command::PrintDefault => print(&config::default_text()),
+        Command::Path => print(&format!("{}\n", path()?.display())),
+        Command::Check { file: Some(path) } => {
+            let document = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+            read(&document).map(|_| ())
+        }
+        Command::Check { file: None } => match find()? {
+            Some(document) => read(&document).map(|_| ()),
+            None => {
+                stderr::tell(&format!("there is no configuration at {}", path()?.display()));
+                Ok(())
+            }
+        },
+    }
+}
+
+/// What the configuration asks for, nothing where there is none. Its mistakes are shown where they
+/// stand.
+pub(super) fn options() -> Result<Options, Failure> {
+    find()?.map_or(Ok(Options::default()), |document| read(&document))
+}
+
+fn find() -> Result<Option<Document>, Failure> {
+    config::find().map_err(|why| match config::path() {
+        Some(path) => Failure::reading(&path, &why),
+        None => Failure::CouldNot(why.to_string()),
+    })
+}
+
+fn path() -> Result<PathBuf, Failure> {
+    let none =
+        "there is no home, and so no folder for a configuration: set HOME or XDG_CONFIG_HOME";
+    config::path().ok_or_else(|| Failure::CouldNot(none.to_owned()))
+}
+
+fn read(document: &Document) -> Result<Options, Failure> {
+    config::read(document).map_err(|mistakes| {
+        stderr::show(&document.report(&mistakes, stderr::has_colour()));
+        Failure::WrongFile(open::count(mistakes.len(), &document.path))
+    })
+}
+
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = Output::open(None)?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}

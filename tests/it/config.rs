@@ -1,0 +1,118 @@
+//! The configuration: what it may say, what is said of mistakes in it, and which wish wins.
+//!
+//! Each file of `tests/bad-config` has beside it the exact report it must give; with `UPDATE_EXPECT=1` the reports are
+//! written anew, to be read and judged.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use phaselab::preset::Document;
+use phaselab::shell::config;
+use phaselab::shell::options::{Kind, OPTIONS};
+
+use crate::cli::{done, program};
+
+fn corpus() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-config");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn each_mistake_gives_its_report() {
+    let update = std::env::var_os("UPDATE_EXPECT").is_some();
+    let files = corpus();
+    assert!(files.len() >= 20, "the corpus holds {} files", files.len());
+    let mut wrong = Vec::new();
+    for path in files {
+        let mut document = Document::open(&path).unwrap();
+        document.path = format!("{}", path.file_name().unwrap().display());
+        let given = match config::read(&document) {
+            Ok(options) => panic!("{} was read as {options:?}", document.path),
+            Err(mistakes) => document.report(&mistakes, false),
+        };
+        let expected = path.with_extension("txt");
+        if update {
+            fs::write(&expected, given).unwrap();
+        } else if fs::read_to_string(&expected).unwrap_or_default() != given {
+            wrong.push(given);
+        }
+    }
+    assert!(wrong.is_empty(), "reports that differ:\n\n{}", wrong.join("\n"));
+}
+
+/// The default says of every option what it is without a configuration, and says it only once.
+#[test]
+fn the_printed_default_equals_the_defaults() {
+    let text = config::default_text();
+    let options = config::read(&Document::new("default", text.as_str())).unwrap();
+    for choice in OPTIONS {
+        assert_eq!(options.get(choice.name), Some(choice.usual), "{}", choice.name);
+        assert!(text.contains(choice.about), "{}", choice.name);
+        let lines = text.lines().filter(|line| line.starts_with(&format!("{} =", choice.name)));
+        assert_eq!(lines.count(), 1, "{}", choice.name);
+        if let Kind::Word(words) = choice.kind {
+            assert!(words.iter().all(|(_, about)| text.contains(about)), "{}", choice.name);
+        }
+    }
+    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    let home = tempfile::tempdir().unwrap();
+    assert_eq!(done(program(home.path()).args(["config", "print-default"])).success(), text);
+}
+
+/// A home with this configuration.
+fn home(text: &str) -> tempfile::TempDir {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join(".config/phaselab");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("config.toml"), text).unwrap();
+    home
+}
+
+#[test]
+fn a_wrong_configuration_leaves_the_lab_closed() {
+    let home = home("color = \"auto\"\nfsp = 30\n");
+    let lab = done(program(home.path()).arg("pendulum"));
+    let place = format!("{}/.config/phaselab/config.toml:2:1", home.path().display());
+    lab.fails(65, &[&place, "fsp = 30", "^^^", "did you mean `fps`?", "1 mistake in"]);
+    // a command without a screen asks for none of it
+    let listed = done(program(home.path()).args(["methods"])).success();
+    assert!(listed.contains("taylor"));
+}
+
+#[test]
+fn a_right_configuration_does_not_stand_in_the_way() {
+    let home = home(&config::default_text());
+    done(program(home.path()).args(["config", "check"])).fails(0, &[]);
+    // beyond the configuration: there is no terminal here
+    done(program(home.path()).arg("pendulum")).fails(2, &["terminal"]);
+    done(program(home.path()).env("PHASELAB_FPS", "1000").arg("pendulum"))
+        .fails(2, &["PHASELAB_FPS", "from 1 to 240"]);
+}
+
+#[test]
+fn the_configuration_is_where_its_path_says() {
+    let home = tempfile::tempdir().unwrap();
+    let usual = home.path().join(".config/phaselab/config.toml");
+    let said = done(program(home.path()).args(["config", "path"])).success();
+    assert_eq!(said, format!("{}\n", usual.display()));
+    let moved = home.path().join("elsewhere");
+    let mut command = program(home.path());
+    let said = done(command.env("XDG_CONFIG_HOME", &moved).args(["config", "path"])).success();
+    assert_eq!(said, format!("{}\n", moved.join("phaselab/config.toml").display()));
+    done(program(home.path()).args(["config", "check"])).fails(0, &["there is no configuration"]);
+}
+
+#[test]
+fn a_file_can_be_checked_before_it_becomes_the_configuration() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("new.toml"), "fps = 10\n").unwrap();
+    fs::write(home.path().join("bad.toml"), "fps = 0\n").unwrap();
+    done(program(home.path()).args(["config", "check", "new.toml"])).fails(0, &[]);
+    done(program(home.path()).args(["config", "check", "bad.toml"]))
+        .fails(65, &["bad.toml:1:7", "from 1 to 240"]);
+    done(program(home.path()).args(["config", "check", "none.toml"])).fails(2, &["none.toml"]);
+}
