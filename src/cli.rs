@@ -1,20 +1,22 @@
 //! The command line: one file per subcommand, each over the same stages as the laboratory.
 //!
 //! In: arguments. Out: data on standard output (and nothing else there), mistakes and messages on
-//! standard error, an exit code: 0 done, 1 could not, 2 wrong use, 65 the file is wrong, 74 could
-//! not write, 128 + n ended by signal n. Output that nobody reads any more (`| head`) ends a
+//! standard error, an exit code of [`EXITS`]. Output that nobody reads any more (`| head`) ends a
 //! command quietly, as done. Never here: mechanics, numbers in motion.
 
 mod assignment;
 mod bracket;
 mod check;
+mod completions;
 mod config;
 mod decimal;
 mod derive;
+mod exit;
 mod failure;
 mod format;
 mod lab;
 mod list;
+mod manual;
 mod methods;
 mod open;
 mod output;
@@ -27,11 +29,13 @@ mod stderr;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::expr::nearest;
 
 use failure::Failure;
+
+pub use exit::{EXITS, Exit};
 
 /// A laboratory for analytical mechanics.
 ///
@@ -41,16 +45,6 @@ use failure::Failure;
 /// before shipped ones of the same name.
 #[derive(Debug, Parser)]
 #[command(name = "phaselab", version, args_conflicts_with_subcommands = true)]
-#[command(after_help = "\
-Examples:
-  phaselab                                      choose a system and watch it move
-  phaselab double-pendulum                      open a preset
-  phaselab my/system.toml                       open a file
-  phaselab derive heavy-top                     what follows from its Lagrangian
-  phaselab run pendulum --until 10 > swing.csv  the same motion without a screen
-
-Exit status: 0 done; 1 the motion could not go on; 2 wrong use; 65 the file is wrong;
-74 could not write; 128 + n ended by signal n.")]
 struct Arguments {
     #[command(flatten)]
     lab: lab::Arguments,
@@ -58,29 +52,40 @@ struct Arguments {
     command: Option<Command>,
 }
 
+/// What stands below the help of the program itself.
+const EXAMPLES: &str = "\
+Examples:
+  phaselab                             choose a system and watch it move
+  phaselab double-pendulum             open a preset
+  phaselab my/system.toml              open a file
+  phaselab derive heavy-top            what follows from its Lagrangian
+  phaselab run pendulum > swing.csv    the same motion without a screen
+  phaselab man | man -l -              the manual, with all keys";
+
+/// The whole command line, as help, completions and the manual are made from it.
+pub fn command() -> clap::Command {
+    let exits = exit::lines(80);
+    Arguments::command().after_help(format!("{EXAMPLES}\n\nExit status:\n{exits}"))
+}
+
+/// The commands; what each is for stands with its arguments.
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// List the presets by chapter and topic.
     List(list::Arguments),
-    /// Show what follows from L or H: momenta, equations of motion, Hamiltonian, what is conserved
-    /// and why.
     Derive(derive::Arguments),
-    /// Tell every mistake in files, and whether what they claim is true.
     Check(check::Arguments),
-    /// Take Poisson's bracket of two expressions.
     Bracket(bracket::Arguments),
-    /// Integrate without a screen.
     Run(Box<run::Arguments>),
-    /// List the integrators: order, what they preserve, what they need.
     Methods(methods::Arguments),
-    /// Show where the configuration stands and what it may say, or look for mistakes in it.
     Config(config::Arguments),
+    Completions(completions::Arguments),
+    Man(manual::Arguments),
 }
 
 /// Does what the arguments say; the first is the program's name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = arguments.into_iter().collect();
-    let arguments = match Arguments::try_parse_from(&words) {
+    let arguments = match parse(&words) {
         Ok(arguments) => arguments,
         Err(error) => {
             if let Some(message) = misspelt(&words) {
@@ -89,7 +94,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             }
             // help asked for goes to standard output, and both may have nobody to read them
             let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE));
         }
     };
     match perform(arguments) {
@@ -101,6 +106,10 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
+fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
+    Arguments::from_arg_matches(&command().try_get_matches_from(words)?)
+}
+
 fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Some(Command::List(arguments)) => list::perform(&arguments),
@@ -110,6 +119,8 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(arguments)) => run::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
         Some(Command::Config(arguments)) => config::perform(&arguments),
+        Some(Command::Completions(arguments)) => completions::perform(&arguments),
+        Some(Command::Man(arguments)) => manual::perform(&arguments),
         None => lab::perform(&arguments.lab),
     }
 }

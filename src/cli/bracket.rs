@@ -16,7 +16,7 @@ use crate::mechanics::{self, ChainRule, Equations, Recognised, WhyNot};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, Given, System};
 
-/// Poisson's bracket of two expressions.
+/// Take Poisson's bracket of two expressions.
 ///
 /// [F, G] = Σ ∂F/∂q ∂G/∂p − ∂F/∂p ∂G/∂q, or ∇F · B ∇G where the file gives the brackets B of its
 /// variables; symbolically, and its value at the start. F and G may use whatever an observable

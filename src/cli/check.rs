@@ -19,8 +19,13 @@ use crate::preset::{Document, Mistake, Severity};
 /// Tell every mistake in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion.
+/// integrating the motion. Without a mistake nothing is said.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab check my/system.toml          every mistake with a caret, and what would be right
+  phaselab check my/*.toml && echo fine
+  phaselab check --format json my/system.toml | jq '.files[].mistakes'")]
 pub(super) struct Arguments {
     /// The files.
     #[arg(value_name = "FILE", required = true)]

@@ -18,8 +18,9 @@ use crate::shell::{Options, config};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  phaselab config print-default > \"$(phaselab config path)\"   begin a configuration
-  phaselab config check                                       look for mistakes in it")]
+  phaselab config path                 where it belongs
+  phaselab config print-default        one to begin with
+  phaselab config check                look for mistakes in it")]
 pub(super) struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -15,8 +15,17 @@ use super::output::Output;
 use super::script::Script;
 use crate::mechanics;
 
-/// Show what follows from L or H.
+/// Show what follows from L or H: equations of motion, and what is conserved and why.
+///
+/// Momenta, mass matrix, equations of motion, the Hamiltonian (or why it has no closed form), the
+/// energy and the law of its change, cyclic coordinates, what is conserved and why; of every
+/// declared observable whether it is conserved.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab derive heavy-top
+  phaselab derive my/system.toml --format latex > equations.tex
+  phaselab derive planet --format json | jq .equations")]
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]

@@ -4,6 +4,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use super::exit;
+
 /// Why a command stops before its end.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Failure {
@@ -35,16 +37,17 @@ impl Failure {
         Failure::WrongUse(format!("cannot read {}: {}", path.display(), plain(error)))
     }
 
-    /// The exit code: 0 done, 1 could not, 2 wrong use, 65 the file is wrong, 74 could not write
-    /// (the last two as in BSD's `sysexits.h`), 128 + n ended by signal n.
+    /// The exit code, one of [`super::EXITS`].
     pub(super) fn code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Failure::Signal(number) => u8::try_from(128 + number).unwrap_or(u8::MAX),
-            Failure::NobodyReads => 0,
-            Failure::CouldNot(_) => 1,
-            Failure::WrongUse(_) => 2,
-            Failure::WrongFile(_) => 65,
-            Failure::CouldNotWrite(_) => 74,
+            Failure::Signal(number) => {
+                u8::try_from(*number).map_or(u8::MAX, |n| exit::SIGNAL.saturating_add(n))
+            }
+            Failure::NobodyReads => exit::DONE,
+            Failure::CouldNot(_) => exit::COULD_NOT,
+            Failure::WrongUse(_) => exit::WRONG_USE,
+            Failure::WrongFile(_) => exit::WRONG_FILE,
+            Failure::CouldNotWrite(_) => exit::COULD_NOT_WRITE,
         })
     }
 

@@ -76,7 +76,7 @@ fn argument(choice: &'static Choice) -> Arg {
             .value_parser(clap::builder::StringValueParser::new().try_map(|word: String| {
                 choice.accept(&word).map(|()| word).map_err(|wrong| wrong.message)
             }))
-            .help(format!("{about}; {auto} where it is left out")),
+            .help(format!("{about}; where it is left out {auto}")),
     }
 }
 

@@ -10,7 +10,15 @@ use super::output::Output;
 use crate::preset::{Catalog, Entry, Origin};
 
 /// List the presets by chapter and topic.
+///
+/// Your own, in `phaselab/presets` of your configuration folder, are among them; one that cannot be
+/// used stands there with its mistake.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab list                          chapters, topics, names and what they show
+  phaselab list --format names           names alone, one a line
+  phaselab list --format json            one object, {\"presets\": [...]}")]
 pub(super) struct Arguments {
     /// How the list is written.
     #[arg(long, value_enum, default_value_t)]
@@ -24,12 +32,18 @@ enum Format {
     Text,
     /// One object, `{"presets": [...]}`.
     Json,
+    /// Names alone, one a line, for scripts and shells.
+    Names,
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let catalog = Catalog::load();
     let text = match arguments.format {
         Format::Text => text(catalog.entries()),
+        Format::Names => {
+            let names: Vec<&str> = catalog.entries().iter().map(|e| e.name.as_str()).collect();
+            names.join("\n") + "\n"
+        }
         Format::Json => {
             let presets: Vec<Value> = catalog.entries().iter().map(object).collect();
             format!("{:#}\n", json!({ "presets": presets }))

@@ -9,8 +9,15 @@ use super::failure::Failure;
 use super::output::Output;
 use crate::integrate::{METHODS, Method, Preserves, Stepping};
 
-/// List the integrators.
+/// List the integrators: order, what they preserve, what they need.
+///
+/// Their order, how they choose their steps, what they preserve and what they need of a system.
+/// `run --method` and the key `m` in the lab take these names.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab methods
+  phaselab methods --format json         one object, {\"methods\": [...]}")]
 pub(super) struct Arguments {
     /// How the list is written.
     #[arg(long, value_enum, default_value_t)]

@@ -2,8 +2,12 @@
 
 mod bracket;
 mod check;
+mod completions;
 mod derive;
+mod exit;
+mod help;
 mod list;
+mod manual;
 mod run;
 mod write;
 

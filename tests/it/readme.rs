@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use phaselab::app::keymap::{KEYS, Place};
+use phaselab::cli::EXITS;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
 use phaselab::shell::options::OPTIONS;
 
@@ -54,6 +55,14 @@ fn options() -> String {
     table
 }
 
+fn exits() -> String {
+    let mut table = "| code | when |\n|---|---|\n".to_owned();
+    for exit in EXITS {
+        writeln!(table, "| {} | {} |", exit.code, exit.when.replace('|', "\\|")).unwrap();
+    }
+    table
+}
+
 /// Checks (or writes) the part of the README between `<!-- name -->` and `<!-- end -->`.
 fn check(name: &str, table: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
@@ -77,4 +86,5 @@ fn the_tables_are_those_of_the_code() {
     check("keys", &keys());
     check("methods", &methods());
     check("options", &options());
+    check("exits", &exits());
 }

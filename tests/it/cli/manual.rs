@@ -1,0 +1,84 @@
+//! The manual: all that the tables say stands in it, and `man` can show it.
+
+use std::fs;
+use std::process::Command;
+
+use phaselab::app::keymap::KEYS;
+use phaselab::cli::EXITS;
+use phaselab::shell::options::OPTIONS;
+
+use super::phaselab;
+
+/// A page as `man` shows it, each run of spaces as one; `None` where there is no `man`.
+fn shown(page: &str) -> Option<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("page.1");
+    fs::write(&path, page).unwrap();
+    let output = Command::new("groff")
+        .args(["-man", "-Tutf8", "-Kutf8", "-ww", "-P-c", "-P-b", "-P-u", "-rLL=100n"])
+        .arg(&path)
+        .output()
+        .ok()?;
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && told.is_empty(), "{told}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    Some(text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// A text as roff writes it, without its escapes.
+fn plain(page: &str) -> String {
+    let page = page.replace("\\fB", "").replace("\\fR", "").replace("\\fI", "").replace("\\-", "-");
+    page.replace("\\*(Aq", "'").replace("\\&", "").replace("\\\\", "\\")
+}
+
+#[test]
+fn the_page_holds_every_table() {
+    let page = plain(&phaselab(&["man"]).success());
+    for heading in [
+        "NAME",
+        "SYNOPSIS",
+        "DESCRIPTION",
+        "OPTIONS",
+        "KEYS",
+        "FILES",
+        "ENVIRONMENT",
+        "\"EXIT STATUS\"",
+        "EXAMPLES",
+        "VERSION",
+    ] {
+        assert!(page.contains(&format!(".SH {heading}\n")), "{heading} in {page}");
+    }
+    for row in KEYS {
+        assert!(page.contains(row.help), "{}", row.help);
+    }
+    for choice in OPTIONS {
+        assert!(page.contains(&format!("--{}", choice.name)), "{}", choice.name);
+        assert!(page.contains(&choice.variable()), "{}", choice.name);
+    }
+    for exit in EXITS {
+        assert!(page.contains(exit.when), "{}", exit.code);
+    }
+}
+
+#[test]
+fn man_shows_each_page_without_complaint() {
+    // where there is no groff, only the text of the page is looked at
+    let Some(whole) = shown(&phaselab(&["man"]).success()) else {
+        return;
+    };
+    for words in ["phaselab - A laboratory", "hold time, or let it run", "143 ended by a signal"] {
+        assert!(whole.contains(words), "no `{words}` in {whole}");
+    }
+    let command = phaselab::cli::command();
+    for below in command.get_subcommands().filter(|command| command.get_name() != "help") {
+        let name = below.get_name();
+        let page = shown(&phaselab(&["man", name]).success()).unwrap();
+        assert!(page.contains(&format!("phaselab-{name}")), "{name}: {page}");
+        assert!(page.contains("EXAMPLES"), "{name}: {page}");
+    }
+}
+
+#[test]
+fn a_command_that_is_none_has_no_page() {
+    phaselab(&["man", "derives"]).fails(2, &["there is no command `derives`", "`derive`"]);
+}
