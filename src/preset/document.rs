@@ -92,6 +92,6 @@ impl Document {
 
 /// The refusal of a file beyond the limit.
 pub(super) fn too_long(bytes: u64) -> Mistake {
-    let message = format!("the file has {bytes} bytes; it may have {TEXT_LIMIT} (1 MiB)");
+    let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
     Mistake::error(0..0, message)
 }
