@@ -6,6 +6,7 @@
 mod attitude;
 mod command;
 mod deviation;
+mod export;
 mod gauges;
 mod law;
 mod moment;
@@ -28,6 +29,7 @@ use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
 pub use command::Command;
+pub use export::Export;
 pub use moment::{Changed, Moment, Named, Reference, Whereabouts};
 pub use ready::{Ready, Unready};
 pub use setup::{NoMethod, Setup, choose_method};

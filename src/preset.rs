@@ -9,6 +9,7 @@ mod catalog;
 mod check;
 mod document;
 mod draft;
+mod edition;
 mod grammar;
 mod mistake;
 mod report;
@@ -18,6 +19,7 @@ use crate::model::Model;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, is_path};
 pub use document::Document;
+pub use edition::{Beginning, Edition};
 pub use mistake::{Mistake, Severity};
 pub use report::report;
 pub use settings::{Entry as Setting, Plain};

@@ -14,6 +14,7 @@ mod input;
 mod loader;
 pub mod options;
 mod panic;
+mod product;
 mod queue;
 mod request;
 mod session;

@@ -82,6 +82,8 @@ pub enum Action {
     TypeValue,
     /// Give the selected value back as the file has it.
     Restore,
+    /// Write the present as a file of a system.
+    Export,
     /// Look closer.
     Closer(Axes),
     /// Look from farther away.

@@ -28,6 +28,8 @@ pub enum Event {
     Snapshot(Arc<Snapshot>),
     /// A system asked for by [`Effect::Load`] is there, or is not.
     Loaded(Result<Loaded, LoadFailure>),
+    /// A file that was asked for is written, or why it is not: a sentence.
+    Written(Result<String, String>),
     /// The system in the lab was built anew from its changed file.
     Rebuilt(Loaded),
     /// A frame has passed, and this much time since the last one.
@@ -78,6 +80,8 @@ pub enum Effect {
     Tell(Command),
     /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
     Load(String),
+    /// Write the present as a file of a system; [`Event::Written`] answers.
+    Export,
     /// Draw every cell anew.
     Repaint,
     /// Have the terminal report the mouse, or leave it alone.

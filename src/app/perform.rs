@@ -75,6 +75,7 @@ impl App {
             }
             Action::Redo => lab.redo().unwrap_or_else(|| self.say("There is nothing to do again.")),
             Action::Strike => self.strike(),
+            Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
             Action::ChooseMethod => self.open_methods(),
             Action::TypeStep => self.open_field(Purpose::Step),

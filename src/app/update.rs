@@ -20,6 +20,11 @@ impl App {
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),
             Event::Loaded(Err(failure)) => self.failed(failure),
             Event::Rebuilt(loaded) => self.rebuilt(loaded),
+            Event::Written(Ok(sentence)) => {
+                self.notice = Some(Notice::info(sentence));
+                Vec::new()
+            }
+            Event::Written(Err(sentence)) => self.say(sentence),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.notice = self.notice.take().and_then(|notice| notice.after(elapsed));

@@ -4,6 +4,7 @@
 //! the stage. Never here: what a key does, or how anything looks.
 
 use std::io;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -12,11 +13,12 @@ use ratatui::layout::Rect;
 
 use super::input::Input;
 use super::loader::Loader;
+use super::product;
 use super::request::Request;
 use super::stage::{Page, Wish};
 use super::store::{NoStore, Store};
 use crate::app::{App, Effect, Event, Loaded, Notice, Saved};
-use crate::experiment::Ready;
+use crate::experiment::{Export, Ready};
 use crate::preset::{Catalog, is_path};
 use crate::view::{self, Look};
 use crate::worker::Worker;
@@ -98,6 +100,10 @@ impl Session {
             match effect {
                 Effect::Tell(command) => self.worker.tell(command),
                 Effect::Load(name) => self.loader.load(name),
+                Effect::Export => {
+                    let written = self.export();
+                    self.app.update(Event::Written(written));
+                }
                 Effect::Repaint => wish = Wish::Repaint,
                 Effect::Mouse(on) => wish = Wish::Mouse(on),
                 Effect::Suspend => wish = Wish::Suspend,
@@ -105,6 +111,18 @@ impl Session {
             }
         }
         wish
+    }
+
+    /// Writes the present as a file of a system; a sentence on it.
+    fn export(&mut self) -> Result<String, String> {
+        let lab = self.app.lab.as_ref().ok_or("there is no system to write")?;
+        let snapshot = lab.seen().ok_or("the system was not seen in motion yet")?;
+        let Loaded { name, document, model, system, .. } = &lab.loaded;
+        let Export { text, missing } = Export::of(document, (model, system), snapshot)?;
+        let path = product::put(Path::new("."), product::stem(name), "toml", text.as_bytes());
+        let path = path.map_err(|error| error.to_string())?;
+        let path = path.strip_prefix(".").unwrap_or(&path);
+        Ok([vec![format!("{} is written.", path.display())], missing].concat().join(" "))
     }
 
     /// Sets a loaded system in motion.

@@ -1,6 +1,7 @@
 //! Experiments: what commands do, what gauges say, what is recorded. No thread, no clock.
 
 mod commands;
+mod export;
 mod gauges;
 mod moment;
 mod record;

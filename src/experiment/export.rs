@@ -1,0 +1,114 @@
+//! The present as a file: the text of a system with every value that was changed, which begins where the motion is.
+//!
+//! In: a document, its system, a [`Snapshot`]. Out: a text that reads without a mistake. Never here: writing it.
+
+use super::{Moment, Ready, Snapshot};
+use crate::expr::portable;
+use crate::model::{AttitudeSource, Model};
+use crate::preset::{Beginning, Document, Edition};
+use crate::system::{ChannelKind, System};
+
+/// What was made of the present.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Export {
+    /// The text.
+    pub text: String,
+    /// What of the present it could not say, in sentences.
+    pub missing: Vec<String>,
+}
+
+impl Export {
+    /// The file of a document's system as a snapshot shows it.
+    ///
+    /// # Errors
+    /// A sentence, where no file says what the present is.
+    pub fn of(
+        document: &Document,
+        (model, system): (&Model, &System),
+        snapshot: &Snapshot,
+    ) -> Result<Export, String> {
+        let moment = Moment::of(model, system, snapshot);
+        let mut missing = Vec::new();
+        let begun = moment.present.is_some();
+        let held = snapshot.released.is_empty();
+        if !held {
+            missing.push("A constraint was let go, so the file begins at the start.".to_owned());
+        }
+        if begun && held && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
+            missing.push("Blows that come again and again count from the new start.".to_owned());
+        }
+        let mut edition = Edition {
+            parameters: moment.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
+            method: moment.method.clone(),
+            run: [("step", moment.step), ("tolerance", moment.tolerance), ("speed", moment.speed)]
+                .into_iter()
+                .filter_map(|(key, value)| Some((key, value.filter(|v| v.is_finite())?)))
+                .collect(),
+            ..Edition::default()
+        };
+        if begun && held {
+            edition.start = Some(snapshot.time).filter(|time| *time != model.run.start);
+            edition.initial = beginnings(model, |kind| value(system, snapshot, kind));
+            edition.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));
+        } else {
+            let count = model.coordinates.len();
+            edition.initial = beginnings(model, |kind| match kind {
+                ChannelKind::Position(i) => snapshot.initial.get(i).copied(),
+                ChannelKind::Velocity(i) | ChannelKind::Momentum(i) => {
+                    snapshot.initial.get(count + i).copied()
+                }
+                _ => None,
+            });
+        }
+        let words = edition.of(&document.text).map_err(|error| error.to_string())?;
+        let first = match Ready::of(&Document::new(&document.path, &words)) {
+            Ok(_) => return Ok(Export { text: words, missing }),
+            Err(report) => report,
+        };
+        // what is expected of the motion was expected of other values
+        let text = Edition::without_expectations(&words).map_err(|error| error.to_string())?;
+        Ready::of(&Document::new(&document.path, &text)).map_err(|_| first.to_string())?;
+        missing
+            .push("What the file expects of the motion no longer holds, and is left out.".into());
+        Ok(Export { text, missing })
+    }
+}
+
+/// Where every coordinate or variable begins, by the values of channels.
+fn beginnings(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<Beginning> {
+    let of = |(i, c): (usize, &crate::model::Coordinate)| {
+        let rate = if model.is_poisson() {
+            None
+        } else if model.is_lagrangian() {
+            Some(("velocity", value(ChannelKind::Velocity(i))?))
+        } else {
+            Some(("momentum", value(ChannelKind::Momentum(i))?))
+        };
+        Some(Beginning { name: c.name.clone(), value: value(ChannelKind::Position(i))?, rate })
+    };
+    model.coordinates.iter().enumerate().filter_map(of).collect()
+}
+
+/// Whether the attitude of a body is carried along beside the motion.
+fn is_integrated(model: &Model) -> bool {
+    let source = model.attitude.as_ref().map(|attitude| &attitude.source);
+    matches!(source, Some(AttitudeSource::Rate { .. }))
+}
+
+fn value(system: &System, snapshot: &Snapshot, kind: ChannelKind) -> Option<f64> {
+    let place = system.channels().iter().position(|channel| channel.kind == kind)?;
+    snapshot.values.get(place).copied().filter(|value| value.is_finite())
+}
+
+/// Euler's angles φ, θ, ψ of the attitude, whose third column is (sin ψ sin θ, cos ψ sin θ, cos θ) and whose third row
+/// is (sin θ sin φ, −sin θ cos φ, cos θ): Goldstein, *Classical Mechanics*, (4-46).
+fn attitude(system: &System, snapshot: &Snapshot) -> Option<[f64; 3]> {
+    let entry = |i: usize, j: usize| value(system, snapshot, ChannelKind::Attitude(3 * i + j));
+    let sine = portable::hypot(entry(2, 0)?, entry(2, 1)?);
+    let theta = portable::atan2(sine, entry(2, 2)?);
+    if sine < 1e-12 {
+        return Some([portable::atan2(entry(0, 1)?, entry(0, 0)?), theta, 0.0]);
+    }
+    let phi = portable::atan2(entry(2, 0)?, -entry(2, 1)?);
+    Some([phi, theta, portable::atan2(entry(0, 2)?, entry(1, 2)?)])
+}

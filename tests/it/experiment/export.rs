@@ -1,0 +1,105 @@
+//! The present as a file: what is written begins where the motion is, and says what was changed.
+
+use phaselab::experiment::{Command, Experiment, Export, Ready};
+use phaselab::preset::{Catalog, Document};
+use phaselab::system::ChannelKind;
+
+use super::{PLENTY, run};
+
+fn opened(document: &Document) -> Experiment {
+    Ready::of(document).unwrap_or_else(|why| panic!("{why}\n{}", document.text)).experiment
+}
+
+fn exported(document: &Document, experiment: &Experiment) -> Export {
+    let parts = (&**experiment.model(), experiment.system());
+    Export::of(document, parts, &experiment.snapshot())
+        .unwrap_or_else(|why| panic!("{}: {why}", document.path))
+}
+
+fn shipped(name: &str) -> Document {
+    Catalog::with_folder(None).find(name).expect("it is shipped")
+}
+
+#[test]
+fn every_preset_goes_on_from_its_file() {
+    for entry in Catalog::with_folder(None).entries() {
+        let document = shipped(&entry.name);
+        let mut left = opened(&document);
+        left.advance(left.time() + 0.4 * left.speed(), 1_000);
+        let export = exported(&document, &left);
+        let written = opened(&Document::new("written.toml", export.text));
+        if !left.snapshot().released.is_empty() {
+            continue;
+        }
+        assert_eq!(written.time(), left.time(), "{}", entry.name);
+        for (channel, (a, b)) in
+            left.system().channels().iter().zip(left.values().iter().zip(written.values()))
+        {
+            let same = match channel.kind {
+                // what begins under constraints is put on them to the last digit
+                ChannelKind::Position(_) if left.system().constraints() > 0 => {
+                    (a - b).abs() <= 1e-15 * a.abs().max(1.0)
+                }
+                ChannelKind::Position(_) => a.to_bits() == b.to_bits(),
+                // of a Hamiltonian the velocity follows from the momentum, and the other way round
+                ChannelKind::Velocity(_) | ChannelKind::Momentum(_) | ChannelKind::Energy => {
+                    (a - b).abs() <= 1e-12 * a.abs().max(1.0)
+                }
+                ChannelKind::Attitude(_) => (a - b).abs() <= 1e-12,
+                _ => true,
+            };
+            assert!(same, "{}: {} was {a}, is {b}", entry.name, channel.name);
+        }
+    }
+}
+
+#[test]
+fn every_changed_value_is_in_it_and_the_rest_is_as_it_was_written() {
+    let document = shipped("pendulum");
+    let mut pendulum = opened(&document);
+    run(&mut pendulum, 1.25);
+    let index = pendulum.model().parameter("g").expect("it is there");
+    pendulum.obey(Command::Parameter { index, value: 1.62 });
+    pendulum.obey(Command::Speed(2.0));
+    pendulum.obey(Command::Method("dop853".to_owned()));
+    pendulum.obey(Command::Tolerance(1e-9));
+    let export = exported(&document, &pendulum);
+    let written = Document::new("written.toml", export.text.as_str());
+    let again = opened(&written).snapshot();
+    assert_eq!(again.parameters[index], 1.62);
+    assert_eq!((again.speed, again.method.name, again.time), (2.0, "dop853", 1.25));
+    assert_eq!(again.method.tolerance, Some(1e-9));
+    // lines that say nothing of these are untouched
+    let about = document.text.lines().filter(|line| line.contains("about")).count();
+    assert!(about > 0);
+    let kept = document.text.lines().filter(|line| export.text.contains(*line)).count();
+    assert!(kept + 8 >= document.text.lines().count(), "{}", export.text);
+}
+
+const FILE: &str = "# my own\ntitle = \"Oscillator\"\ncoordinates.x = { initial = 1 } # at rest\n\
+                    parameters = { k = 4 }\n[lagrangian]\nL = \"x'^2/2 - k*x^2/2\"\n";
+
+#[test]
+fn a_file_written_otherwise_is_understood() {
+    let document = Document::new("own.toml", FILE);
+    let mut left = opened(&document);
+    run(&mut left, 0.5);
+    left.obey(Command::Parameter { index: 0, value: 9.0 });
+    let text = exported(&document, &left).text;
+    assert!(text.starts_with("# my own\n") && text.contains("# at rest"), "{text}");
+    let again = opened(&Document::new("own.toml", text.as_str()));
+    assert_eq!(again.values()[..2], left.values()[..2], "{text}");
+    assert_eq!(again.snapshot().parameters[0], 9.0);
+}
+
+#[test]
+fn what_a_file_cannot_say_is_told() {
+    let document = shipped("smooth-sphere");
+    let mut sphere = opened(&document);
+    while sphere.snapshot().released.is_empty() {
+        sphere.advance(sphere.time() + 0.01, PLENTY);
+    }
+    let export = exported(&document, &sphere);
+    assert_eq!(export.missing, ["A constraint was let go, so the file begins at the start."]);
+    assert_eq!(opened(&Document::new("sphere.toml", export.text)).time(), 0.0);
+}
