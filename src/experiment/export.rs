@@ -61,9 +61,8 @@ impl Export {
             });
         }
         let words = edition.of(&document.text).map_err(|error| error.to_string())?;
-        let first = match Ready::of(&Document::new(&document.path, &words)) {
-            Ok(_) => return Ok(Export { text: words, missing }),
-            Err(report) => report,
+        let Err(first) = Ready::of(&Document::new(&document.path, &words)) else {
+            return Ok(Export { text: words, missing });
         };
         // what is expected of the motion was expected of other values
         let text = Edition::without_expectations(&words).map_err(|error| error.to_string())?;

@@ -7,8 +7,6 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, TomlErr
 /// The values to be put into a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Edition {
-    /// What is said at its head, in lines.
-    pub head: Vec<String>,
     /// The time of the initial values.
     pub start: Option<f64>,
     /// Of each coordinate or variable that is to begin elsewhere.
@@ -76,8 +74,7 @@ impl Edition {
         if let Some(method) = &self.method {
             run_table(&mut file).insert("method", value(method.as_str()));
         }
-        let head: String = self.head.iter().map(|line| format!("# {line}\n")).collect();
-        Ok(head + &file.to_string())
+        Ok(file.to_string())
     }
 
     /// The text without what it expects of the motion, which other values need not do.
