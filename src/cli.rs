@@ -10,6 +10,7 @@ mod check;
 mod completions;
 mod config;
 mod decimal;
+mod demo;
 mod derive;
 mod exit;
 mod failure;
@@ -20,6 +21,7 @@ mod manual;
 mod methods;
 mod open;
 mod output;
+mod record;
 mod report;
 mod rows;
 mod run;
@@ -76,6 +78,8 @@ enum Command {
     Check(check::Arguments),
     Bracket(bracket::Arguments),
     Run(Box<run::Arguments>),
+    Record(Box<record::Arguments>),
+    Script(demo::Arguments),
     Methods(methods::Arguments),
     Config(config::Arguments),
     Completions(completions::Arguments),
@@ -117,6 +121,8 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Check(arguments)) => check::perform(&arguments),
         Some(Command::Bracket(arguments)) => bracket::perform(&arguments),
         Some(Command::Run(arguments)) => run::perform(&arguments),
+        Some(Command::Record(arguments)) => record::perform(&arguments),
+        Some(Command::Script(arguments)) => demo::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
         Some(Command::Config(arguments)) => config::perform(&arguments),
         Some(Command::Completions(arguments)) => completions::perform(&arguments),

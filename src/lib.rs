@@ -14,6 +14,7 @@ pub mod integrate;
 pub mod mechanics;
 pub mod model;
 pub mod preset;
+pub mod record;
 pub mod shell;
 pub mod system;
 pub mod view;

@@ -17,7 +17,7 @@ mod settings;
 
 use crate::model::Model;
 
-pub use catalog::{Catalog, Entry, NotFound, Origin, is_path};
+pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, is_path};
 pub use document::Document;
 pub use edition::{Beginning, Edition};
 pub use mistake::{Mistake, Severity};

@@ -6,6 +6,7 @@
 //! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
 //! in a terminal: [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
 
+pub mod caption;
 pub mod colour;
 pub mod frame;
 pub mod glyphs;

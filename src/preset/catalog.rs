@@ -102,6 +102,22 @@ impl Catalog {
     }
 }
 
+/// The shipped demo of a preset, `presets/demos/<preset>.demo`: a script for the record room.
+pub fn demo(preset: &str) -> Option<Document> {
+    let path = format!("demos/{preset}.demo");
+    let text = SHIPPED.get_file(&path)?.contents_utf8()?;
+    Some(Document::new(format!("presets/{path}"), text))
+}
+
+/// The presets that have a shipped demo, by name.
+pub fn demos() -> Vec<&'static str> {
+    let folder = SHIPPED.get_dir("demos").map(Dir::files).into_iter().flatten();
+    let mut names: Vec<&str> =
+        folder.filter_map(|file| file.path().file_stem()?.to_str()).collect();
+    names.sort_unstable();
+    names
+}
+
 /// Whether what a user writes is a file's path.
 pub fn is_path(wanted: &str) -> bool {
     let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));

@@ -59,8 +59,8 @@ impl Document {
         Ok(Document::from_bytes(shown, &bytes))
     }
 
-    /// What is wrong with it before a word of it is read.
-    pub(super) fn unreadable(&self) -> Option<&Mistake> {
+    /// What is wrong with its bytes, before a word of it is read.
+    pub fn unreadable(&self) -> Option<&Mistake> {
         self.unreadable.as_ref()
     }
 

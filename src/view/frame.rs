@@ -40,6 +40,11 @@ impl Frames {
         self.shown.is_some()
     }
 
+    /// What the terminal shows, where that is known.
+    pub fn shown(&self) -> Option<&Buffer> {
+        self.shown.as_ref()
+    }
+
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
     pub fn next(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
         let area = Rect::new(0, 0, size.width, size.height);

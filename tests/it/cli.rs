@@ -8,6 +8,7 @@ mod exit;
 mod help;
 mod list;
 mod manual;
+mod record;
 mod run;
 mod write;
 

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up, and the lower ones each may still not use.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("expr", &[]),
     ("model", &[]),
     ("preset", &[]),
@@ -18,6 +18,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
     ("worker", &[]),
     ("app", &["worker"]),
     ("view", &["worker"]),
+    ("record", &["worker"]),
     ("shell", &[]),
     ("cli", &[]),
 ];

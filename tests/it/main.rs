@@ -20,6 +20,7 @@ mod plot;
 mod poisson;
 mod preset;
 mod readme;
+mod record;
 mod reference;
 mod rigid_body;
 mod screen;

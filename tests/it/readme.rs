@@ -8,6 +8,7 @@ use std::path::Path;
 use phaselab::app::keymap::{KEYS, Place};
 use phaselab::cli::EXITS;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
+use phaselab::record::script::{CLAIMS, COMMANDS};
 use phaselab::shell::options::OPTIONS;
 
 fn keys() -> String {
@@ -39,6 +40,22 @@ fn methods() -> String {
         };
         let needs = if method.needs.is_empty() { "–" } else { method.needs };
         writeln!(table, "| `{}` | {order} | {steps} | {keeps} | {needs} |", method.name).unwrap();
+    }
+    table
+}
+
+fn commands() -> String {
+    let mut table = "| line | what it does |\n|---|---|\n".to_owned();
+    for command in COMMANDS {
+        writeln!(table, "| `{}` | {} |", command.form, command.about).unwrap();
+    }
+    table
+}
+
+fn claims() -> String {
+    let mut table = "| `Assert …` | what must hold |\n|---|---|\n".to_owned();
+    for (form, about) in CLAIMS {
+        writeln!(table, "| `{form}` | {about} |").unwrap();
     }
     table
 }
@@ -87,4 +104,6 @@ fn the_tables_are_those_of_the_code() {
     check("methods", &methods());
     check("options", &options());
     check("exits", &exits());
+    check("script", &commands());
+    check("claims", &claims());
 }

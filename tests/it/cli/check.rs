@@ -126,7 +126,10 @@ fn every_shipped_preset_keeps_its_claims() {
     for folder in std::fs::read_dir(root).expect("the presets are there") {
         let folder = folder.expect("a folder can be read").path();
         for file in std::fs::read_dir(folder).expect("a folder of presets") {
-            files.push(file.expect("a file").path().display().to_string());
+            let path = file.expect("a file").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                files.push(path.display().to_string());
+            }
         }
     }
     files.sort();

@@ -1,0 +1,54 @@
+//! `phaselab script check`: every mistake of scripts, and whether what they claim is true.
+
+use std::path::PathBuf;
+
+use clap::Subcommand;
+
+use super::failure::Failure;
+use super::{open, record};
+use crate::preset::Document;
+use crate::record::Script;
+
+/// Check scripts of demos.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab script check my.demo")]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Tell every mistake in scripts, and whether what they claim is true.
+    ///
+    /// Reports go to standard error. A script that says which system it is about (Open) is played
+    /// to its end, without writing anything.
+    Check {
+        /// The scripts.
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+    },
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let Command::Check { files } = &arguments.command;
+    let mut wrong = Vec::new();
+    for path in files {
+        let source = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+        match check(&source) {
+            Err(Failure::WrongFile(what)) => wrong.push(what),
+            other => other?,
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(Failure::WrongFile(wrong.join("\n"))) }
+}
+
+fn check(source: &Document) -> Result<(), Failure> {
+    let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
+    let Some(system) = &script.head.open else { return Ok(()) };
+    let document = open::find(&system.text)?;
+    let recording = record::recorded(&script, source, &document, &system.text, None)?;
+    record::hold(source, &recording)
+}

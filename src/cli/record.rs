@@ -1,0 +1,122 @@
+//! `phaselab record`: a script becomes a cast, byte for byte the same on every machine.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::failure::Failure;
+use super::output::Output;
+use super::{open, stderr};
+use crate::expr::nearest;
+use crate::preset::{Document, Mistake, demo, demos};
+use crate::record::cast::{self, Version};
+use crate::record::script::read_size;
+use crate::record::{Recording, Script, account, play};
+
+/// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
+///
+/// No terminal is needed, and nothing of this one matters: TERM, NO_COLOR, the locale, the time and
+/// the size of the window are not looked at. Without --script the preset's own demo is recorded. A
+/// script whose claims (Assert) turn out false gives no cast.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab record pendulum -o pendulum.cast            a preset's own demo
+  phaselab record my/system.toml --script my.demo --size 100x30 -o my.cast
+  phaselab record pendulum --format account            what is done and found")]
+pub(super) struct Arguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: String,
+    /// The script; the preset's own demo where it is left out.
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// Columns and rows, where the script does not say them.
+    #[arg(long, value_name = "WxH", value_parser = read_size)]
+    size: Option<(u16, u16)>,
+    /// What is written.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t, alias = "cast-version")]
+    format: Format,
+    /// Writes to a file, which appears when it is complete.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// An asciicast of version 3, of asciinema 3.
+    #[default]
+    #[value(alias = "3")]
+    V3,
+    /// An asciicast of version 2, of asciinema 2 and older players.
+    #[value(alias = "2")]
+    V2,
+    /// What is done, shown and found, in words.
+    Account,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let source = match &arguments.script {
+        Some(path) => Document::open(path).map_err(|why| Failure::reading(path, &why))?,
+        None => own_demo(&arguments.name)?,
+    };
+    let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
+    let system = open::find(&arguments.name)?;
+    let recording = recorded(&script, &source, &system, &arguments.name, arguments.size)?;
+    if arguments.format != Format::Account {
+        hold(&source, &recording)?;
+    }
+    let mut out = Output::open(arguments.output.as_deref())?;
+    let written = match arguments.format {
+        Format::V3 => cast::write(&recording, Version::Three, &mut out).map(|_| ()),
+        Format::V2 => cast::write(&recording, Version::Two, &mut out).map(|_| ()),
+        Format::Account => out.write_all(account::write(&recording).as_bytes()),
+    };
+    written.map_err(|error| out.failed(&error))?;
+    out.finish()?;
+    hold(&source, &recording)
+}
+
+/// The demo that is shipped with a preset.
+fn own_demo(name: &str) -> Result<Document, Failure> {
+    demo(name).ok_or_else(|| {
+        let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
+        Failure::WrongUse(format!("`{name}` has no demo of its own: give one with --script{near}"))
+    })
+}
+
+/// Plays a script about a system.
+pub(super) fn recorded(
+    script: &Script,
+    source: &Document,
+    system: &Document,
+    name: &str,
+    size: Option<(u16, u16)>,
+) -> Result<Recording, Failure> {
+    // the mistakes of the system are told as its own
+    open::read(system)?;
+    let size = size.unwrap_or((80, 24));
+    play(script, system, called(name), size).map_err(|mistakes| told(source, &mistakes))
+}
+
+/// How a system is called on the screen: a file without the folders it stands in, which are nobody's business.
+fn called(name: &str) -> &str {
+    let file = name.rsplit(['/', std::path::MAIN_SEPARATOR]).next().unwrap_or(name);
+    file.strip_suffix(".toml").unwrap_or(file)
+}
+
+/// Tells the claims that are false.
+pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Failure> {
+    if recording.false_claims.is_empty() {
+        Ok(())
+    } else {
+        Err(told(source, &recording.false_claims))
+    }
+}
+
+/// Shows mistakes where they stand.
+pub(super) fn told(source: &Document, mistakes: &[Mistake]) -> Failure {
+    stderr::show(&source.report(mistakes, stderr::has_colour()));
+    Failure::WrongFile(open::count(mistakes.len(), &source.path))
+}

@@ -1,0 +1,40 @@
+//! The account of a recording in words: what was done when, what was claimed and found, and the screen at each chapter.
+//!
+//! In: a [`Recording`]. Out: text of lines no wider than the screen needs. Never here: files.
+
+use super::clock::Micros;
+use super::player::{Entry, Recording, rows, seconds};
+
+/// The account.
+pub fn write(recording: &Recording) -> String {
+    let Recording { title, size: (columns, height), fps, end, .. } = recording;
+    let mut account = vec![
+        title.clone(),
+        format!("{columns}x{height} characters, {fps} frames a second, {} s", seconds(*end)),
+        String::new(),
+    ];
+    for (time, entry) in &recording.log {
+        match entry {
+            Entry::Done(what, text) => account.push(line(*time, what, text)),
+            Entry::Claimed(true, text) => account.push(line(*time, "found", text)),
+            Entry::Claimed(false, text) => account.push(line(*time, "FALSE", text)),
+            Entry::Marker(index) => {
+                let marker = &recording.markers[*index];
+                account.push(line(*time, "chapter", &marker.name));
+                account.extend(rows(&marker.screen).iter().map(|row| framed(row)));
+            }
+        }
+    }
+    account.push(line(*end, "end", ""));
+    account.extend(rows(&recording.last).iter().map(|row| framed(row)));
+    account.join("\n") + "\n"
+}
+
+fn line(time: Micros, what: &str, text: &str) -> String {
+    format!("{:>8} s  {what:<8}  {text}", seconds(time)).trim_end().to_owned()
+}
+
+/// A row of the screen, set apart from the account's own lines.
+fn framed(row: &str) -> String {
+    format!("    | {row}").trim_end().to_owned()
+}

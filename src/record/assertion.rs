@@ -1,0 +1,228 @@
+//! What an `Assert` of a script comes to at its moment.
+//!
+//! In: a claim, the application. Out: whether it holds, and the sentence that says so with the values; a mistake where it
+//! speaks of what is not there. Never here: when it is asked.
+
+use crate::app::{App, Lab};
+use crate::experiment::{Snapshot, Status};
+use crate::expr::nearest;
+use crate::model::{Allowed, Scope};
+use crate::preset::Mistake;
+
+use super::script::{Assert, Measure, Relation, Text};
+
+/// A claim held against the moment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Finding {
+    /// Whether it is true.
+    pub(super) holds: bool,
+    /// What was found.
+    pub(super) sentence: String,
+}
+
+/// Holds a claim against the present; `screen` is the screen's rows.
+pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Finding, Mistake> {
+    match claim {
+        Assert::Screen(text) => {
+            let holds = screen.iter().any(|row| row.contains(text.as_str()));
+            let sentence = if holds { "is on the screen" } else { "is not on the screen" };
+            Ok(Finding { holds, sentence: format!("\"{text}\" {sentence}") })
+        }
+        Assert::Status(word) => {
+            let status = app.snapshot().map(|s| status(&s.status));
+            let is = status.unwrap_or("without a system");
+            Ok(Finding { holds: status == Some(word), sentence: format!("the motion is {is}") })
+        }
+        Assert::Verdict(name, word) => {
+            let (lab, snapshot) = seen(app, name)?;
+            let gauge = gauge(lab, snapshot, name)?;
+            let is = gauge.verdict.word();
+            let holds = is.starts_with(word);
+            Ok(Finding { holds, sentence: format!("the verdict on {} is {is}", name.text) })
+        }
+        Assert::Number { measure, of, relation, with, within } => {
+            let left = measured(app, *measure, of)?;
+            let right = value(app, with)?;
+            let within = within.as_ref().map(|eps| value(app, eps)).transpose()?;
+            Ok(compared(*measure, of, (left, right), *relation, within))
+        }
+    }
+}
+
+fn compared(
+    measure: Measure,
+    of: &Text,
+    (left, right): (f64, f64),
+    relation: Relation,
+    within: Option<f64>,
+) -> Finding {
+    let what = match measure {
+        Measure::Value => of.text.clone(),
+        Measure::Drift => format!("the drift of {}", of.text),
+        Measure::Least => format!("the least {}", of.text),
+        Measure::Greatest => format!("the greatest {}", of.text),
+        Measure::Count => format!("the count of {}", of.text),
+        Measure::Time => format!("the time of {}", of.text),
+    };
+    let off = (left - right).abs();
+    let (holds, sentence) = match relation {
+        Relation::Equal => {
+            let within = within.unwrap_or(0.0);
+            let sentence = match measure {
+                Measure::Count => format!("{what} is {left}"),
+                _ => format!("{what} is {left}, {off:.1e} off {right}, within {within:e}"),
+            };
+            (off <= within, sentence)
+        }
+        Relation::Less => {
+            (left < right, format!("{what} is {}, below {}", short(left), short(right)))
+        }
+        Relation::More => {
+            (left > right, format!("{what} is {}, above {}", short(left), short(right)))
+        }
+    };
+    if holds {
+        return Finding { holds, sentence };
+    }
+    let sentence = match relation {
+        Relation::Equal => {
+            let within = within.unwrap_or(0.0);
+            match measure {
+                Measure::Count => format!("{what} is {left}, not {right}"),
+                _ => format!(
+                    "{what} is {left}, which is {off:.1e} off {right}, not within {within:e}"
+                ),
+            }
+        }
+        Relation::Less => format!("{what} is {}, not below {}", short(left), short(right)),
+        Relation::More => format!("{what} is {}, not above {}", short(left), short(right)),
+    };
+    Finding { holds, sentence }
+}
+
+/// A number that need not be read back: four digits.
+fn short(x: f64) -> String {
+    let rounded = format!("{x:.3e}").parse().unwrap_or(x);
+    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+fn status(status: &Status) -> &'static str {
+    match status {
+        Status::Running => "running",
+        Status::Paused => "paused",
+        Status::Ended(_) => "ended",
+        Status::Faulted(_) => "stopped",
+    }
+}
+
+fn seen<'a>(app: &'a App, at: &Text) -> Result<(&'a Lab, &'a Snapshot), Mistake> {
+    let lab = app.lab.as_ref().and_then(|lab| Some((lab, lab.seen()?)));
+    lab.ok_or_else(|| Mistake::error(at.place.clone(), "there is no system in motion here"))
+}
+
+fn gauge<'a>(
+    lab: &Lab,
+    snapshot: &'a Snapshot,
+    name: &Text,
+) -> Result<&'a crate::experiment::Gauge, Mistake> {
+    let named = |g: &&crate::experiment::Gauge| g.name == name.text || g.shown == name.text;
+    snapshot.gauges.iter().find(named).ok_or_else(|| {
+        let names = snapshot.gauges.iter().map(|g| g.name.as_str());
+        missing("gauge", name, names, &lab.loaded.name)
+    })
+}
+
+fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
+    if measure == Measure::Value {
+        return value(app, of);
+    }
+    let (lab, snapshot) = seen(app, of)?;
+    let channels = lab.loaded.system.channels();
+    let channel = || {
+        channels.iter().position(|c| c.name == of.text || c.shown == of.text).ok_or_else(|| {
+            missing("column", of, channels.iter().map(|c| c.name.as_str()), &lab.loaded.name)
+        })
+    };
+    let happenings = || {
+        let model = &lab.loaded.model;
+        let names = || {
+            let events = model.events.iter().map(|event| event.name.as_str());
+            events.chain(model.impulses.iter().map(|impulse| impulse.name.as_str()))
+        };
+        if names().any(|name| name == of.text) {
+            return Ok(snapshot.happenings.iter().filter(|h| h.name == of.text));
+        }
+        Err(missing("event or blow", of, names(), &lab.loaded.name))
+    };
+    Ok(match measure {
+        Measure::Value => f64::NAN,
+        Measure::Drift => gauge(lab, snapshot, of)?.max_drift,
+        Measure::Least => snapshot.bounds[channel()?].0,
+        Measure::Greatest => snapshot.bounds[channel()?].1,
+        Measure::Count => happenings()?.count() as f64,
+        Measure::Time => happenings()?.next_back().map(|h| h.time).ok_or_else(|| {
+            Mistake::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
+        })?,
+    })
+}
+
+/// The present value of an expression.
+pub(super) fn value(app: &App, written: &Text) -> Result<f64, Mistake> {
+    // a number needs no system
+    if let Ok(number) = written.text.parse::<f64>()
+        && number.is_finite()
+    {
+        return Ok(number);
+    }
+    let (lab, snapshot) = seen(app, written)?;
+    // the name of a column need not be one of an expression
+    let channels = lab.loaded.system.channels();
+    if let Some(at) = channels.iter().position(|channel| channel.name == written.text) {
+        return Ok(snapshot.values[at]);
+    }
+    let mut pool = lab.loaded.equations.pool.clone();
+    let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
+    let Some(e) = scope.read(&mut pool, &written.text) else {
+        let mistake = scope.mistakes.into_iter().next();
+        return Err(mistake.map_or_else(
+            || Mistake::error(written.place.clone(), "this is no expression"),
+            |mistake| {
+                let start = written.place.start;
+                let place = start + mistake.span.start..start + mistake.span.end;
+                Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
+            },
+        ));
+    };
+    let value = pool.evaluate(e, &|symbol| lab.now(symbol));
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let message = format!("`{}` has no value here", written.text);
+    Err(Mistake::error(written.place.clone(), message))
+}
+
+/// What is not there, and the nearest that is.
+pub(super) fn missing<'a>(
+    kind: &str,
+    name: &Text,
+    names: impl Iterator<Item = &'a str> + Clone,
+    system: &str,
+) -> Mistake {
+    let message = format!("{system} has no {kind} `{}`", name.text);
+    let mistake = Mistake::error(name.place.clone(), message);
+    match nearest(&name.text, names.clone()) {
+        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+        None => {
+            let all: Vec<&str> = names.collect();
+            if all.is_empty() {
+                mistake.with_help("there are none")
+            } else {
+                mistake.with_help(format!("there are {}", all.join(", ")))
+            }
+        }
+    }
+}

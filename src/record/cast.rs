@@ -1,0 +1,141 @@
+//! Casts: recordings as asciinema writes them, one JSON value a line.
+//!
+//! In: texts for a terminal and names of chapters, each with its time in microseconds. Out: lines of an asciicast, version 3
+//! (<https://docs.asciinema.org/manual/asciicast/v3/>: time since the event before) or version 2
+//! (<https://docs.asciinema.org/manual/asciicast/v2/>: time since the beginning). The head holds the size, the title and the
+//! theme, and nothing of the machine. Never here: the alternate screen, whose end would leave the last picture
+//! blank; files.
+
+use std::io::{self, Write};
+
+use serde_json::{Value, json};
+
+use super::clock::{Micros, SECOND};
+use super::player::{Event, Recording};
+use crate::view::colour::Rgb;
+use crate::view::theme::Palette;
+
+/// The form of a cast.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Version {
+    /// Of asciinema 2.
+    Two,
+    /// Of asciinema 3.
+    #[default]
+    Three,
+}
+
+/// A cast being written.
+#[derive(Debug)]
+pub struct Cast<W> {
+    out: W,
+    version: Version,
+    /// When the last event was.
+    last: Micros,
+}
+
+/// Hides the cursor: a picture needs none.
+const HIDE: &str = "\x1b[?25l";
+
+impl<W: Write> Cast<W> {
+    /// Writes the head.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn begin(
+        mut out: W,
+        version: Version,
+        (columns, rows): (u16, u16),
+        title: &str,
+        palette: &Palette,
+    ) -> io::Result<Cast<W>> {
+        let theme = theme(palette);
+        let head = match version {
+            Version::Two => json!({
+                "version": 2, "width": columns, "height": rows, "title": title, "theme": theme,
+            }),
+            Version::Three => json!({
+                "version": 3, "term": { "cols": columns, "rows": rows, "theme": theme }, "title": title,
+            }),
+        };
+        writeln!(out, "{head}")?;
+        let mut cast = Cast { out, version, last: 0 };
+        cast.event(0, "o", HIDE)?;
+        Ok(cast)
+    }
+
+    /// Text for the terminal at a time, which is not before the last one.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn output(&mut self, time: Micros, text: &str) -> io::Result<()> {
+        self.event(time, "o", text)
+    }
+
+    /// The terminal has another size from now on.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn resize(&mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<()> {
+        self.event(time, "r", &format!("{columns}x{rows}"))
+    }
+
+    /// A chapter begins.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn marker(&mut self, time: Micros, name: &str) -> io::Result<()> {
+        self.event(time, "m", name)
+    }
+
+    /// Writes the end: the last picture stays, and the cursor is given back in its last corner, where a player's
+    /// shell goes on.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn end(mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<W> {
+        self.event(time, "o", &format!("\x1b[0m\x1b[{rows};{columns}H\x1b[?25h"))?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    fn event(&mut self, time: Micros, code: &str, data: &str) -> io::Result<()> {
+        let time = time.max(self.last);
+        let shown = match self.version {
+            Version::Two => time,
+            Version::Three => time - self.last,
+        };
+        self.last = time;
+        let (whole, rest) = (shown / SECOND, shown % SECOND);
+        writeln!(self.out, "[{whole}.{rest:06}, \"{code}\", {}]", Value::from(data))
+    }
+}
+
+/// Writes a whole recording.
+///
+/// # Errors
+/// Those of writing.
+pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::Result<W> {
+    let palette = recording.look.theme.palette();
+    let mut cast = Cast::begin(out, version, recording.size, &recording.title, palette)?;
+    for (time, event) in &recording.events {
+        match event {
+            Event::Output(text) => cast.output(*time, text)?,
+            Event::Marker(name) => cast.marker(*time, name)?,
+        }
+    }
+    cast.end(recording.end, recording.size)
+}
+
+/// The colours a terminal is to have: those of the palette, and for its sixteen the ones of the VGA text mode, softened.
+fn theme(palette: &Palette) -> Value {
+    const SIXTEEN: [u32; 16] = [
+        0x1a_1b26, 0xc8_4f4f, 0x4f_a86a, 0xc4_961a, 0x5a_7fd0, 0xb0_6ab8, 0x3f_a7b6, 0xb8_bcc8,
+        0x5a_6078, 0xe8_645a, 0x6a_c88a, 0xe6_b43f, 0x7a_9cf0, 0xd6_8fd0, 0x5f_c7d6, 0xff_ffff,
+    ];
+    let hex = |Rgb(r, g, b): Rgb| format!("#{r:02x}{g:02x}{b:02x}");
+    let sixteen = SIXTEEN.map(|colour| format!("#{colour:06x}")).join(":");
+    json!({
+        "fg": hex(palette.foreground), "bg": hex(palette.background), "palette": sixteen,
+    })
+}

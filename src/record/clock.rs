@@ -1,0 +1,97 @@
+//! The virtual clock: frames at whole microseconds, and simulated time that keeps pace with them.
+//!
+//! In: frames a second, what is asked of time. Out: when each frame is. Never here: the time of day.
+
+use std::time::Duration;
+
+/// Microseconds from the beginning.
+pub(super) type Micros = u64;
+
+/// Microseconds in a second.
+pub(super) const SECOND: Micros = 1_000_000;
+
+/// Frames at an even pace.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    fps: u32,
+    /// The frame that is shown.
+    frame: u64,
+    /// How far time was asked to pass.
+    until: Micros,
+}
+
+impl Clock {
+    /// At the first frame.
+    pub(super) fn new(fps: u32) -> Clock {
+        Clock { fps: fps.max(1), frame: 0, until: 0 }
+    }
+
+    /// The frame that is shown, the first being 0.
+    pub(super) fn frame(&self) -> u64 {
+        self.frame
+    }
+
+    /// When it came. Frame times are rounded down to whole microseconds each by itself, so they never drift.
+    pub(super) fn now(&self) -> Micros {
+        self.time_of(self.frame)
+    }
+
+    /// When a frame comes.
+    pub(super) fn time_of(&self, frame: u64) -> Micros {
+        frame.saturating_mul(SECOND) / u64::from(self.fps)
+    }
+
+    /// Lets time pass; [`Clock::tick`] brings the frames that fall into it. Parts of a frame are kept for the next time.
+    pub(super) fn pass(&mut self, time: Micros) {
+        self.until = self.until.saturating_add(time);
+    }
+
+    /// How many frames are still to come before time has passed as asked.
+    pub(super) fn left(&self) -> u64 {
+        let last = (u128::from(self.until) * u128::from(self.fps) / u128::from(SECOND)) as u64;
+        last.saturating_sub(self.frame)
+    }
+
+    /// Goes on to the next frame if it is due, and says how long that took.
+    pub(super) fn tick(&mut self) -> Option<Duration> {
+        if self.left() == 0 {
+            return None;
+        }
+        let before = self.now();
+        self.frame += 1;
+        Some(Duration::from_micros(self.now() - before))
+    }
+
+    /// The seconds between two frames so many apart.
+    pub(super) fn seconds(&self, frames: u64) -> f64 {
+        frames as f64 / f64::from(self.fps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_do_not_drift() {
+        let mut clock = Clock::new(30);
+        for _ in 0..300 {
+            clock.pass(100_000);
+            while clock.tick().is_some() {}
+        }
+        assert_eq!((clock.frame(), clock.now()), (900, 30 * SECOND));
+    }
+
+    #[test]
+    fn parts_of_a_frame_are_kept() {
+        let mut clock = Clock::new(10);
+        let mut frames = 0;
+        for _ in 0..10 {
+            clock.pass(30_000);
+            while clock.tick().is_some() {
+                frames += 1;
+            }
+        }
+        assert_eq!(frames, 3);
+    }
+}

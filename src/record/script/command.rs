@@ -1,0 +1,289 @@
+//! The table of commands: one row for each word that a line of a script may begin with.
+//!
+//! In: the rest of the line. Out: what it says. Never here: lines and places, or doing it.
+
+use super::key;
+use super::line::Line;
+use super::{Assert, Measure, Relation, Said, Step, Text, Word};
+use crate::preset::Mistake;
+use crate::view::colour::ColourDepth;
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::PALETTES;
+
+/// One row of the table.
+pub struct Command {
+    /// The word.
+    pub name: &'static str,
+    /// How the line is written; what stands in brackets may be left out.
+    pub form: &'static str,
+    /// What it does, in a sentence.
+    pub about: &'static str,
+    pub(super) read: fn(&mut Line<'_>) -> Result<Said, Mistake>,
+}
+
+const fn row(
+    name: &'static str,
+    form: &'static str,
+    about: &'static str,
+    read: fn(&mut Line<'_>) -> Result<Said, Mistake>,
+) -> Command {
+    Command { name, form, about, read }
+}
+
+/// All commands: first those for the whole demo.
+#[rustfmt::skip]
+pub const COMMANDS: &[Command] = &[
+    row("Open", "Open NAME", "the preset or file the demo is about; the command line may name another", open),
+    row("Title", "Title \"TEXT\"", "the title of the cast; that of the system where it is left out", title),
+    row("Size", "Size 100x30", "columns and rows of the screen, the line of captions included", size),
+    row("Fps", "Fps 20", "frames in a second, 1 to 60; 20 where it is left out", fps),
+    row("Theme", "Theme dark", "the theme, a name out of `phaselab theme list`", theme),
+    row("Color", "Color true", "how many colours are used: `true` (where it is left out), `256`, `16` or `never`", colour),
+    row("Glyphs", "Glyphs braille", "what is drawn with: `braille` (where it is left out), `half`, `ascii`, …", glyphs),
+    row("Pace", "Pace 150ms", "how long each key from here on is given to be seen", pace),
+    row("Press", "Press KEY [xN] [KEY …]", "press keys: `z`, `Tab`, `Down x3`, `Shift-Left`, `Ctrl-r`", press),
+    row("Type", "Type \"TEXT\"", "type a text, key by key", typed),
+    row("Wait", "Wait 2s", "let time pass: `2s`, `0.5s`, `150ms`", wait),
+    row("Set", "Set NAME = EXPR", "set a parameter, or an initial value (which begins the motion again)", set),
+    row("Sweep", "Sweep NAME [from EXPR] to EXPR in 3s", "carry a parameter or an initial value evenly to another value while time passes", sweep),
+    row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
+    row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, take it away", caption),
+    row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, stills be taken of it", marker),
+    row("Assert", "Assert CLAIM", "claim something of this moment; the demo is wrong where it is false", assert),
+];
+
+fn head(say: impl FnOnce(&mut super::Head) + 'static) -> Said {
+    Said::Head(Box::new(say))
+}
+
+fn open(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let name = line.name("the name of a preset or file")?;
+    Ok(head(|head| head.open = Some(name)))
+}
+
+fn title(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let title = line.quoted("a title")?.text;
+    Ok(head(|head| head.title = Some(title)))
+}
+
+/// The least and the greatest screen.
+const SIZES: [(u16, u16); 2] = [(40, 11), (400, 150)];
+
+/// A size of the screen, `100x30`.
+pub fn read_size(text: &str) -> Result<(u16, u16), String> {
+    let sides =
+        text.split_once(['x', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let (width, height) = sides.ok_or("a size is written 100x30, columns and rows")?;
+    let [least, most] = SIZES;
+    if (least.0..=most.0).contains(&width) && (least.1..=most.1).contains(&height) {
+        return Ok((width, height));
+    }
+    let ((a, b), (c, d)) = (least, most);
+    Err(format!("a screen has from {a}x{b} to {c}x{d} characters"))
+}
+
+fn size(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let word = line.need("a size")?;
+    let size = read_size(&word.text).map_err(|why| Mistake::error(word.place, why))?;
+    Ok(head(move |head| head.size = Some(size)))
+}
+
+fn fps(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let word = line.need("a number of frames")?;
+    let fps = word.text.parse().ok().filter(|n| (1..=60).contains(n)).ok_or_else(|| {
+        Mistake::error(word.place, format!("`{}`: there are 1 to 60 frames in a second", word.text))
+    })?;
+    Ok(head(move |head| head.fps = fps))
+}
+
+fn theme(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let names: Vec<Word> = PALETTES.iter().map(|palette| palette.name).collect();
+    let name = line.one_of("a theme", &names)?;
+    Ok(head(move |head| head.theme = name))
+}
+
+fn colour(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let name = line.one_of("a depth of colour", &["true", "256", "16", "never"])?;
+    Ok(head(move |head| head.colour = ColourDepth::named(name).unwrap_or(ColourDepth::True)))
+}
+
+fn glyphs(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let word = line.need("a set of glyphs")?;
+    let glyphs = Glyphs::named(&word.text).ok_or_else(|| {
+        let message = format!("`{}` is no set of glyphs", word.text);
+        Mistake::error(word.place, message).with_help("there are braille half ascii")
+    })?;
+    Ok(head(move |head| head.glyphs = glyphs))
+}
+
+fn pace(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    Ok(Said::Step(Step::Pace(line.time()?)))
+}
+
+/// The most times a key may be pressed in a row.
+const MOST_PRESSES: usize = 1000;
+
+fn press(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let mut keys = Vec::new();
+    while let Some(word) = line.word() {
+        let count = word.text.strip_prefix('x').and_then(|count| count.parse().ok());
+        match (count, keys.last().copied()) {
+            (Some(count), Some(last)) if (1..=MOST_PRESSES).contains(&count) => {
+                keys.extend(std::iter::repeat_n(last, count - 1));
+            }
+            (Some(_), Some(_)) => {
+                let message = format!("a key is pressed 1 to {MOST_PRESSES} times in a row");
+                return Err(Mistake::error(word.place, message));
+            }
+            (Some(_), None) => {
+                let message = format!("`{}` stands behind a key", word.text);
+                return Err(Mistake::error(word.place, message).with_help("as in Press Down x3"));
+            }
+            (None, _) => keys.push(key::named(&word.text).map_err(|near| {
+                let mistake =
+                    Mistake::error(word.place, format!("there is no key `{}`", word.text));
+                match near {
+                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+                    None => mistake.with_help("keys are z Tab Enter Shift-Left Ctrl-r F1 …"),
+                }
+            })?),
+        }
+    }
+    if keys.is_empty() { Err(line.missing("a key")) } else { Ok(Said::Step(Step::Press(keys))) }
+}
+
+fn typed(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    Ok(Said::Step(Step::Type(line.quoted("a text")?.text)))
+}
+
+fn wait(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    Ok(Said::Step(Step::Wait(line.time()?)))
+}
+
+fn set(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let name = line.until(&["="], "the name of a parameter or an initial value")?;
+    expect(line, "=")?;
+    let value = line.until(&[], "a value")?;
+    Ok(Said::Step(Step::Set(name, value)))
+}
+
+fn sweep(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let name = line.name("the name of a parameter or an initial value")?;
+    let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
+    expect(line, "to")?;
+    let to = line.until(&["in"], "a value")?;
+    expect(line, "in")?;
+    Ok(Said::Step(Step::Sweep { name, from, to, time: line.time()? }))
+}
+
+fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Mistake> {
+    if line.take(word) {
+        return Ok(());
+    }
+    let here = line.word().map_or(line.here()..line.here(), |word| word.place);
+    Err(Mistake::error(here, format!("here `{word}` is missing")))
+}
+
+fn speed(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    Ok(Said::Step(Step::Speed(line.until(&[], "a speed")?)))
+}
+
+fn caption(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let text = if line.is_over() { String::new() } else { line.quoted("a text")?.text };
+    Ok(Said::Step(Step::Caption(text)))
+}
+
+fn marker(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    let name = line.quoted("a name")?;
+    if name.text.trim().is_empty() {
+        return Err(Mistake::error(name.place, "a chapter has a name"));
+    }
+    Ok(Said::Step(Step::Marker(name.text)))
+}
+
+/// What an `Assert` claims, as it is written.
+pub const CLAIMS: [(&str, &str); 9] = [
+    (
+        "EXPR = EXPR within EPS",
+        "an expression of state, parameters and time has this value; also `<` and `>`",
+    ),
+    ("drift NAME < EPS", "the gauge of that name has drifted by no more since its reference"),
+    ("greatest NAME = EXPR within EPS", "the greatest value of a column since the motion began"),
+    ("least NAME = EXPR within EPS", "the least"),
+    ("count NAME = N", "how often an event or a blow has happened"),
+    ("time NAME = EXPR within EPS", "when it last happened"),
+    (
+        "verdict NAME WORD",
+        "what is thought of a gauge: `exact`, `bounded`, `secular`, `broken`, `open`",
+    ),
+    ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
+    ("screen \"TEXT\"", "the text stands on the screen"),
+];
+
+/// Words of a claim before a name.
+const MEASURES: [(&str, Measure); 5] = [
+    ("drift", Measure::Drift),
+    ("greatest", Measure::Greatest),
+    ("least", Measure::Least),
+    ("count", Measure::Count),
+    ("time", Measure::Time),
+];
+
+/// The words for how an experiment stands.
+const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
+
+/// The first words of verdicts.
+const VERDICTS: [Word; 5] = ["exact", "bounded", "secular", "broken", "open"];
+
+fn assert(line: &mut Line<'_>) -> Result<Said, Mistake> {
+    if line.take("status") {
+        let word = line.one_of("how an experiment stands", &STATUS)?;
+        return Ok(Said::Step(Step::Assert(Assert::Status(word))));
+    }
+    if line.take("screen") {
+        return Ok(Said::Step(Step::Assert(Assert::Screen(line.quoted("a text")?.text))));
+    }
+    if line.take("verdict") {
+        let name = line.name("the name of a gauge")?;
+        let word = line.one_of("a verdict", &VERDICTS)?;
+        return Ok(Said::Step(Step::Assert(Assert::Verdict(name, word))));
+    }
+    let measure = MEASURES.iter().find(|(word, _)| line.take(word)).map(|(_, measure)| *measure);
+    let of = match measure {
+        Some(_) => line.name("a name")?,
+        None if line.is_quoted() => line.name("a name")?,
+        None => line.until(&["=", "<", ">"], "what is claimed")?,
+    };
+    let relations = [("=", Relation::Equal), ("<", Relation::Less), (">", Relation::More)];
+    let relation =
+        relations.iter().find(|(sign, _)| line.take(sign)).map(|(_, relation)| *relation);
+    let relation = relation.ok_or_else(|| {
+        let here = line.word().map_or(line.here()..line.here(), |word| word.place);
+        Mistake::error(here, "here one of `=` `<` `>` is missing, between blanks")
+    })?;
+    let with = line.until(&["within"], "a value")?;
+    let within = line.take("within").then(|| line.until(&[], "a tolerance")).transpose()?;
+    let measure = measure.unwrap_or(Measure::Value);
+    exactness(line, measure, relation, within.as_ref())?;
+    Ok(Said::Step(Step::Assert(Assert::Number { measure, of, relation, with, within })))
+}
+
+/// Numbers that are to be equal say within what, counts are equal or not.
+fn exactness(
+    line: &Line<'_>,
+    measure: Measure,
+    relation: Relation,
+    within: Option<&Text>,
+) -> Result<(), Mistake> {
+    match (relation, measure, within) {
+        (Relation::Equal, Measure::Count, None) => Ok(()),
+        (Relation::Equal, _, None) => {
+            Err(line.missing("how far it may be off").with_help("add `within 1e-9`"))
+        }
+        (Relation::Less | Relation::More, _, Some(within)) => {
+            let message = "`within` belongs to `=`";
+            Err(Mistake::error(within.place.clone(), message))
+        }
+        _ => Ok(()),
+    }
+}

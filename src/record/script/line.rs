@@ -1,0 +1,213 @@
+//! One line of a script: words, quoted texts, times and what is left of it, each with its place.
+//!
+//! In: the line. Out: its pieces, or what was expected where something else stands. Never here: what they mean.
+
+use crate::expr::nearest;
+use crate::preset::Mistake;
+
+use super::Text;
+use crate::record::clock::{Micros, SECOND};
+
+/// A line that is read from left to right.
+pub(in crate::record) struct Line<'a> {
+    /// Without its comment and what is blank at its end.
+    text: &'a str,
+    /// Where the line begins in the script.
+    start: usize,
+    at: usize,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(text: &'a str, start: usize) -> Line<'a> {
+        let text = &text[..comment(text)];
+        Line { text: text.trim_end(), start, at: 0 }
+    }
+
+    /// Where reading stands, as a byte of the script.
+    pub(super) fn here(&self) -> usize {
+        self.start + self.at
+    }
+
+    fn skip(&mut self) {
+        self.at += self.text[self.at..].len() - self.text[self.at..].trim_start().len();
+    }
+
+    /// Whether nothing is left.
+    pub(super) fn is_over(&mut self) -> bool {
+        self.skip();
+        self.at == self.text.len()
+    }
+
+    fn piece(&self, from: usize, to: usize) -> Text {
+        let place = self.start + from..self.start + to;
+        Text { text: self.text[from..to].to_owned(), place }
+    }
+
+    /// The next word, up to a blank.
+    pub(super) fn word(&mut self) -> Option<Text> {
+        if self.is_over() {
+            return None;
+        }
+        let rest = &self.text[self.at..];
+        let from = self.at;
+        self.at += rest.find(char::is_whitespace).unwrap_or(rest.len());
+        Some(self.piece(from, self.at))
+    }
+
+    /// The next word if it is this one.
+    pub(super) fn take(&mut self, word: &str) -> bool {
+        let before = self.at;
+        let taken = self.word().is_some_and(|next| next.text == word);
+        if !taken {
+            self.at = before;
+        }
+        taken
+    }
+
+    /// The next word, which must be there.
+    pub(super) fn need(&mut self, what: &str) -> Result<Text, Mistake> {
+        self.word().ok_or_else(|| self.missing(what))
+    }
+
+    /// A mistake at the end of the line.
+    pub(super) fn missing(&self, what: &str) -> Mistake {
+        let end = self.start + self.text.len();
+        Mistake::error(end..end, format!("here {what} is missing"))
+    }
+
+    /// Whether a text in quotes comes next.
+    pub(super) fn is_quoted(&mut self) -> bool {
+        self.skip();
+        self.text[self.at..].starts_with('"')
+    }
+
+    /// A text in quotes, or a single word without.
+    pub(super) fn name(&mut self, what: &str) -> Result<Text, Mistake> {
+        if self.is_quoted() { self.quoted(what) } else { self.need(what) }
+    }
+
+    /// A text in quotes; `\"` and `\\` stand for themselves.
+    pub(super) fn quoted(&mut self, what: &str) -> Result<Text, Mistake> {
+        self.skip();
+        let (from, rest) = (self.at, &self.text[self.at..]);
+        let Some(inside) = rest.strip_prefix('"') else {
+            let place = self.start + from..self.start + self.text.len();
+            return Err(if rest.is_empty() {
+                self.missing(what)
+            } else {
+                Mistake::error(place, format!("{what} stands in quotes"))
+                    .with_help(format!("write it as \"{}\"", rest.trim_matches('"')))
+            });
+        };
+        let (mut text, mut escaped) = (String::new(), false);
+        for (at, character) in inside.char_indices() {
+            match character {
+                '"' if !escaped => {
+                    self.at = from + 1 + at + 1;
+                    let place = self.start + from..self.start + self.at;
+                    return Ok(Text { text, place });
+                }
+                '\\' if !escaped => escaped = true,
+                c if c.is_control() => {
+                    let place = self.start + from + 1 + at..self.start + from + 2 + at;
+                    let message = "a character that cannot be shown stands in this text";
+                    return Err(Mistake::error(place, message));
+                }
+                c => {
+                    text.push(c);
+                    escaped = false;
+                }
+            }
+        }
+        let place = self.start + from..self.start + self.text.len();
+        Err(Mistake::error(place, "this text has no end").with_help("put a \" behind it"))
+    }
+
+    /// What is left of the line up to one of these words, which stand between blanks; at least one character.
+    pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<Text, Mistake> {
+        self.skip();
+        let from = self.at;
+        let rest = &self.text[from..];
+        let ends = words.iter().filter_map(|word| {
+            let whole = |at: &usize| {
+                let (before, after) = (rest[..*at].chars().last(), rest[at + word.len()..].chars());
+                let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
+                let letters = word.chars().all(char::is_alphanumeric);
+                !letters || blank(before) && blank(after.clone().next())
+            };
+            rest.match_indices(*word).map(|(at, _)| at).find(whole)
+        });
+        let end = ends.min().unwrap_or(rest.len());
+        let text = rest[..end].trim_end();
+        if text.is_empty() {
+            let place = self.start + from..self.start + from + end;
+            return Err(Mistake::error(place, format!("here {what} is missing")));
+        }
+        self.at = from + text.len();
+        Ok(self.piece(from, self.at))
+    }
+
+    /// A time: `2s`, `0.5s`, `150ms`.
+    pub(super) fn time(&mut self) -> Result<Micros, Mistake> {
+        let word = self.need("a time")?;
+        let (number, unit) = match word.text.strip_suffix("ms") {
+            Some(number) => (number, SECOND / 1000),
+            None => (word.text.strip_suffix('s').unwrap_or(&word.text), SECOND),
+        };
+        let wrong = |message: String| Mistake::error(word.place.clone(), message);
+        let seconds: f64 =
+            number.parse().ok().filter(|n: &f64| n.is_finite()).ok_or_else(|| {
+                wrong(format!("`{}` is no time", word.text))
+                    .with_help("write it as 2s, 0.5s or 150ms")
+            })?;
+        if number.len() == word.text.len() {
+            let help = format!("write {number}s or {number}ms");
+            return Err(wrong(format!("is {number} in seconds or milliseconds?")).with_help(help));
+        }
+        if seconds < 0.0 {
+            return Err(wrong("time does not run backwards".to_owned()));
+        }
+        Ok((seconds * unit as f64).round() as Micros)
+    }
+
+    /// One of a few words.
+    pub(super) fn one_of(
+        &mut self,
+        what: &str,
+        words: &[&'static str],
+    ) -> Result<&'static str, Mistake> {
+        let word = self.need(what)?;
+        if let Some(known) = words.iter().find(|known| **known == word.text) {
+            return Ok(known);
+        }
+        let mistake = Mistake::error(word.place, format!("`{}` is not {what}", word.text));
+        Err(match nearest(&word.text, words.iter().copied()) {
+            Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+            None => mistake.with_help(format!("there are {}", words.join(" "))),
+        })
+    }
+
+    /// Nothing more stands on the line.
+    pub(super) fn end(&mut self, form: &str) -> Result<(), Mistake> {
+        if self.is_over() {
+            return Ok(());
+        }
+        let place = self.here()..self.start + self.text.len();
+        let message = format!("`{}` is too much here", &self.text[self.at..]);
+        Err(Mistake::error(place, message).with_help(format!("it is written {form}")))
+    }
+}
+
+/// Where the comment of a line begins: at a `#` outside quotes.
+fn comment(text: &str) -> usize {
+    let (mut quoted, mut escaped) = (false, false);
+    for (at, character) in text.char_indices() {
+        match character {
+            '"' if !escaped => quoted = !quoted,
+            '#' if !quoted => return at,
+            _ => {}
+        }
+        escaped = quoted && character == '\\' && !escaped;
+    }
+    text.len()
+}

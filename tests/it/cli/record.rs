@@ -1,0 +1,100 @@
+//! `phaselab record` and `phaselab script check`, run as programs.
+
+use std::fs;
+
+use super::{done, phaselab, program};
+
+const SCRIPT: &str = "Open pendulum\nSize 90x28\nFps 10\nCaption \"Hello\"\nPress Tab\nWait 1s\n\
+                      Marker \"Middle\"\nSweep g to 20 in 1s\nAssert g = 20 within 0\n";
+
+#[test]
+fn the_machine_leaves_no_mark() {
+    let home = tempfile::tempdir().expect("a folder");
+    let other = home.path().join("Eva's other folder");
+    fs::create_dir(&other).expect("a folder");
+    for place in [home.path(), &other] {
+        fs::write(place.join("my.demo"), SCRIPT).expect("a file");
+        fs::write(place.join("own.toml"), include_str!("../../../presets/pendulums/pendulum.toml"))
+            .expect("a file");
+    }
+    let arguments = ["record", "./own.toml", "--script", "my.demo"];
+    let one = done(program(home.path()).args(arguments));
+    let mut command = program(&other);
+    let variables = [
+        ("TERM", "dumb"),
+        ("NO_COLOR", "1"),
+        ("TZ", "Asia/Kathmandu"),
+        ("LC_ALL", "C"),
+        ("COLUMNS", "7"),
+        ("LINES", "3"),
+        ("RAYON_NUM_THREADS", "1"),
+        ("USER", "eva-maria"),
+        ("HOSTNAME", "zugspitze"),
+        ("SSH_CONNECTION", "x"),
+        ("SHELL", "/bin/fish"),
+    ];
+    command.envs(variables).env("HOME", "/nonexistent").current_dir(&other);
+    let another = done(command.args(["record"]).arg(other.join("own.toml")).args(&arguments[2..]));
+    assert_eq!((one.code, another.code), (0, 0), "{}{}", one.stderr, another.stderr);
+    assert!(one.stdout == another.stdout, "two casts of one script differ");
+    for private in
+        ["eva-maria", "Eva's", "zugspitze", "/bin/fish", "SHELL", "/tmp", "timestamp", "HOME"]
+    {
+        assert!(!one.stdout.contains(private), "{private}");
+    }
+    assert_eq!((one.stderr.as_str(), another.stderr.as_str()), ("", ""));
+}
+
+#[test]
+fn a_cast_is_written_whole_or_not_at_all() {
+    let home = tempfile::tempdir().expect("a folder");
+    let write = |text: &str| fs::write(home.path().join("my.demo"), text).expect("a file");
+    let record = || {
+        let arguments = ["record", "pendulum", "--script", "my.demo", "-o", "out.cast"];
+        done(program(home.path()).args(arguments))
+    };
+    let cast = home.path().join("out.cast");
+    write(&format!("{SCRIPT}Assert g = 1 within 0\n"));
+    let failed = record();
+    assert_eq!(failed.code, 65);
+    assert!(failed.stderr.contains("--> my.demo:10:1"), "{}", failed.stderr);
+    assert!(failed.stderr.contains("this is false: g is 20"), "{}", failed.stderr);
+    assert!(!cast.exists());
+    write(SCRIPT);
+    assert_eq!(record().code, 0);
+    let text = fs::read_to_string(&cast).expect("a cast");
+    assert!(
+        text.starts_with("{\"version\":3,\"term\":{\"cols\":90,\"rows\":28"),
+        "{}",
+        &text[..90]
+    );
+    assert!(text.contains("[0.000000, \"m\", \"Middle\"]") || text.contains("\"m\", \"Middle\"]"));
+}
+
+#[test]
+fn scripts_are_checked() {
+    let home = tempfile::tempdir().expect("a folder");
+    let check = |text: &str, code: i32, part: &str| {
+        fs::write(home.path().join("my.demo"), text).expect("a file");
+        let done = done(program(home.path()).args(["script", "check", "my.demo"]));
+        assert_eq!((done.code, done.stdout.as_str()), (code, ""), "{}", done.stderr);
+        assert!(done.stderr.contains(part), "{}", done.stderr);
+    };
+    check(SCRIPT, 0, "");
+    check("Wiat 2s\n", 65, "--> my.demo:1:1");
+    check("Wiat 2s\n", 65, "did you mean `Wait`?");
+    check("Open pendulum\nWait 1s\nAssert status paused", 65, "my.demo:3:1");
+    check("Open pendulm\nWait 1s", 2, "did you mean `pendulum`?");
+}
+
+#[test]
+fn a_demo_of_its_own_or_a_sentence() {
+    let missing = phaselab(&["record", "duffing"]);
+    assert_eq!((missing.code, missing.stdout.as_str()), (2, ""));
+    assert!(missing.stderr.contains("`duffing` has no demo of its own"), "{}", missing.stderr);
+    let two = phaselab(&["record", "pendulum", "--format", "v2"]);
+    assert_eq!(two.code, 0, "{}", two.stderr);
+    assert!(two.stdout.starts_with("{\"version\":2,\"width\":"));
+    let account = phaselab(&["record", "pendulum", "--format", "account"]);
+    assert!(account.code == 0 && account.stdout.contains("  chapter   "), "{}", account.stdout);
+}

@@ -1,0 +1,41 @@
+//! The demos that are part of the program: what they claim is true, and they are the same every time.
+
+use phaselab::preset::{Catalog, demo, demos};
+use phaselab::record::cast::{Version, write};
+use phaselab::record::script::Step;
+
+use super::{replay, script, shipped};
+
+#[test]
+fn every_demo_is_of_a_preset_and_about_it() {
+    let catalog = Catalog::with_folder(None);
+    for name in demos() {
+        let script = script(&demo(name).expect("listed").text);
+        assert_eq!(script.head.open.expect("a system").text, name);
+        assert!(catalog.find(name).is_ok(), "{name}");
+        assert!(script.head.size.is_some(), "{name} says its size");
+        let count = |wanted: fn(&Step) -> bool| {
+            script.steps.iter().filter(|(_, step)| wanted(step)).count()
+        };
+        assert!(count(|step| matches!(step, Step::Assert(_))) >= 3, "{name} claims something");
+        assert!(count(|step| matches!(step, Step::Marker(_))) >= 2, "{name} has chapters");
+        assert!(count(|step| matches!(step, Step::Caption(_))) >= 3, "{name} says what is seen");
+    }
+    assert!(catalog.entries().iter().all(|entry| entry.folder != "demos"));
+}
+
+#[test]
+fn demos_show_what_they_claim() {
+    for name in demos() {
+        let recording = shipped(name);
+        let source = demo(name).expect("listed");
+        let told = source.report(&recording.false_claims, false);
+        assert!(recording.false_claims.is_empty(), "{told}");
+        let seconds = recording.end / 1_000_000;
+        assert!((15..=45).contains(&seconds), "{name} lasts {seconds} s");
+        replay::check(&recording);
+        // another turn of the same, in a process that has done other things meanwhile
+        let bytes = |recording| write(recording, Version::Three, Vec::new()).expect("memory");
+        assert_eq!(bytes(&recording), bytes(&shipped(name)), "{name}");
+    }
+}

@@ -1,0 +1,171 @@
+//! Scripts: what they say, and what is told of mistakes.
+
+use phaselab::preset::{Catalog, Document, Mistake};
+use phaselab::record::script::{COMMANDS, Step};
+use phaselab::record::{Script, account, play};
+
+use super::{played, script};
+
+/// The mistakes of a script as `line:column message; help`.
+fn mistakes(text: &str) -> Vec<String> {
+    let document = Document::new("test.demo", text);
+    let tell = |mistake: &Mistake| {
+        let (line, column) = document.line_and_column(mistake.place.start);
+        let help = mistake.help.as_deref().map_or(String::new(), |help| format!("; {help}"));
+        format!("{line}:{column} {}{help}", mistake.message)
+    };
+    let found = match Script::read(&document) {
+        Err(mistakes) => mistakes,
+        Ok(script) => {
+            let system = Catalog::with_folder(None).find("pendulum").expect("a preset");
+            match play(&script, &system, "pendulum", (80, 24)) {
+                Err(mistakes) => mistakes,
+                Ok(recording) => recording.false_claims,
+            }
+        }
+    };
+    found.iter().map(tell).collect()
+}
+
+#[test]
+fn mistakes_stand_in_their_places() {
+    let check = |text: &str, expected: &[&str]| assert_eq!(mistakes(text), expected, "{text}");
+    check("Wait 1s", &[]);
+    check("  # nothing\n\nWiat 2s", &["3:1 there is no command `Wiat`; did you mean `Wait`?"]);
+    check("wait 2s", &["1:1 there is no command `wait`; did you mean `Wait`?"]);
+    check("Wait", &["1:5 here a time is missing"]);
+    check("Wait 2", &["1:6 is 2 in seconds or milliseconds?; write 2s or 2ms"]);
+    check("Wait soon", &["1:6 `soon` is no time; write it as 2s, 0.5s or 150ms"]);
+    check("Wait 1s 2s", &["1:9 `2s` is too much here; it is written Wait 2s"]);
+    check("Wait 1s\nWait 9999999s", &["2:14 a demo may last an hour; this one lasts 10000000 s"]);
+    check("Press Tba\nWait 1s", &["1:7 there is no key `Tba`; did you mean `Tab`?"]);
+    check("Press x3", &["1:7 `x3` stands behind a key; as in Press Down x3"]);
+    check("Press", &["1:6 here a key is missing"]);
+    check("Caption bare words", &["1:9 a text stands in quotes; write it as \"bare words\""]);
+    check("Caption \"open", &["1:9 this text has no end; put a \" behind it"]);
+    check(
+        "Wait 1s\nSize 80x24",
+        &[
+            "2:1 `Size` comes too late: the demo has begun; what holds for the whole demo stands before what happens",
+        ],
+    );
+    check("Size 80x24\nSize 90x24\nWait 1s", &["2:1 `Size` is said twice"]);
+    check("Size 80\nWait 1s", &["1:6 a size is written 100x30, columns and rows"]);
+    check("Size 8x8\nWait 1s", &["1:6 a screen has from 40x11 to 400x150 characters"]);
+    check("Theme drak\nWait 1s", &["1:7 `drak` is not a theme; did you mean `dark`?"]);
+    check("Fps 1000\nWait 1s", &["1:5 `1000`: there are 1 to 60 frames in a second"]);
+    check(
+        "Marker \"a\"\nWait 1s\nMarker \"a\"",
+        &["3:1 there are two markers `a`; a player finds a chapter by its name: give each its own"],
+    );
+    check(
+        "Size 40x11\nCaption \"0123456789 123456789 123456789 123456789\"\nWait 1s",
+        &["2:1 a caption may have 36 characters at this size; this one has 40"],
+    );
+    check("Press Tab", &[]);
+    check(
+        "Set l = 2",
+        &["1:10 nothing is to be seen: no time passes in this script; let it pass with `Wait 2s`"],
+    );
+    check("Set l 2\nWait 1s", &["1:8 here `=` is missing"]);
+    check(
+        "Set lenght = 2\nWait 1s",
+        &["1:5 pendulum has no parameter or initial value `lenght`; \
+         there are m, l, g, theta0, theta, theta'"],
+    );
+    check("Set l = 2*lx\nWait 1s", &["1:11 the name `lx` is not known here; did you mean `l`?"]);
+    check("Sweep l 2 in 1s", &["1:9 here `to` is missing"]);
+    check("Sweep l to 2", &["1:13 here `in` is missing"]);
+    check("Speed -1\nWait 1s", &["1:7 a speed is above zero; this is -1"]);
+    check("Press q\nWait 1s", &["2:1 the lab was left before this line"]);
+    // several at once, each in its place
+    assert_eq!(mistakes("Wiat 1s\nPress Entr\nWait\n").len(), 3);
+}
+
+#[test]
+fn claims_are_held_against_the_moment() {
+    let check = |text: &str, expected: &[&str]| {
+        assert_eq!(mistakes(&format!("Wait 1s\n{text}")), expected, "{text}");
+    };
+    check("Assert energy = -m*g*l*cos(theta0) within 1e-12", &[]);
+    check("Assert t > 0.5", &[]);
+    check("Assert t = 1 within 1e-15", &[]);
+    check("Assert t < 0.5", &["2:1 this is false: t is 1, not below 0.5"]);
+    check(
+        "Assert t = 2 within 0.5",
+        &["2:1 this is false: t is 1, which is 1.0e0 off 2, not within 5e-1"],
+    );
+    check("Assert drift energy < 1e-12", &[]);
+    check(
+        "Assert drift enregy < 1e-12",
+        &["2:14 pendulum has no gauge `enregy`; did you mean `energy`?"],
+    );
+    check("Assert greatest theta = theta0 within 1e-12", &[]);
+    check("Assert \"kinetic energy\" > 0", &[]);
+    check("Assert status running", &[]);
+    check(
+        "Assert status runing",
+        &["2:15 `runing` is not how an experiment stands; did you mean `running`?"],
+    );
+    check("Assert status paused", &["2:1 this is false: the motion is running"]);
+    check("Assert screen \"Phase\"", &[]);
+    check("Assert screen \"Fase\"", &["2:1 this is false: \"Fase\" is not on the screen"]);
+    check("Assert t = 1", &["2:13 here how far it may be off is missing; add `within 1e-9`"]);
+    check("Assert t", &["2:9 here one of `=` `<` `>` is missing, between blanks"]);
+    check("Assert count blow = 1", &["2:14 pendulum has no event or blow `blow`; there are none"]);
+    check(
+        "Assert thetta = 1 within 1",
+        &["2:8 the name `thetta` is not known here; did you mean `theta`?"],
+    );
+}
+
+#[test]
+fn keys_are_the_keys_of_the_lab() {
+    let recording =
+        played("pendulum", "Press Space\nWait 1s\nAssert status paused\nAssert t = 0 within 0");
+    assert!(recording.false_claims.is_empty());
+    let recording = played(
+        "pendulum",
+        "Press Down Enter\nPress Backspace x4\nType \"2*m\"\nPress Enter\nWait 1s\nAssert l = 2 within 0",
+    );
+    assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
+}
+
+#[test]
+fn a_sweep_is_even_and_arrives() {
+    let text = "Fps 10\nPace 0s\nSweep l from 1 to 3 in 1s\nAssert l = 3 within 0\nWait 1s\nAssert t = 2 within 1e-12";
+    let recording = played("pendulum", text);
+    assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
+    assert_eq!((recording.frames, recording.end), (20, 2_000_000));
+}
+
+#[test]
+fn the_account_tells_what_was_done_and_found() {
+    let text = "Title \"Ein Pendel\"\nCaption \"It swings\"\nPress z\nWait 1s\nMarker \"One\"\n\
+                Assert t > 1\nAssert t > 9\nWait 1s";
+    let account = account::write(&played("pendulum", text));
+    let lines: Vec<&str> = account.lines().collect();
+    assert_eq!(lines[0], "Ein Pendel");
+    assert_eq!(lines[1], "80x24 characters, 20 frames a second, 2.15 s");
+    for line in [
+        "    0.00 s  caption   It swings",
+        "    0.00 s  press     z",
+        "    1.15 s  chapter   One",
+        "    1.15 s  found     t is 1.15, above 1",
+        "    1.15 s  FALSE     t is 1.15, not above 9",
+        "    2.15 s  end",
+    ] {
+        assert!(lines.contains(&line), "{line}\n{account}");
+    }
+    assert_eq!(account.matches("phaselab  Simple pendulum").count(), 2);
+}
+
+#[test]
+fn every_command_is_written_as_its_row_says() {
+    for command in COMMANDS {
+        assert!(command.form.starts_with(command.name), "{}", command.name);
+        assert!(!command.about.ends_with('.'), "{}", command.about);
+    }
+    let script = script("Sweep l from 1 to 2 in 3s # on\nPress \"\nCaption");
+    assert!(matches!(script.steps[0].1, Step::Sweep { .. }));
+}
