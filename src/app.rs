@@ -7,6 +7,7 @@
 
 mod action;
 mod choose;
+mod editor;
 mod event;
 mod field;
 mod fuzzy;
@@ -30,8 +31,10 @@ mod speed;
 mod strike;
 mod update;
 mod value;
+mod workbench;
 
 pub use action::{Action, Axes, Way};
+pub use editor::{Editor, Spot};
 pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
 pub use field::{Field, Purpose};
 pub use fuzzy::Fit;
@@ -47,6 +50,7 @@ pub use potential::Potential;
 pub use prompt::Prompt;
 pub use saved::{Quantity, Saved, SavedPlot};
 pub use value::{Facts, Target};
+pub use workbench::{Asking, Checked, Flaw, NotSaved, State as BenchState, Work, Workbench};
 
 use serde::{Deserialize, Serialize};
 
@@ -73,6 +77,10 @@ pub struct App {
     pub mouse: bool,
     /// How many rows the page of text is scrolled down.
     pub scroll: u16,
+    /// The file of a system being edited, also while its editor is closed.
+    pub workbench: Option<Box<Workbench>>,
+    /// Files of other systems with changes that are not saved.
+    drafts: Vec<Workbench>,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -109,6 +117,8 @@ pub enum Over {
     Field(Field),
     /// The prompt for brackets.
     Prompt(Prompt),
+    /// The editor of the system's file, [`App::workbench`].
+    Workbench,
 }
 
 impl App {
@@ -123,6 +133,8 @@ impl App {
             meter: Meter::default(),
             mouse: false,
             scroll: 0,
+            workbench: None,
+            drafts: Vec::new(),
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
@@ -160,6 +172,11 @@ impl App {
             Some(Over::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Over::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Over::Field(_) | Over::Prompt(_)) => chain([Place::Field, Place::Typing]),
+            Some(Over::Workbench) => {
+                let asks = self.workbench.as_ref().is_some_and(|bench| bench.asking.is_some());
+                let inner = if asks { Place::Field } else { Place::Workbench };
+                chain([inner, Place::Typing])
+            }
             None => self.places_below(),
         }
     }

@@ -9,7 +9,9 @@
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 
+mod checker;
 pub mod config;
+mod files;
 mod input;
 mod loader;
 pub mod options;

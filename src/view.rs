@@ -36,6 +36,7 @@ mod quantity;
 mod series;
 mod space;
 mod values;
+mod workbench;
 mod wrap;
 
 use ratatui::buffer::Buffer;
@@ -88,6 +89,9 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         }
         let title = format!("{} has mistakes", failure.name);
         return text(canvas, area, &title, page, app.scroll);
+    }
+    if let (Some(bench), Some(lab)) = (app.open_workbench(), &app.lab) {
+        return workbench::draw(canvas, area, (app, lab), bench);
     }
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {

@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Action`]. Never here: which key it is, or how it is done.
 
-use super::Page;
+use super::{Page, Work};
 
 /// Something a person wants done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,6 +43,10 @@ pub enum Action {
     Redo,
     /// Ask for a bracket, or whether something is conserved.
     Ask,
+    /// Edit the system's file.
+    Edit,
+    /// Do something to the text being edited.
+    Work(Work),
     /// Look from the next frame of the file.
     NextFrame,
     /// Strike a blow that waits for a key.

@@ -89,6 +89,10 @@ impl App {
             Some(Over::Menu(menu)) => self.accept_line(menu),
             Some(Over::Field(field)) => self.accept_value(field),
             Some(Over::Prompt(prompt)) => self.answer(prompt),
+            Some(Over::Workbench) => {
+                self.over = Some(Over::Workbench);
+                self.accept_at_bench()
+            }
             other => {
                 self.over = other;
                 Vec::new()

@@ -3,10 +3,11 @@
 //! In: nothing. Out: [`Event`]s as the shell reports them, [`Effect`]s as the shell performs them, both plain data.
 //! Never here: how anything is done.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::Key;
+use super::{Checked, Key, NotSaved};
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -34,6 +35,17 @@ pub enum Event {
     Rebuilt(Loaded),
     /// A frame has passed, and this much time since the last one.
     Tick(Duration),
+    /// A text that [`Effect::Check`] asked about is right and runs already, or is wrong.
+    Checked(Box<Checked>),
+    /// A text was saved to this file, or was not.
+    FileSaved(Result<(PathBuf, String), NotSaved>),
+    /// The file of the system holds this text now.
+    FileRead {
+        /// Its text.
+        text: String,
+        /// Whether it was read because [`Effect::Reread`] asked for it.
+        asked: bool,
+    },
     /// The screen was drawn, and this is what came of it.
     Drawn(Drawn),
 }
@@ -45,6 +57,8 @@ pub struct Drawn {
     pub beyond: u16,
     /// How many of its rows the screen holds.
     pub rows: u16,
+    /// How many columns of a text being edited it holds.
+    pub columns: u16,
 }
 
 /// A system ready to be looked at.
@@ -82,6 +96,34 @@ pub enum Effect {
     Load(String),
     /// Write the present as a file of a system; [`Event::Written`] answers.
     Export,
+    /// Check a text; where it is right, what it describes takes the place of the system in the lab. [`Event::Checked`]
+    /// answers.
+    Check {
+        /// Counts the texts.
+        revision: u64,
+        /// What reports call it.
+        title: String,
+        /// The text.
+        text: String,
+    },
+    /// Write a text to its file, if that still holds what is known of it. [`Event::FileSaved`] answers.
+    Save {
+        /// The file.
+        place: PathBuf,
+        /// The text.
+        text: String,
+        /// What the file should hold; `None` writes over whatever it holds.
+        known: Option<String>,
+    },
+    /// Write a text to a new preset of the user's, or to a new file. [`Event::FileSaved`] answers.
+    SaveCopy {
+        /// A preset's name, or a file's path.
+        name: String,
+        /// The text.
+        text: String,
+    },
+    /// Read the system's file anew; [`Event::FileRead`] answers.
+    Reread(PathBuf),
     /// Draw every cell anew.
     Repaint,
     /// Have the terminal report the mouse, or leave it alone.

@@ -4,7 +4,7 @@
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
 use super::action::{Action, Axes, Way};
-use super::{Code, Key, Page};
+use super::{Code, Key, Page, Work};
 
 /// Where a key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -33,6 +33,8 @@ pub enum Place {
     Text,
     /// A pop-up list.
     Menu,
+    /// The editor of a system's file.
+    Workbench,
     /// A field in which a value is typed.
     Field,
     /// Wherever letters are text: fields and searches.
@@ -41,7 +43,7 @@ pub enum Place {
 
 impl Place {
     /// Every place, in the order of the help page.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Anywhere,
         Self::Picker,
         Self::Search,
@@ -53,6 +55,7 @@ impl Place {
         Self::Gauges,
         Self::Text,
         Self::Menu,
+        Self::Workbench,
         Self::Field,
         Self::Typing,
         Self::Always,
@@ -73,6 +76,7 @@ impl Place {
             Self::Gauges => "Gauges",
             Self::Text => "Pages of text",
             Self::Menu => "Pop-up lists",
+            Self::Workbench => "Editing the file",
             Self::Field => "Typing a value",
             Self::Typing => "Wherever text is typed",
         }
@@ -81,8 +85,8 @@ impl Place {
 
 /// The places that can be active together, the innermost first.
 #[rustfmt::skip]
-pub const CHAINS: [&[Place]; 11] = {
-    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plot, Search, Space, Text, Typing, Values};
+pub const CHAINS: [&[Place]; 12] = {
+    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plot, Search, Space, Text, Typing, Values, Workbench};
     [
         &[Picker, Anywhere, Always],
         &[Search, Typing, Always],
@@ -95,6 +99,7 @@ pub const CHAINS: [&[Place]; 11] = {
         &[Menu, Anywhere, Always],
         &[Menu, Typing, Always],
         &[Field, Typing, Always],
+        &[Workbench, Typing, Always],
     ]
 };
 
@@ -188,6 +193,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
+    row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
     row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
@@ -249,6 +255,18 @@ pub const KEYS: &[Binding] = &[
     row(Place::Menu, &[DOWN], Action::Move(Way::Down), "choose", "the line below"),
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
+
+    row(Place::Workbench, &[Key::ctrl('s')], Action::Work(Work::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
+    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::Work(Work::Mistake(1)), "mistake", "go to the next mistake"),
+    row(Place::Workbench, &[Key::ctrl('p')], Action::Work(Work::Mistake(-1)), "", "go to the mistake before"),
+    row(Place::Workbench, &[Key::ctrl('f')], Action::Work(Work::Find), "find", "find words"),
+    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::Work(Work::FindNext), "", "find them again"),
+    row(Place::Workbench, &[Key::ctrl('u')], Action::Work(Work::Undo), "undo", "take back the last change of the text"),
+    row(Place::Workbench, &[Key::ctrl('r')], Action::Work(Work::Redo), "", "do it again"),
+    row(Place::Workbench, &[Key::ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
+    row(Place::Workbench, &[Key::ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
+    row(Place::Workbench, &[Key::ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
+    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
 

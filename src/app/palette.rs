@@ -117,6 +117,7 @@ fn where_it_holds(place: Place) -> &'static str {
         Place::Gauges => "it is for the gauges; Tab focuses them",
         Place::Text => "it is for pages of text",
         Place::Menu => "it is for pop-up lists, as this one",
+        Place::Workbench => "it is for the editor of the system's file, which E opens",
         Place::Field => "it is for a field in which a value is typed",
         Place::Typing => "it is for fields in which text is typed",
     }

@@ -39,6 +39,7 @@ impl App {
                 }
                 Vec::new()
             }
+            Action::Work(work) => self.work(work),
             other => self.in_lab(other),
         }
     }
@@ -77,6 +78,7 @@ impl App {
             Action::Strike => self.strike(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
+            Action::Edit => self.edit_file(),
             Action::ChooseMethod => self.open_methods(),
             Action::TypeStep => self.open_field(Purpose::Step),
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),
@@ -174,6 +176,10 @@ impl App {
     }
 
     fn back(&mut self) -> Vec<Effect> {
+        if matches!(self.over, Some(Over::Workbench)) {
+            self.leave_bench();
+            return Vec::new();
+        }
         match self.over.take() {
             Some(Over::Help(scroll)) => {
                 self.scroll = scroll;
@@ -182,7 +188,7 @@ impl App {
             Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
                 return Vec::new();
             }
-            None => {}
+            Some(Over::Workbench) | None => {}
         }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
@@ -211,7 +217,7 @@ impl App {
     fn jump(&mut self, by: isize) -> Vec<Effect> {
         match &mut self.over {
             Some(Over::Menu(menu)) => menu.step(by),
-            Some(Over::Field(_) | Over::Prompt(_)) => {}
+            Some(Over::Field(_) | Over::Prompt(_) | Over::Workbench) => {}
             Some(Over::Help(_) | Over::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),

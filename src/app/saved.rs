@@ -26,6 +26,9 @@ pub struct Saved {
     pub zoomed: bool,
     /// The selected lines.
     pub selection: Selection,
+    /// The text of the file being edited, where that was not saved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub draft: Option<String>,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
@@ -89,6 +92,7 @@ impl Saved {
             focus: lab.focus,
             zoomed: lab.zoomed,
             selection: lab.selection,
+            draft: None,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, &lab.loaded)).collect(),
             moment: Moment::of(model, system, snapshot),
         })
@@ -171,7 +175,10 @@ impl App {
         if self.page == Page::Picker {
             return None;
         }
-        Saved::of(self.lab.as_ref()?, self.page)
+        let lab = self.lab.as_ref()?;
+        let draft = self.workbench.as_ref().filter(|bench| bench.name == lab.loaded.name);
+        let draft = draft.filter(|bench| bench.is_modified()).map(|bench| bench.editor.text());
+        Some(Saved { draft, ..Saved::of(lab, self.page)? })
     }
 
     /// Goes on with a session as soon as its system is loaded.
@@ -186,6 +193,9 @@ impl App {
         let Some(saved) = saved else { return vec![Effect::Tell(Command::Play)] };
         lab.look_as(&saved);
         self.page = saved.page;
+        if let Some(text) = &saved.draft {
+            self.take_draft(text);
+        }
         vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
     }
 

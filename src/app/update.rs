@@ -31,10 +31,21 @@ impl App {
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
-                self.picker.tick(elapsed).map(|name| self.ask(name, false)).into_iter().collect()
+                let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
+                preview.into_iter().chain(self.tick_bench(elapsed)).collect()
+            }
+            Event::Checked(checked) => self.checked(*checked),
+            Event::FileSaved(outcome) => {
+                self.saved_file(outcome);
+                Vec::new()
+            }
+            Event::FileRead { text, asked } => {
+                self.changed_on_disk(&text, asked);
+                Vec::new()
             }
             Event::Drawn(drawn) => {
                 self.drawn = drawn;
+                self.follow_cursor();
                 self.scroll = self.scroll.min(drawn.beyond);
                 Vec::new()
             }
@@ -61,6 +72,7 @@ impl App {
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
         match &mut self.over {
+            Some(Over::Workbench) => self.type_at_bench(key),
             Some(Over::Field(field)) => field.press(key),
             Some(Over::Prompt(prompt)) => prompt.press(key),
             Some(Over::Menu(menu)) => {
@@ -80,6 +92,7 @@ impl App {
 
     fn paste(&mut self, text: &str) -> Vec<Effect> {
         let whole = match &mut self.over {
+            Some(Over::Workbench) => self.paste_at_bench(text),
             Some(Over::Field(field)) => paste(&mut field.input, text),
             Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Over::Menu(menu)) => {

@@ -9,7 +9,7 @@ use super::{Experiment, Setup};
 use crate::analysis::flaws;
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
-use crate::preset::Document;
+use crate::preset::{Document, Mistake};
 use crate::system::System;
 
 /// A system on all its stages.
@@ -26,10 +26,15 @@ pub struct Ready {
     pub experiment: Experiment,
 }
 
-/// Why a document gives no experiment: a report for the user, in one or many lines.
+/// Why a document gives no experiment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct Unready(pub String);
+#[error("{report}")]
+pub struct Unready {
+    /// For the user, in one or many lines.
+    pub report: String,
+    /// Each mistake in its place; what has none stands at the beginning.
+    pub mistakes: Vec<Mistake>,
+}
 
 impl Ready {
     /// Reads, derives, compiles and sets up.
@@ -38,13 +43,19 @@ impl Ready {
     /// Every mistake of the file in its place, or why there are no equations or no method for it.
     pub fn of(document: &Document) -> Result<Ready, Unready> {
         let read = document.read();
-        let report = |mistakes: &[_]| Unready(document.report(mistakes, false));
-        let model = read.map_err(|mistakes| report(&mistakes))?.model;
-        let why = |what: &dyn Display| Unready(format!("{}: {what}", document.path));
+        let report = |mistakes: Vec<Mistake>| Unready {
+            report: document.report(&mistakes, false),
+            mistakes,
+        };
+        let model = read.map_err(&report)?.model;
+        let why = |what: &dyn Display| Unready {
+            report: format!("{}: {what}", document.path),
+            mistakes: vec![Mistake::error(0..0, what.to_string())],
+        };
         let equations = mechanics::derive(&model).map_err(|error| why(&error))?;
         let mistakes = flaws(&model, &equations);
         if !mistakes.is_empty() {
-            return Err(report(&mistakes));
+            return Err(report(mistakes));
         }
         let system = System::compile(&model, &equations, &[]).map_err(|error| why(&error))?;
         let (model, equations) = (Arc::new(model), Arc::new(equations));

@@ -14,7 +14,7 @@ use crate::experiment::Ready;
 use crate::preset::Catalog;
 
 /// A derivation goes as deep as its expressions are nested, and a stranger's file may nest them far.
-const STACK: usize = 64 << 20;
+pub(super) const STACK: usize = 64 << 20;
 
 /// Loads systems, one after the other.
 #[derive(Debug)]
@@ -68,10 +68,11 @@ impl Loader {
 
 fn prepare(catalog: &Catalog, name: &str) -> Result<Ready, String> {
     let document = catalog.find(name).map_err(|why| why.to_string())?;
-    Ready::of(&document).map_err(|report| report.0)
+    Ready::of(&document).map_err(|unready| unready.report)
 }
 
-fn defect(panic: &(dyn Any + Send)) -> String {
+/// What is told of a panic of a stage.
+pub(super) fn defect(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let reason =
         text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");

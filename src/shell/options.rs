@@ -55,6 +55,15 @@ pub const OPTIONS: &[Choice] = &[
         excludes_name: true,
     },
     Choice {
+        name: "watch",
+        letter: None,
+        kind: Kind::Switch,
+        usual: "false",
+        about: "Build the system anew whenever its file is saved; the motion goes on.",
+        overruled_by: &[],
+        excludes_name: false,
+    },
+    Choice {
         name: "color",
         letter: None,
         kind: Kind::Word(&[

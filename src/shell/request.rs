@@ -36,6 +36,8 @@ pub struct Request {
     pub unsynchronized: bool,
     /// Has the mouse reported from the beginning.
     pub mouse: bool,
+    /// Builds the system anew whenever its file has changed.
+    pub watch: bool,
 }
 
 /// Why the laboratory does not open.
@@ -84,6 +86,7 @@ impl Request {
             frames,
             unsynchronized: options.is_on("no-sync"),
             mouse: options.is_on("mouse"),
+            watch: options.is_on("watch"),
         }
     }
 

@@ -11,15 +11,17 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::checker::Checker;
+use super::files::{self, Watch};
 use super::input::Input;
 use super::loader::Loader;
 use super::product;
 use super::request::Request;
 use super::stage::{Page, Wish};
 use super::store::{NoStore, Store};
-use crate::app::{App, Effect, Event, Loaded, Notice, Saved};
+use crate::app::{App, Checked, Effect, Event, Loaded, Notice, Saved};
 use crate::experiment::{Export, Ready};
-use crate::preset::{Catalog, is_path};
+use crate::preset::{Catalog, Document, is_path};
 use crate::view::{self, Look};
 use crate::worker::Worker;
 
@@ -29,6 +31,9 @@ pub(super) struct Session {
     look: Look,
     worker: Worker,
     loader: Loader,
+    checker: Checker,
+    /// The system's file, where it is to be watched.
+    watch: Option<Watch>,
     store: Option<Store>,
     /// Since the session was last saved.
     unsaved: Duration,
@@ -44,7 +49,9 @@ impl Session {
         app.mouse = request.mouse;
         let loader = Loader::new(Arc::new(catalog));
         let (store, unsaved) = (None, Duration::ZERO);
-        let mut session = Self { app, look, worker: Worker::idle()?, loader, store, unsaved };
+        let watch = request.watch.then(Watch::default);
+        let (worker, checker) = (Worker::idle()?, Checker::new());
+        let mut session = Self { app, look, worker, loader, checker, watch, store, unsaved };
         session.perform(effects);
         Ok(session)
     }
@@ -104,6 +111,26 @@ impl Session {
                     let written = self.export();
                     self.app.update(Event::Written(written));
                 }
+                Effect::Check { revision, title, text } => {
+                    self.checker.check(revision, Document::new(title, text));
+                }
+                Effect::Save { place, text, known } => {
+                    let saved = files::save(&place, &text, known.as_deref());
+                    self.update(Event::FileSaved(saved.map(|()| (place, text))));
+                }
+                Effect::SaveCopy { name, text } => {
+                    let saved = files::save_copy(&name, &text);
+                    self.update(Event::FileSaved(saved.map(|place| (place, text))));
+                }
+                Effect::Reread(place) => match files::read(&place) {
+                    Some(text) => {
+                        self.update(Event::FileRead { text, asked: true });
+                    }
+                    None => {
+                        let told = format!("cannot read {}", place.display());
+                        self.app.notice = Some(Notice::error(told));
+                    }
+                },
                 Effect::Repaint => wish = Wish::Repaint,
                 Effect::Mouse(on) => wish = Wish::Mouse(on),
                 Effect::Suspend => wish = Wish::Suspend,
@@ -123,6 +150,28 @@ impl Session {
         let path = path.map_err(|error| error.to_string())?;
         let path = path.strip_prefix(".").unwrap_or(&path);
         Ok([vec![format!("{} is written.", path.display())], missing].concat().join(" "))
+    }
+
+    /// Looks at the file of the system in the lab; whether it has changed.
+    fn watch(&mut self, elapsed: Duration) -> bool {
+        let open = self.app.page != crate::app::Page::Picker;
+        let Some((watch, place)) = self.watch.as_mut().zip(self.app.file().filter(|_| open)) else {
+            return false;
+        };
+        let Some(text) = watch.look(&place, elapsed) else { return false };
+        self.update(Event::FileRead { text, asked: false });
+        true
+    }
+
+    /// Takes the answer to a check in, if one is there: what is right runs at once.
+    fn answer(&mut self) -> bool {
+        let Some(answer) = self.checker.take() else { return false };
+        let name = self.app.lab.as_ref().map(|lab| lab.loaded.name.clone());
+        let Some(name) = name.filter(|_| self.app.awaits(answer.revision)) else { return false };
+        let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
+        let (revision, took) = (answer.revision, answer.took);
+        self.update(Event::Checked(Box::new(Checked { revision, outcome, took })));
+        true
     }
 
     /// Sets a loaded system in motion.
@@ -156,6 +205,8 @@ impl Page for Session {
             self.update(Event::Loaded(loaded));
             changed = true;
         }
+        changed |= self.watch(elapsed);
+        changed |= self.answer();
         if let Some(snapshot) = self.worker.newest() {
             self.update(Event::Snapshot(snapshot));
             changed = true;

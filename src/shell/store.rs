@@ -151,6 +151,7 @@ mod tests {
             focus: Pane::Plot(1),
             zoomed: true,
             selection: Selection::default(),
+            draft: Some("title = \"a \\\"text\\\"\"\n".to_owned()),
             plots: Vec::new(),
             moment: Moment { parameters: vec![g], speed: Some(f64::INFINITY), ..Moment::default() },
         }

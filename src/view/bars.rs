@@ -140,6 +140,10 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         canvas.left(area, role, &notice.text);
         return;
     }
+    if let Some(banner) = app.banner() {
+        canvas.left(area, Role::Bad, &banner);
+        return;
+    }
     let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
     let meaning = match (&app.over, &app.lab, app.page) {
         (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),

@@ -72,7 +72,11 @@ impl Document {
             canvas.spans(columns(row(area, index), 1, width + 1), line);
         }
         scroll_bar(canvas, area, first, lines.len());
-        Drawn { beyond: beyond.min(usize::from(u16::MAX)) as u16, rows: area.height }
+        Drawn {
+            beyond: beyond.min(usize::from(u16::MAX)) as u16,
+            rows: area.height,
+            ..Drawn::default()
+        }
     }
 
     /// The width of the column of labels under a heading.

@@ -1,6 +1,8 @@
 //! The application by its keys: a state, keys, the state and the effects after them.
 
+mod editor;
 mod keys;
 mod saved;
 mod scripts;
 mod values;
+mod workbench;

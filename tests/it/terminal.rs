@@ -4,3 +4,4 @@ mod kept;
 mod lab;
 mod page;
 mod session;
+mod workbench;

@@ -37,7 +37,7 @@ fn states(place: Place) -> Vec<App> {
     };
     let scrolled = |keys: &str| {
         let mut app = lab(keys);
-        app.update(Event::Drawn(Drawn { beyond: 90, rows: 20 }));
+        app.update(Event::Drawn(Drawn { beyond: 90, rows: 20, columns: 0 }));
         app.scroll = 40;
         app
     };
@@ -66,6 +66,7 @@ fn states(place: Place) -> Vec<App> {
         }
         Place::Text => vec![scrolled("2")],
         Place::Menu => vec![lab("m"), lab(": Down"), lab("Tab Tab Tab v Down Enter Down")],
+        Place::Workbench => vec![lab("E x"), lab("E x Ctrl-u"), lab("E x Ctrl-x")],
         Place::Field | Place::Typing => vec![lab("Enter")],
     }
 }
@@ -95,8 +96,13 @@ fn facts(app: &App) -> Vec<(String, String)> {
         }
         Some(Over::Field(field)) => format!("field {:?}", field.input.value()),
         Some(Over::Prompt(prompt)) => format!("prompt {:?}", prompt.input.value()),
+        Some(Over::Workbench) => "the editor".to_owned(),
     };
     fact("over it", over);
+    let bench = app.open_workbench();
+    fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
+    fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
+    fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
     fact("scrolled", app.scroll.to_string());
     let notice = app.notice.as_ref().map_or("nothing", |notice| notice.text.as_str());
     fact("told", notice.to_owned());

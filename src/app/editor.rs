@@ -1,0 +1,419 @@
+//! A text of many lines being edited: cursor, selection, undo, search.
+//!
+//! In: keys and pasted text. Out: the text, and where the cursor stands. Never here: what the text means, where it is
+//! kept, how it is drawn.
+//!
+//! Every change is one replacement of a stretch by another text, so taking one back is a replacement too. (The widgets
+//! for ratatui keep what was last drawn and move the cursor by it; here nothing is known of a screen.)
+
+use super::{Code, Key};
+
+/// A place in the text, both counted from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Spot {
+    /// The line.
+    pub row: usize,
+    /// The character within the line.
+    pub column: usize,
+}
+
+/// A text being edited.
+#[derive(Clone, Debug)]
+pub struct Editor {
+    lines: Vec<String>,
+    /// Whether lines end as on Windows.
+    carriage: bool,
+    cursor: Spot,
+    /// The other end of what is selected.
+    anchor: Option<Spot>,
+    /// The column that moves up and down keep to.
+    goal: Option<usize>,
+    done: Vec<Change>,
+    undone: Vec<Change>,
+    /// Whether the next character typed belongs to the last change.
+    typing: bool,
+    /// What was cut or copied last.
+    kept: String,
+    /// The most bytes the text may have.
+    limit: usize,
+}
+
+/// A stretch replaced by another text.
+#[derive(Clone, Debug)]
+struct Change {
+    at: Spot,
+    old: String,
+    new: String,
+    /// Where the cursor stood before.
+    cursor: Spot,
+}
+
+/// The columns of a tabulator.
+const TAB: usize = 4;
+
+impl Editor {
+    /// A text with the cursor at its beginning; it may become `limit` bytes long.
+    pub fn new(text: &str, limit: usize) -> Self {
+        let carriage = text.contains("\r\n") && !text.replace("\r\n", "").contains('\n');
+        let ending = if carriage { "\r\n" } else { "\n" };
+        Self {
+            lines: text.split(ending).map(str::to_owned).collect(),
+            carriage,
+            cursor: Spot::default(),
+            anchor: None,
+            goal: None,
+            done: Vec::new(),
+            undone: Vec::new(),
+            typing: false,
+            kept: String::new(),
+            limit,
+        }
+    }
+
+    /// The whole text, byte for byte as it was given where nothing was changed.
+    pub fn text(&self) -> String {
+        self.lines.join(if self.carriage { "\r\n" } else { "\n" })
+    }
+
+    /// Its lines, at least one.
+    pub fn lines(&self) -> &[String] {
+        &self.lines
+    }
+
+    /// Where the cursor stands.
+    pub fn cursor(&self) -> Spot {
+        self.cursor
+    }
+
+    /// What is selected, its beginning first.
+    pub fn selection(&self) -> Option<(Spot, Spot)> {
+        let anchor = self.anchor.filter(|anchor| *anchor != self.cursor)?;
+        Some((anchor.min(self.cursor), anchor.max(self.cursor)))
+    }
+
+    /// The place of a byte of the text.
+    pub fn spot(&self, byte: usize) -> Spot {
+        let ending = if self.carriage { 2 } else { 1 };
+        let mut left = byte;
+        for (row, line) in self.lines.iter().enumerate() {
+            if left <= line.len() || row + 1 == self.lines.len() {
+                let column = line.char_indices().take_while(|(at, _)| *at < left).count();
+                return Spot { row, column };
+            }
+            left = left.saturating_sub(line.len() + ending);
+        }
+        Spot::default()
+    }
+
+    /// Puts the cursor on a place, or the nearest there is.
+    pub fn go(&mut self, spot: Spot) {
+        let row = spot.row.min(self.lines.len() - 1);
+        self.cursor = Spot { row, column: spot.column.min(self.length(row)) };
+        (self.anchor, self.goal, self.typing) = (None, None, false);
+    }
+
+    /// Handles a key of typing or moving, `page` being how many rows are shown; whether the text changed.
+    pub fn press(&mut self, key: Key, page: usize) -> bool {
+        match (key.code, key.ctrl) {
+            (Code::Char(c), false) if !key.alt && !c.is_control() => {
+                self.type_in(&c.to_string(), self.typing && self.selection().is_none())
+            }
+            (Code::Enter, _) => {
+                let line = &self.lines[self.cursor.row];
+                let before = line.chars().take(self.cursor.column);
+                let indent: String = before.take_while(|c| matches!(c, ' ' | '\t')).collect();
+                self.insert(&format!("\n{indent}"))
+            }
+            (Code::Tab, false) if !key.shift => {
+                self.insert(&" ".repeat(TAB - self.cursor.column % TAB))
+            }
+            (Code::Backspace, ctrl) => self.erase(if ctrl { Self::word_left } else { Self::left }),
+            (Code::Char('w'), true) => self.erase(Self::word_left),
+            (Code::Delete, ctrl) => self.erase(if ctrl { Self::word_right } else { Self::right }),
+            _ => {
+                self.shift(key, page);
+                false
+            }
+        }
+    }
+
+    /// Takes text in where the cursor stands, in the place of what is selected; whether it found room.
+    pub fn insert(&mut self, text: &str) -> bool {
+        self.type_in(text, false)
+    }
+
+    /// Pasted text: lines of any ending, no characters that steer a terminal.
+    pub fn paste(&mut self, text: &str) -> bool {
+        let text = text.replace("\r\n", "\n").replace('\r', "\n").replace('\t', "    ");
+        let text: String = text.chars().filter(|c| *c == '\n' || !c.is_control()).collect();
+        self.insert(&text)
+    }
+
+    /// Takes what is selected, or else the line, out of the text and keeps it.
+    pub fn cut(&mut self) -> bool {
+        self.copy();
+        let (from, to) = self.selected_or_line();
+        let had = from != to;
+        self.replace(from, to, "");
+        had
+    }
+
+    /// Keeps what is selected, or else the line.
+    pub fn copy(&mut self) {
+        let (from, to) = self.selected_or_line();
+        self.kept = self.between(from, to);
+    }
+
+    /// Puts in what was cut or copied last.
+    pub fn put_back(&mut self) -> bool {
+        let kept = self.kept.clone();
+        !kept.is_empty() && self.insert(&kept)
+    }
+
+    /// Takes the last change back; whether there was one.
+    pub fn undo(&mut self) -> bool {
+        let Some(change) = self.done.pop() else { return false };
+        let end = end_of(change.at, &change.new);
+        self.exchange(change.at, end, &change.old);
+        self.go(change.cursor);
+        self.undone.push(change);
+        true
+    }
+
+    /// Makes the change last taken back again; whether there was one.
+    pub fn redo(&mut self) -> bool {
+        let Some(change) = self.undone.pop() else { return false };
+        let end = end_of(change.at, &change.old);
+        self.exchange(change.at, end, &change.new);
+        self.go(end_of(change.at, &change.new));
+        self.done.push(change);
+        true
+    }
+
+    /// Selects the next place behind the cursor where this stands, from the beginning again after the end; neither
+    /// small nor great letters matter. Whether there is one.
+    pub fn find(&mut self, wanted: &str) -> bool {
+        let fold = |text: &str| -> Vec<char> {
+            text.chars().map(|c| c.to_lowercase().next().unwrap_or(c)).collect()
+        };
+        let wanted = fold(wanted);
+        if wanted.is_empty() {
+            return false;
+        }
+        let rows = self.lines.len();
+        for step in 0..=rows {
+            let row = (self.cursor.row + step) % rows;
+            let line = fold(&self.lines[row]);
+            let from = if step == 0 { self.cursor.column } else { 0 };
+            let found = (from..line.len()).find(|&at| line[at..].starts_with(&wanted));
+            if let Some(column) = found {
+                self.go(Spot { row, column: column + wanted.len() });
+                self.anchor = Some(Spot { row, column });
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Another text in the place of this one, as one change that can be taken back.
+    pub fn become_text(&mut self, text: &str) {
+        let cursor = self.cursor;
+        let last = self.lines.len() - 1;
+        let end = Spot { row: last, column: self.length(last) };
+        let other = Self::new(text, self.limit);
+        self.carriage = other.carriage;
+        self.replace(Spot::default(), end, &other.lines.join("\n"));
+        self.go(cursor);
+    }
+
+    fn length(&self, row: usize) -> usize {
+        self.lines[row].chars().count()
+    }
+
+    fn type_in(&mut self, text: &str, together: bool) -> bool {
+        let size: usize = self.lines.iter().map(|line| line.len() + 2).sum();
+        if text.is_empty() || size + text.len() > self.limit {
+            return false;
+        }
+        let (from, to) = self.selection().unwrap_or((self.cursor, self.cursor));
+        let blank = |text: &str| text.chars().all(char::is_whitespace);
+        if together
+            && let Some(last) = self.done.last_mut()
+            && end_of(last.at, &last.new) == from
+            && (blank(text) || !last.new.ends_with(' '))
+        {
+            last.new.push_str(text);
+            self.undone.clear();
+            self.exchange(from, to, text);
+            let end = end_of(from, text);
+            self.go(end);
+        } else {
+            self.replace(from, to, text);
+        }
+        self.typing = true;
+        true
+    }
+
+    /// Takes out what is selected, or what lies between the cursor and another place.
+    fn erase(&mut self, to: fn(&Self) -> Spot) -> bool {
+        let other = to(self);
+        let (from, to) =
+            self.selection().unwrap_or((self.cursor.min(other), self.cursor.max(other)));
+        if from == to {
+            return false;
+        }
+        self.replace(from, to, "");
+        true
+    }
+
+    fn replace(&mut self, from: Spot, to: Spot, text: &str) {
+        let cursor = self.cursor;
+        let old = self.exchange(from, to, text);
+        if !(old.is_empty() && text.is_empty()) {
+            self.done.push(Change { at: from, old, new: text.to_owned(), cursor });
+            self.undone.clear();
+        }
+        self.go(end_of(from, text));
+    }
+
+    /// Puts a text in the place of a stretch, and returns what stood there.
+    fn exchange(&mut self, from: Spot, to: Spot, text: &str) -> String {
+        let old = self.between(from, to);
+        let byte = |line: &str, column: usize| {
+            line.char_indices().nth(column).map_or(line.len(), |(at, _)| at)
+        };
+        let head = self.lines[from.row][..byte(&self.lines[from.row], from.column)].to_owned();
+        let tail = self.lines[to.row][byte(&self.lines[to.row], to.column)..].to_owned();
+        let whole = head + text + &tail;
+        self.lines.splice(from.row..=to.row, whole.split('\n').map(str::to_owned));
+        old
+    }
+
+    fn between(&self, from: Spot, to: Spot) -> String {
+        let mut text = String::new();
+        for row in from.row..=to.row {
+            let line = self.lines[row].chars();
+            let first = if row == from.row { from.column } else { 0 };
+            let count = if row == to.row { to.column.saturating_sub(first) } else { usize::MAX };
+            if row > from.row {
+                text.push('\n');
+            }
+            text.extend(line.skip(first).take(count));
+        }
+        text
+    }
+
+    fn selected_or_line(&self) -> (Spot, Spot) {
+        let row = self.cursor.row;
+        self.selection().unwrap_or_else(|| {
+            let start = Spot { row, column: 0 };
+            if row + 1 < self.lines.len() {
+                (start, Spot { row: row + 1, column: 0 })
+            } else {
+                (start, Spot { row, column: self.length(row) })
+            }
+        })
+    }
+
+    /// Moves the cursor, with Shift one end of the selection.
+    fn shift(&mut self, key: Key, page: usize) {
+        let Spot { row, column } = self.cursor;
+        let last = self.lines.len() - 1;
+        let goal = self.goal.unwrap_or(column);
+        let upright = |row: usize| Spot { row, column: goal };
+        let (to, keeps_goal) = match (key.code, key.ctrl) {
+            (Code::Left, false) => (self.left(), false),
+            (Code::Right, false) => (self.right(), false),
+            (Code::Left, true) => (self.word_left(), false),
+            (Code::Right, true) => (self.word_right(), false),
+            (Code::Up, _) if row == 0 => (Spot::default(), false),
+            (Code::Up, _) => (upright(row - 1), true),
+            (Code::Down, _) if row == last => (Spot { row, column: self.length(row) }, false),
+            (Code::Down, _) => (upright(row + 1), true),
+            (Code::PageUp, _) => (upright(row.saturating_sub(page.max(1))), true),
+            (Code::PageDown, _) => (upright((row + page.max(1)).min(last)), true),
+            (Code::Home, true) => (Spot::default(), false),
+            (Code::End, true) => (Spot { row: last, column: self.length(last) }, false),
+            (Code::Home, false) | (Code::Char('a'), true) => {
+                let blank = self.lines[row].chars().take_while(|c| c.is_whitespace()).count();
+                (Spot { row, column: if column == blank { 0 } else { blank } }, false)
+            }
+            (Code::End, false) | (Code::Char('e'), true) => {
+                (Spot { row, column: self.length(row) }, false)
+            }
+            _ => return,
+        };
+        let anchor = key.shift.then(|| self.anchor.unwrap_or(self.cursor));
+        self.go(to);
+        self.anchor = anchor;
+        self.goal = keeps_goal.then_some(goal);
+    }
+
+    fn left(&self) -> Spot {
+        let Spot { row, column } = self.cursor;
+        match (row, column) {
+            (0, 0) => self.cursor,
+            (_, 0) => Spot { row: row - 1, column: self.length(row - 1) },
+            _ => Spot { row, column: column - 1 },
+        }
+    }
+
+    fn right(&self) -> Spot {
+        let Spot { row, column } = self.cursor;
+        if column < self.length(row) {
+            Spot { row, column: column + 1 }
+        } else if row + 1 < self.lines.len() {
+            Spot { row: row + 1, column: 0 }
+        } else {
+            self.cursor
+        }
+    }
+
+    /// To the beginning of a word.
+    fn word_left(&self) -> Spot {
+        let Spot { row, column } = self.cursor;
+        if column == 0 {
+            return self.left();
+        }
+        let line: Vec<char> = self.lines[row].chars().collect();
+        let mut at = column;
+        while at > 0 && !is_word(line[at - 1]) {
+            at -= 1;
+        }
+        while at > 0 && is_word(line[at - 1]) {
+            at -= 1;
+        }
+        Spot { row, column: at }
+    }
+
+    /// Behind the end of a word.
+    fn word_right(&self) -> Spot {
+        let Spot { row, column } = self.cursor;
+        let line: Vec<char> = self.lines[row].chars().collect();
+        if column == line.len() {
+            return self.right();
+        }
+        let mut at = column;
+        while at < line.len() && !is_word(line[at]) {
+            at += 1;
+        }
+        while at < line.len() && is_word(line[at]) {
+            at += 1;
+        }
+        Spot { row, column: at }
+    }
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Where a text ends that begins here.
+fn end_of(at: Spot, text: &str) -> Spot {
+    match text.rsplit_once('\n') {
+        None => Spot { row: at.row, column: at.column + text.chars().count() },
+        Some((above, last)) => {
+            Spot { row: at.row + 1 + above.matches('\n').count(), column: last.chars().count() }
+        }
+    }
+}

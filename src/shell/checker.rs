@@ -1,0 +1,67 @@
+//! The checker: from a text being edited to an experiment, on a thread of its own, so that no key waits for it.
+//!
+//! In: a text. Out: what was made of it, or its mistakes, and how long that took. One text at a time; who asks waits
+//! for the answer before the next. Never here: the stages themselves.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::loader::{STACK, defect};
+use crate::experiment::Ready;
+use crate::preset::{Document, Mistake};
+
+/// Checks texts.
+#[derive(Debug)]
+pub(super) struct Checker {
+    sender: Sender<Answer>,
+    receiver: Receiver<Answer>,
+}
+
+/// What became of a text.
+pub(super) struct Answer {
+    /// Which text it was.
+    pub(super) revision: u64,
+    /// The experiment it makes, or what is wrong with it.
+    pub(super) outcome: Result<Box<Ready>, Vec<Mistake>>,
+    /// How long that took.
+    pub(super) took: Duration,
+}
+
+impl Checker {
+    /// A checker with nothing to do.
+    pub(super) fn new() -> Self {
+        let (sender, receiver) = channel();
+        Self { sender, receiver }
+    }
+
+    /// Begins to check a text.
+    pub(super) fn check(&self, revision: u64, document: Document) {
+        let sender = self.sender.clone();
+        let begun = Instant::now();
+        let work = move || {
+            let made = catch_unwind(AssertUnwindSafe(|| Ready::of(&document)));
+            let outcome = match made {
+                Ok(Ok(ready)) => Ok(Box::new(ready)),
+                Ok(Err(unready)) => Err(unready.mistakes),
+                Err(panic) => Err(vec![Mistake::error(0..0, defect(panic.as_ref()))]),
+            };
+            // The program may have ended meanwhile.
+            let _ = sender.send(Answer { revision, outcome, took: begun.elapsed() });
+        };
+        let started =
+            thread::Builder::new().name("checker".to_owned()).stack_size(STACK).spawn(work);
+        if let Err(error) = started {
+            let mistake =
+                Mistake::error(0..0, format!("there is no thread to check it on: {error}"));
+            let answer = Answer { revision, outcome: Err(vec![mistake]), took: begun.elapsed() };
+            let _ = self.sender.send(answer);
+        }
+    }
+
+    /// An answer, once it is there.
+    pub(super) fn take(&self) -> Option<Answer> {
+        self.receiver.try_recv().ok()
+    }
+}

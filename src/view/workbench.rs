@@ -1,0 +1,204 @@
+//! The workbench: a system's file being edited, its mistakes in their places, and beside it the system in motion.
+//!
+//! In: the workbench, the lab. Out: cells, and how much of the text they show. Never here: what is wrong with a text.
+
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthChar;
+
+use super::canvas::{Canvas, columns, row};
+use super::desk;
+use super::layout::{split_columns, split_rows};
+use super::theme::Role;
+use super::wrap::words;
+use crate::app::{App, Asking, BenchState, Drawn, Flaw, Lab, Spot, Workbench};
+
+/// From this width on the motion has room beside the text.
+const WIDE: u16 = 112;
+
+/// The rows below the text: what is known of it, and the mistake at the cursor.
+const FOOT: u16 = 4;
+
+/// Draws the workbench, and the lab where there is room beside it.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (app, lab): (&App, &Lab),
+    bench: &Workbench,
+) -> Drawn {
+    let mut left = area;
+    if area.width >= WIDE {
+        let (text, beside) = split_columns(area, area.width * 11 / 20);
+        desk::draw(canvas, beside, app, lab);
+        left = text;
+    }
+    let place = bench.editor.cursor();
+    let title = [
+        canvas.span(Role::Title, &bench.title),
+        canvas.span(Role::Warn, if bench.is_modified() { "  not saved" } else { "" }),
+        canvas.span(Role::Dim, format!("  {}:{}", place.row + 1, place.column + 1)),
+    ];
+    let inner = canvas.pane(left, &title, true);
+    let foot = FOOT.min(inner.height / 3);
+    let (text, below) = split_rows(inner, inner.height - foot);
+    let drawn = lines(canvas, text, bench);
+    self::foot(canvas, columns(below, 1, below.width.saturating_sub(2)), bench);
+    drawn
+}
+
+/// The text with numbers of lines and marks of mistakes at its left.
+fn lines(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) -> Drawn {
+    let all = bench.editor.lines();
+    let digits = all.len().to_string().len().max(2) as u16;
+    let margin = digits + 3;
+    let body = columns(area, margin, area.width.saturating_sub(margin));
+    let (first, from) = bench.follow(area.height.into(), body.width.into());
+    let glyphs = canvas.look.glyphs;
+    for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
+        let at = row(area, index - first);
+        let flaws: Vec<&Flaw> = bench.flaws.iter().filter(|f| f.from.row == index).collect();
+        let here = bench.editor.cursor().row == index;
+        if let Some(flaw) = flaws.first() {
+            let role = if flaw.warning { Role::Warn } else { Role::Bad };
+            canvas.left(columns(at, 0, 1), role, glyphs.pick("✗", "x"));
+        }
+        let role = if here { Role::Accent } else { Role::Dim };
+        canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
+        write(canvas, row(body, index - first), (index, line), from, &flaws, bench);
+    }
+    Drawn { rows: area.height, columns: body.width, ..Drawn::default() }
+}
+
+/// One line from a column on.
+fn write(
+    canvas: &mut Canvas<'_>,
+    at: Rect,
+    (index, line): (usize, &str),
+    from: usize,
+    flaws: &[&Flaw],
+    bench: &Workbench,
+) {
+    let ascii = canvas.look.glyphs.is_ascii();
+    let selection = bench.editor.selection();
+    let cursor = bench.editor.cursor();
+    let comment = comment(line);
+    let plain = if line.trim_start().starts_with('[') { Role::Title } else { Role::Text };
+    let mut used = 0;
+    // one place more than there are characters: the cursor may stand behind the last
+    for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {
+        let c = if c.is_control() || ascii && !c.is_ascii() { '?' } else { c };
+        let width = c.width().unwrap_or(0) as u16;
+        if used + width > at.width {
+            // the line goes on
+            let mark = Rect { x: at.right().saturating_sub(1), width: 1, ..at };
+            canvas.left(mark, Role::Dim, canvas.look.glyphs.pick("…", ">"));
+            break;
+        }
+        let spot = Spot { row: index, column };
+        let role = if comment.is_some_and(|start| column >= start) { Role::Dim } else { plain };
+        let mut style = canvas.style(role);
+        if let Some(flaw) = flaws.iter().find(|flaw| covers(flaw, spot)) {
+            let role = if flaw.warning { Role::Warn } else { Role::Bad };
+            style = canvas.style(role).add_modifier(Modifier::UNDERLINED);
+        }
+        if selection.is_some_and(|(from, to)| from <= spot && spot < to) {
+            style = canvas.style(Role::Selected);
+        }
+        if spot == cursor && bench.asking.is_none() {
+            style = style.add_modifier(Modifier::REVERSED);
+        }
+        put(canvas, Position::new(at.x + used, at.y), c, style);
+        used += width;
+    }
+    if from > 0 && !line.is_empty() {
+        canvas.left(columns(at, 0, 1), Role::Dim, canvas.look.glyphs.pick("…", "<"));
+    }
+}
+
+fn put(canvas: &mut Canvas<'_>, at: Position, c: char, style: Style) {
+    if canvas.buffer.area.contains(at) {
+        canvas.buffer.set_string(at.x, at.y, c.to_string(), style);
+    }
+}
+
+/// Whether a mistake is underlined here; one without extent has a place of one character.
+fn covers(flaw: &Flaw, spot: Spot) -> bool {
+    spot == flaw.from || flaw.from <= spot && spot < flaw.to
+}
+
+/// Where the comment of a line begins, quotes passed over.
+fn comment(line: &str) -> Option<usize> {
+    let mut quote = None;
+    for (column, c) in line.chars().enumerate() {
+        match (quote, c) {
+            (Some(open), _) if open == c => quote = None,
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '#') => return Some(column),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// What is known of the text, or what is asked for.
+fn foot(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) {
+    if let Some(asking) = &bench.asking {
+        return self::asking(canvas, area, asking);
+    }
+    let count = bench.flaws.iter().filter(|flaw| !flaw.warning).count();
+    let (role, text) = match bench.state {
+        BenchState::Runs(None) => (Role::Dim, "This text is the one that runs.".to_owned()),
+        BenchState::Runs(Some(took)) => {
+            let time = took.as_secs_f64() * 1e3;
+            let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
+            (Role::Good, format!("No mistake: built anew in {time} ms, the motion goes on."))
+        }
+        BenchState::Changed => (Role::Dim, "Being looked at when typing rests.".to_owned()),
+        BenchState::Wrong if count == 1 => {
+            (Role::Bad, "One mistake; the last right text goes on.".to_owned())
+        }
+        BenchState::Wrong => (Role::Bad, format!("{count} mistakes; the last right text goes on.")),
+    };
+    canvas.left(row(area, 0), role, &text);
+    let Some(flaw) = bench.flaw() else { return };
+    let place = format!("{}:{}  ", flaw.from.row + 1, flaw.from.column + 1);
+    let text = format!("{place}{}", flaw.message);
+    let help = flaw.help.as_ref().map(|help| format!("help: {help}"));
+    let width = usize::from(area.width);
+    let message = words(&canvas.text(&text), width);
+    let help = help.map_or_else(Vec::new, |help| words(&canvas.text(&help), width));
+    let role = if flaw.warning { Role::Warn } else { Role::Text };
+    // the help keeps its row where both are long
+    let room =
+        usize::from(area.height.saturating_sub(1)).saturating_sub(usize::from(!help.is_empty()));
+    let shown = message.iter().take(room).map(|line| (role, line));
+    let helped = help.iter().map(|line| (Role::Accent, line));
+    for (index, (role, line)) in shown.chain(helped).enumerate() {
+        canvas.left(row(area, index + 1), role, line);
+    }
+}
+
+fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking) {
+    let (label, input, help) = match asking {
+        Asking::Words(input) => {
+            ("find: ", input, "Enter goes to the next place, Ctrl-g to one more.")
+        }
+        Asking::Name(input) => (
+            "save a copy as: ",
+            input,
+            "A name alone stands among your presets; with a / or ending in .toml it is a file.",
+        ),
+    };
+    let field = row(area, 0);
+    let used = canvas.left(field, Role::Accent, label);
+    let place = columns(field, used, field.width);
+    let room = usize::from(place.width.saturating_sub(1));
+    let skipped = input.visual_scroll(room);
+    let text: String = input.value().chars().skip(skipped).take(room).collect();
+    canvas.left(place, Role::Text, &text);
+    let cursor = input.visual_cursor().saturating_sub(skipped).min(room) as u16;
+    canvas.tint(columns(place, cursor, 1), Role::Selected);
+    for (index, line) in words(help, area.width.into()).iter().enumerate() {
+        canvas.left(row(area, index + 1), Role::Dim, line);
+    }
+}

@@ -1,0 +1,76 @@
+//! The workbench as a person meets it: typing, mistakes, saving, and a file changed in one's own editor.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::session::{Session, Setup};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
+
+const FILE: &str = r#"title = "Oscillator"
+[coordinates]
+x = { initial = 1.0, velocity = 0.0 }
+[parameters]
+k = 4.0
+[lagrangian]
+L = "1/2*x'^2 - 1/2*k*x^2"
+"#;
+
+/// A folder with a file, and the lab open at it.
+fn open(options: &[&str]) -> (TempDir, PathBuf, Session) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("own.toml");
+    fs::write(&place, FILE).expect("it can be written");
+    let mut lab = Setup::new(PROGRAM, options).argument(&place).size(120, 40).start();
+    lab.shows("running");
+    (folder, place, lab)
+}
+
+fn quits(mut lab: Session) {
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
+}
+
+#[test]
+fn a_file_is_edited_while_it_runs() {
+    let (_folder, place, mut lab) = open(&[]);
+    lab.press("E");
+    lab.shows("This text is the one that runs.");
+    // the word k is found, and another name typed over it
+    lab.press("\x06k = \r");
+    lab.press("q = ");
+    lab.shows("the last right text goes on");
+    quits_from_bench(lab, &place);
+}
+
+/// Makes a right change of it, saves it and leaves.
+fn quits_from_bench(mut lab: Session, place: &Path) {
+    lab.press("\x06\x15q = 4\rk = 9");
+    lab.shows("built anew in");
+    lab.press("\x13");
+    lab.shows("Saved: ");
+    let saved = fs::read_to_string(place).expect("it is there");
+    assert_eq!(saved, FILE.replace("k = 4.0", "k = 9.0"));
+    lab.press("\x1b");
+    lab.until("the editor is closed", |lab| !lab.text().contains("built anew"));
+    lab.shows("running");
+    quits(lab);
+}
+
+#[test]
+fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
+    let (_folder, place, mut lab) = open(&["--watch"]);
+    fs::write(&place, FILE.replace("k = 4.0", "kk = 4.0")).expect("it can be written");
+    lab.shows("own.toml:");
+    lab.shows("running");
+    let half = &FILE[..FILE.len() / 2];
+    fs::write(&place, half).expect("it can be written");
+    let right = FILE.replace("Oscillator", "Another name");
+    fs::write(&place, right).expect("it can be written");
+    lab.shows("Another name");
+    lab.until("the mistake is forgotten", |lab| !lab.text().contains("own.toml:"));
+    quits(lab);
+}
