@@ -39,7 +39,8 @@ fn script(shell: Shell) -> String {
     match shell {
         Shell::Bash => generated + &bash(&named),
         Shell::Zsh => zsh(&generated),
-        Shell::Fish => generated + &fish(&named),
+        // a word that is still missing, as behind `--glyphs`, stands before any command
+        Shell::Fish => generated.replacen("or return\n", "or return 0\n", 1) + &fish(&named),
         _ => generated,
     }
 }
@@ -87,7 +88,8 @@ complete -F _phaselab_with_presets -o bashdefault -o default phaselab
     )
 }
 
-/// The places of names are marked by what their help says.
+/// What is generated takes the lab's name for a word that stands before every command; it is one in its place. The
+/// other places of names are marked by what their help says.
 fn zsh(generated: &str) -> String {
     let mut script = String::new();
     let mut functions = Some(
@@ -98,17 +100,22 @@ _phaselab_presets() {
     presets=(${(f)"$(phaselab list --format names 2>/dev/null)"})
     _alternative 'presets:preset:compadd -a presets' 'files:file:_files -g "*.toml"'
 }
+
+_phaselab_first() {
+    _alternative 'commands:command:_phaselab_commands' 'presets:preset:_phaselab_presets'
+}
 "#,
     );
-    for line in generated.lines() {
+    for line in generated.lines().filter(|line| !line.starts_with("'::name -- ")) {
         if line.starts_with("_phaselab()") {
             script.extend(functions.take());
             script.push('\n');
         }
         let named = line.contains("name -- A preset") && line.contains(":_default'");
         let line =
-            if named { line.replace(":_default'", ":_phaselab_presets'") } else { line.to_owned() };
-        script.push_str(&line);
+            if named { line.replace(":_default'", ":_phaselab_presets'") } else { line.into() };
+        let line = line.replace("\":: :_phaselab_commands\"", "\":: :_phaselab_first\"");
+        script.push_str(&line.replace("$line[2]", "$line[1]"));
         script.push('\n');
     }
     script

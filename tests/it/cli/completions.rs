@@ -14,8 +14,9 @@ fn every_shell_has_a_script_with_commands_and_options() {
         }
     }
     let zsh = phaselab(&["completions", "zsh"]).success();
-    // the lab, derive, bracket and run at least, and the function itself
+    // derive, bracket and run at least, and the first word
     assert!(zsh.matches(":_phaselab_presets'").count() >= 4, "{zsh}");
+    assert!(zsh.contains("\":: :_phaselab_first\"") && !zsh.contains("$line[2]"), "{zsh}");
     let fish = phaselab(&["completions", "fish"]).success();
     assert!(fish.contains("__fish_phaselab_using_subcommand derive' -a '(phaselab list"), "{fish}");
     phaselab(&["completions", "csh"]).fails(2, &["csh", "bash"]);
