@@ -160,7 +160,7 @@ impl Workbench {
             } else if at < first {
                 at.saturating_sub(count / 4)
             } else {
-                at + 1 + count / 4 - count.min(at + 1 + count / 4)
+                (at + 1 + count / 4).saturating_sub(count)
             }
         };
         // the line as far as the cursor need not be moved where it fits from its beginning

@@ -37,6 +37,8 @@ pub(super) struct Session {
     store: Option<Store>,
     /// Since the session was last saved.
     unsaved: Duration,
+    /// Told once more when the first system is there, for its loading ends what was told before.
+    warning: Option<String>,
 }
 
 /// How often the session is saved while the laboratory is open.
@@ -51,7 +53,8 @@ impl Session {
         let (store, unsaved) = (None, Duration::ZERO);
         let watch = request.watch.then(Watch::default);
         let (worker, checker) = (Worker::idle()?, Checker::new());
-        let mut session = Self { app, look, worker, loader, checker, watch, store, unsaved };
+        let mut session =
+            Self { app, look, worker, loader, checker, watch, store, unsaved, warning: None };
         session.perform(effects);
         Ok(session)
     }
@@ -65,7 +68,10 @@ impl Session {
     pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>) {
         match store {
             Ok(store) => self.store = Some(store),
-            Err(why) => self.app.notice = Some(Notice::error(why.to_string())),
+            Err(why) => {
+                self.app.notice = Some(Notice::error(why.to_string()));
+                self.warning = Some(why.to_string());
+            }
         }
     }
 
@@ -203,6 +209,9 @@ impl Page for Session {
         if let Some(outcome) = self.loader.take() {
             let loaded = outcome.map(|(name, ready)| self.begin(name, *ready));
             self.update(Event::Loaded(loaded));
+            if let Some(warning) = self.warning.take() {
+                self.app.notice = Some(Notice::error(warning));
+            }
             changed = true;
         }
         changed |= self.watch(elapsed);

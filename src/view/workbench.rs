@@ -52,7 +52,9 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) -> Drawn {
     let digits = all.len().to_string().len().max(2) as u16;
     let margin = digits + 3;
     let body = columns(area, margin, area.width.saturating_sub(margin));
-    let (first, from) = bench.follow(area.height.into(), body.width.into());
+    // the last column is for the mark of a line that goes on
+    let wide = body.width.saturating_sub(1);
+    let (first, from) = bench.follow(area.height.into(), wide.into());
     let glyphs = canvas.look.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
@@ -66,7 +68,7 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) -> Drawn {
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
         write(canvas, row(body, index - first), (index, line), from, &flaws, bench);
     }
-    Drawn { rows: area.height, columns: body.width, ..Drawn::default() }
+    Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
 
 /// One line from a column on.
@@ -110,7 +112,8 @@ fn write(
         put(canvas, Position::new(at.x + used, at.y), c, style);
         used += width;
     }
-    if from > 0 && !line.is_empty() {
+    let covered = Spot { row: index, column: from };
+    if from > 0 && !line.is_empty() && cursor != covered {
         canvas.left(columns(at, 0, 1), Role::Dim, canvas.look.glyphs.pick("…", "<"));
     }
 }
@@ -161,8 +164,8 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) {
     };
     canvas.left(row(area, 0), role, &text);
     let Some(flaw) = bench.flaw() else { return };
-    let place = format!("{}:{}  ", flaw.from.row + 1, flaw.from.column + 1);
-    let text = format!("{place}{}", flaw.message);
+    let (row_of, column) = (flaw.from.row + 1, flaw.from.column + 1);
+    let text = format!("{row_of}:{column} {}", flaw.message);
     let help = flaw.help.as_ref().map(|help| format!("help: {help}"));
     let width = usize::from(area.width);
     let message = words(&canvas.text(&text), width);

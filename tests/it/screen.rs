@@ -3,6 +3,7 @@
 mod golden;
 mod panes;
 mod purity;
+mod workbench;
 
 use phaselab::app::{App, Drawn};
 use phaselab::view::colour::ColourDepth;

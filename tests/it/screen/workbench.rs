@@ -1,0 +1,113 @@
+//! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
+
+use phaselab::app::{App, BenchState, Event, Flaw, Spot};
+use phaselab::view::Look;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+use proptest::prelude::*;
+use ratatui::buffer::Buffer;
+use ratatui::style::Modifier;
+
+use super::{drawn, find, rich, rows, screen};
+use crate::hand::{in_lab, press};
+
+fn edited() -> App {
+    let mut app = in_lab();
+    press(&mut app, "E");
+    app
+}
+
+/// What stands in the cells of a modifier left of a column, between the lines above and below the pages.
+fn cells(buffer: &Buffer, modifier: Modifier, right: u16) -> Vec<String> {
+    let places = (1..buffer.area.height - 2).flat_map(|y| (0..right).map(move |x| (x, y)));
+    let cells = places.map(|at| &buffer[at]).filter(|cell| cell.modifier.contains(modifier));
+    cells.map(|cell| cell.symbol().to_owned()).collect()
+}
+
+const KEYS: [&str; 12] = [
+    "Up",
+    "Down",
+    "Left",
+    "Right",
+    "Home",
+    "End",
+    "PageUp",
+    "PageDown",
+    "Ctrl-Home",
+    "Ctrl-End",
+    "Ctrl-Right",
+    "Enter",
+];
+
+proptest! {
+    /// One cell is reversed, and it is the character at the cursor.
+    #[test]
+    fn the_cursor_is_in_sight_wherever_it_goes(
+        keys in prop::collection::vec(prop::sample::select(KEYS.to_vec()), 0..30),
+        (width, height) in (40_u16..111, 10_u16..50),
+    ) {
+        let mut app = edited();
+        for word in keys {
+            let (_, shown) = drawn(&app, &rich(), (width, height));
+            app.update(Event::Drawn(shown));
+            press(&mut app, word);
+        }
+        let bench = app.open_workbench().unwrap();
+        let Spot { row, column } = bench.editor.cursor();
+        let under = bench.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
+        let buffer = screen(&app, &rich(), (width, height));
+        prop_assert_eq!(cells(&buffer, Modifier::REVERSED, width), [under]);
+    }
+}
+
+#[test]
+fn a_mistake_is_underlined_marked_and_told_below() {
+    let mut app = edited();
+    let bench = app.workbench.as_mut().unwrap();
+    let (from, to) = (Spot { row: 2, column: 10 }, Spot { row: 2, column: 13 });
+    let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
+    bench.flaws = vec![Flaw { from, to, warning: false, message, help }];
+    bench.state = BenchState::Wrong;
+    for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
+        let buffer = screen(&app, &look, (80, 24));
+        let line: String = bench_line(&app, 2).chars().skip(10).take(3).collect();
+        let (_, y) = find(&buffer, " 3  source").unwrap();
+        let row = (0..80).map(|x| &buffer[(x, y)]);
+        let underlined = row.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED));
+        assert_eq!(underlined.map(ratatui::buffer::Cell::symbol).collect::<String>(), line);
+        for text in ["One mistake", "3:11 it is not so", "help: write it so"] {
+            assert!(find(&buffer, text).is_some(), "{text}: {:#?}", rows(&buffer));
+        }
+        assert_eq!(buffer[(1, y)].symbol(), mark);
+    }
+}
+
+fn bench_line(app: &App, row: usize) -> String {
+    app.open_workbench().unwrap().editor.lines()[row].clone()
+}
+
+fn plain() -> Look {
+    Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
+}
+
+#[test]
+fn a_terminal_of_ascii_gets_ascii() {
+    let mut app = edited();
+    app.update(Event::Paste("θ ẍ ½ 漢".to_owned()));
+    for keys in ["", "Ctrl-s", "Ctrl-f"] {
+        press(&mut app, keys);
+        for size in [(40, 10), (80, 24), (200, 60)] {
+            let text = rows(&screen(&app, &plain(), size)).concat();
+            assert!(text.is_ascii(), "{keys} {size:?}: {text}");
+        }
+        press(&mut app, "Esc E");
+    }
+}
+
+#[test]
+fn the_motion_stands_beside_the_text_where_there_is_room() {
+    let app = edited();
+    let beside = |size| find(&screen(&app, &rich(), size), "Motion").is_some();
+    assert!(beside((120, 40)) && beside((200, 60)) && !beside((80, 24)));
+}
