@@ -418,7 +418,7 @@ impl Player {
         } else {
             self.catalog.find(&name).map_err(|why| why.to_string())
         };
-        let ready = found.and_then(|document| Ready::of(&document).map_err(|why| why.0));
+        let ready = found.and_then(|document| Ready::of(&document).map_err(|why| why.report));
         match ready {
             Err(message) => Err(LoadFailure { name, message }),
             Ok(Ready { model, equations, system, mut experiment, document }) => {
