@@ -43,7 +43,8 @@ pub const EXITS: &[Exit] = &[
     ),
     exit(
         "65",
-        "a file is wrong: a system, the configuration; its mistakes are told in their places",
+        "a file is wrong: a system, a script, the configuration; its mistakes are told in their \
+         places",
     ),
     exit("74", "output could not be written; a file that stood there is as it was"),
     exit("101", "a panic: a defect of phaselab; the terminal is given back first"),

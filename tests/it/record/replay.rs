@@ -65,9 +65,9 @@ impl Looks {
     }
 
     fn drawn(cell: &Cell) -> Looks {
+        use Modifier as M;
         let colour = |c: Color| (c != Color::Reset).then_some(c);
         let has = |m: Modifier| cell.modifier.contains(m);
-        use Modifier as M;
         let weights = [M::BOLD, M::DIM, M::ITALIC, M::UNDERLINED, M::REVERSED].map(has);
         let symbol = cell.symbol().to_owned();
         Looks { symbol, fg: colour(cell.fg), bg: colour(cell.bg), weights }.seen()
