@@ -110,7 +110,10 @@ impl Page for Clock {
 
 fn main() -> Result<ExitCode> {
     report_panics()?;
-    match perform(&mut Clock::default(), Pace { frames: 30, synchronized: true, mouse: false }) {
+    match perform(
+        &mut Clock::default(),
+        Pace { frames: 30, bytes: None, synchronized: true, mouse: false },
+    ) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),
         Ok(Ending::Signal(number)) => Ok(ExitCode::from(128 + number as u8)),

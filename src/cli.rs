@@ -12,6 +12,7 @@ mod config;
 mod decimal;
 mod demo;
 mod derive;
+mod doctor;
 mod exit;
 mod failure;
 mod format;
@@ -81,6 +82,7 @@ enum Command {
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Methods(methods::Arguments),
+    Doctor(doctor::Arguments),
     Config(config::Arguments),
     Completions(completions::Arguments),
     Man(manual::Arguments),
@@ -124,6 +126,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Record(arguments)) => record::perform(&arguments),
         Some(Command::Script(arguments)) => demo::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
+        Some(Command::Doctor(arguments)) => doctor::perform(&arguments),
         Some(Command::Config(arguments)) => config::perform(&arguments),
         Some(Command::Completions(arguments)) => completions::perform(&arguments),
         Some(Command::Man(arguments)) => manual::perform(&arguments),

@@ -9,11 +9,15 @@
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 
+mod bandwidth;
 mod checker;
 pub mod config;
+mod diagnosis;
 mod files;
+mod governor;
 mod input;
 mod loader;
+mod log;
 pub mod options;
 mod panic;
 mod product;
@@ -25,10 +29,13 @@ mod stage;
 mod store;
 mod terminal;
 
+pub use bandwidth::{Bandwidth, NotBandwidth};
+pub use diagnosis::{Finding, diagnosis};
 pub use input::{Input, PASTE_LIMIT};
+pub use log::{LogFile, NoLog};
 pub use options::Options;
 pub use panic::report_panics;
-pub use request::{Refusal, Request};
+pub use request::{MOST_FRAMES, Refusal, Request};
 pub use stage::{Ending, Pace, Page, Wish, perform};
 pub use store::NoSession;
 pub use terminal::NoTerminal;
@@ -36,6 +43,7 @@ pub use terminal::NoTerminal;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use crate::preset::Catalog;
+use log::Log;
 use session::Session;
 use store::Store;
 
@@ -56,14 +64,29 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         catalog.find(name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
-    let mut session = Session::new(catalog, &request, request.look(&variable))?;
+    let mut log = request.log.as_ref().map_or(Ok(Log::default()), Log::open)?;
+    log.info(format!("phaselab {} starts", env!("CARGO_PKG_VERSION")));
+    for finding in diagnosis(&variable, None) {
+        log.info(format!("{}: {} ({})", finding.what, finding.found, finding.why));
+    }
+    log.guard();
+    let pace = request.pace(&variable);
+    let mut session = Session::new(catalog, &request, request.look(&variable), pace, log)?;
     session.keep_in(Store::open());
     if let Some(saved) = saved {
         session.resume(saved);
     }
-    let pace = request.pace(&variable);
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
     let kept = session.keep();
+    match &ended {
+        Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
+        Ok(Err(refusal)) => session.log.error(refusal),
+        Err(_) => session.log.error("ends by a panic"),
+    }
+    if let Err(error) = &kept {
+        session.log.error(error);
+    }
+    session.log.close();
     // The worker may be in the middle of a long step, and nobody waits for it any more.
     std::mem::forget(session);
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;

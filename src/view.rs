@@ -4,9 +4,10 @@
 //! or a change of anything that is drawn.
 //!
 //! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
-//! in a terminal: [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
+//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
 
 pub mod caption;
+pub mod card;
 pub mod colour;
 pub mod frame;
 pub mod glyphs;
@@ -19,6 +20,7 @@ mod bars;
 mod canvas;
 mod cursor;
 mod desk;
+mod detail;
 mod document;
 mod equations;
 mod gauges;
@@ -44,6 +46,7 @@ use ratatui::layout::Rect;
 
 use crate::app::{App, Drawn, Lab, Over, Page};
 use canvas::{Canvas, row};
+pub use detail::Detail;
 use document::Document;
 use glyphs::Glyphs;
 use layout::{LEAST, Screen};

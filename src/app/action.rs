@@ -17,6 +17,10 @@ pub enum Action {
     Help,
     /// Search all actions by name.
     Palette,
+    /// Draw fewer frames in a second.
+    FewerFrames,
+    /// Draw more frames in a second.
+    MoreFrames,
     /// Have the mouse reported, or leave it to the terminal again.
     Mouse,
     /// Leave the innermost thing that is open.

@@ -126,6 +126,8 @@ pub enum Effect {
     Reread(PathBuf),
     /// Draw every cell anew.
     Repaint,
+    /// Draw at most so many frames in a second.
+    Frames(u16),
     /// Have the terminal report the mouse, or leave it alone.
     Mouse(bool),
     /// Stop the process as the terminal's Ctrl-Z does.

@@ -198,6 +198,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
     row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
+    row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "fewer frames a second, for a slow line"),
+    row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),
     row(Place::Experiment, &[c('M')], Action::Mouse, "", "have the mouse reported, or leave it to the terminal to select text"),
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),

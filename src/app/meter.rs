@@ -8,9 +8,16 @@ use std::time::Duration;
 /// For how long is counted before a number is shown.
 const WINDOW: Duration = Duration::from_millis(500);
 
+/// Frames in a second that can be asked for, one after the other.
+const RATES: [u16; 8] = [2, 4, 8, 15, 20, 30, 60, 120];
+
 /// Counts frames and steps.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Meter {
+    /// Frames per second that are asked for.
+    pub asked: u16,
+    /// The most that may be asked for.
+    pub most: u16,
     /// Frames per second, once known.
     pub frames: Option<f64>,
     /// Steps per second, once known.
@@ -21,7 +28,32 @@ pub struct Meter {
     last: u64,
 }
 
+impl Default for Meter {
+    fn default() -> Self {
+        Self {
+            asked: 30,
+            most: 240,
+            frames: None,
+            steps: None,
+            counted: 0,
+            elapsed: Duration::ZERO,
+            first: None,
+            last: 0,
+        }
+    }
+}
+
 impl Meter {
+    /// The next greater (`more`) or smaller number of frames to ask for; `None` at the end.
+    pub(super) fn next_rate(&self, more: bool) -> Option<u16> {
+        let mut rates = RATES.iter().copied().filter(|rate| *rate <= self.most);
+        if more {
+            rates.find(|rate| *rate > self.asked)
+        } else {
+            rates.rfind(|rate| *rate < self.asked)
+        }
+    }
+
     /// A frame has passed.
     pub fn tick(&mut self, elapsed: Duration) {
         self.counted += 1;

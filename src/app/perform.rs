@@ -17,6 +17,8 @@ impl App {
             Action::Help => self.help(),
             Action::Palette => self.open_palette(),
             Action::Mouse => self.switch_mouse(),
+            Action::FewerFrames => self.change_frames(false),
+            Action::MoreFrames => self.change_frames(true),
             Action::Back => self.back(),
             Action::Show(page) => {
                 self.go(page);
@@ -154,6 +156,16 @@ impl App {
                 change(lens);
             }
         })
+    }
+
+    fn change_frames(&mut self, more: bool) -> Vec<Effect> {
+        let Some(rate) = self.meter.next_rate(more) else {
+            let end = if more { "most" } else { "fewest" };
+            return self.say(format!("{} frames a second are the {end}.", self.meter.asked));
+        };
+        self.meter.asked = rate;
+        self.notice = Some(Notice::info(format!("At most {rate} frames a second.")));
+        vec![Effect::Frames(rate)]
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {

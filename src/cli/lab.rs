@@ -70,6 +70,21 @@ fn argument(choice: &'static Choice) -> Arg {
                 .value_parser(PossibleValuesParser::new(words.iter().map(value)))
                 .help(about)
         }
+        Kind::Text { shape, bare, .. } => {
+            let argument = match bare {
+                Some(bare) => {
+                    argument.num_args(0..=1).require_equals(true).default_missing_value(bare)
+                }
+                None => argument,
+            };
+            argument
+                .value_name("WORD")
+                .allow_hyphen_values(true)
+                .value_parser(clap::builder::StringValueParser::new().try_map(|word: String| {
+                    choice.accept(&word).map(|()| word).map_err(|wrong| wrong.message)
+                }))
+                .help(format!("{about}: {shape}"))
+        }
         Kind::Count { auto, .. } => argument
             .value_name("N")
             .allow_hyphen_values(true)
@@ -99,7 +114,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
         Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),
         Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
-        Err(refusal @ Refusal::Unsaved(_)) => Err(Failure::CouldNotWrite(refusal.to_string())),
+        Err(refusal @ (Refusal::Unsaved(_) | Refusal::NoLog(_))) => {
+            Err(Failure::CouldNotWrite(refusal.to_string()))
+        }
         Err(Refusal::NoSession(why @ (NoSession::Newer { .. } | NoSession::Malformed { .. }))) => {
             Err(Failure::WrongFile(why.to_string()))
         }

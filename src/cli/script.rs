@@ -15,10 +15,8 @@ pub(super) enum Script {
 impl Script {
     /// What the locale promises.
     pub(super) fn of_locale() -> Script {
-        match Glyphs::from_environment(&|name| std::env::var(name).ok()) {
-            Glyphs::Ascii => Script::Ascii,
-            Glyphs::Braille | Glyphs::HalfBlock => Script::Unicode,
-        }
+        let glyphs = Glyphs::from_environment(&|name| std::env::var(name).ok());
+        if glyphs.is_ascii() { Script::Ascii } else { Script::Unicode }
     }
 
     /// An expression.

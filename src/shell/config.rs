@@ -101,10 +101,15 @@ pub fn default_text() -> String {
             Kind::Count { least, most, auto } => {
                 let _ = writeln!(text, "#   {least} to {most}, or \"auto\": {auto}");
             }
+            Kind::Text { shape, .. } => {
+                let _ = writeln!(text, "#   {shape}");
+            }
         }
         let quoted = match choice.kind {
             Kind::Switch => choice.usual.to_owned(),
-            Kind::Word(_) | Kind::Count { .. } => format!("\"{}\"", choice.usual),
+            Kind::Word(_) | Kind::Count { .. } | Kind::Text { .. } => {
+                format!("\"{}\"", choice.usual)
+            }
         };
         let _ = writeln!(text, "{} = {quoted}", choice.name);
     }

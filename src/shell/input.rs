@@ -30,8 +30,8 @@ pub enum Input {
     Resize(u16, u16),
 }
 
-/// The most that one paste brings, in bytes.
-pub const PASTE_LIMIT: usize = 4096;
+/// The most that one paste brings, in bytes: more than a field takes, which then tells that it was too long.
+pub const PASTE_LIMIT: usize = 16 * 1024;
 
 const ESC: u8 = 0x1b;
 
@@ -486,6 +486,44 @@ mod tests {
         assert_eq!(decode(b"\x1b[200~never ended"), paste("never ended"));
         let long = format!("\x1b[200~{}\x1b[201~", "θ".repeat(500_000));
         assert_eq!(decode(long.as_bytes()), paste(&"θ".repeat(PASTE_LIMIT / 2)));
+    }
+
+    #[test]
+    fn a_hundred_thousand_strings_of_noise_do_no_harm() {
+        // Bytes that sequences are made of come often; the rest is anything.
+        const OFTEN: &[u8] = b"\x1b\x1b\x1b[[<<;;0019MmO?]P_^X\\~200~201~\x07\x18\x9b\xc3\xff";
+        let mut seed = 0x2545_f491_4f6c_dd1d_u64;
+        let mut random = || {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            (seed >> 32) as usize
+        };
+        let mut now = Instant::now();
+        let mut decoder = Decoder::default();
+        for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+            decoder.expect(mode, true);
+        }
+        for _ in 0..100_000 {
+            let bytes: Vec<u8> =
+                (0..=random() % 24)
+                    .map(|_| {
+                        if random() % 4 > 0 {
+                            OFTEN[random() % OFTEN.len()]
+                        } else {
+                            random() as u8
+                        }
+                    })
+                    .collect();
+            decoder.feed(&bytes, now);
+            now += Duration::from_millis(20);
+            while decoder.next().is_some() {}
+        }
+        decoder.feed(b"\x1b[<0;0;0M\x1b]0;never ended", now);
+        decoder.expire();
+        while decoder.next().is_some() {}
+        decoder.feed(b"q", now);
+        assert_eq!(decoder.next(), Some(Input::Key(Key::char('q'))));
     }
 
     proptest! {

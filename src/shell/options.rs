@@ -4,6 +4,7 @@
 //! In: words, from any of these. Out: [`Options`], what is asked for by name. Never here: where the words come from,
 //! or what an option does.
 
+use super::bandwidth::Bandwidth;
 use crate::expr::nearest;
 
 /// One option: `--name` on the command line, `name` in the configuration, `PHASELAB_NAME` in the environment.
@@ -40,6 +41,15 @@ pub enum Kind {
         most: u16,
         /// What `auto` is.
         auto: &'static str,
+    },
+    /// Whatever a function accepts.
+    Text {
+        /// What that is, in a few words.
+        shape: &'static str,
+        /// Whether a word is one.
+        accept: fn(&str) -> bool,
+        /// What it is where it is named without a word, which otherwise comes after `=`.
+        bare: Option<&'static str>,
     },
 }
 
@@ -85,10 +95,13 @@ pub const OPTIONS: &[Choice] = &[
             ("auto", "what the locale says: LC_ALL, LC_CTYPE, LANG"),
             ("braille", "braille patterns, the finest"),
             ("half", "half blocks"),
+            ("quadrant", "quarters of a cell"),
+            ("sextant", "sixths of a cell; few fonts have them"),
+            ("octant", "eighths of a cell; very few fonts have them"),
             ("ascii", "ASCII only"),
         ]),
         usual: "auto",
-        about: "What to draw with.",
+        about: "What to draw with; `phaselab doctor --glyphs` shows what the font has.",
         overruled_by: &[],
         excludes_name: false,
     },
@@ -98,6 +111,41 @@ pub const OPTIONS: &[Choice] = &[
         kind: Kind::Count { least: 1, most: 240, auto: "30, and 15 over ssh" },
         usual: "auto",
         about: "The most frames in a second.",
+        overruled_by: &[],
+        excludes_name: false,
+    },
+    Choice {
+        name: "bandwidth",
+        letter: None,
+        kind: Kind::Text {
+            shape: "bytes a second such as 16k or 1M, or off; auto: off, and 64k over ssh",
+            accept: |word| word == "auto" || word.parse::<Bandwidth>().is_ok(),
+            bare: None,
+        },
+        usual: "auto",
+        about: "The most that is sent in a second; where it is too little less is drawn.",
+        overruled_by: &[],
+        excludes_name: false,
+    },
+    Choice {
+        name: "reduce-motion",
+        letter: None,
+        kind: Kind::Switch,
+        usual: "false",
+        about: "At most 4 frames a second, and nothing that fades.",
+        overruled_by: &[],
+        excludes_name: false,
+    },
+    Choice {
+        name: "log",
+        letter: Some('l'),
+        kind: Kind::Text {
+            shape: "a path, off, or state for phaselab/phaselab.log in your state folder",
+            accept: |word| !word.is_empty(),
+            bare: Some("state"),
+        },
+        usual: "off",
+        about: "Where to write what happens.",
         overruled_by: &[],
         excludes_name: false,
     },
@@ -144,6 +192,7 @@ impl Choice {
             Kind::Switch => "true, false".to_owned(),
             Kind::Word(words) => words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", "),
             Kind::Count { least, most, .. } => format!("auto, {least} to {most}"),
+            Kind::Text { shape, .. } => shape.to_owned(),
         }
     }
 
@@ -170,6 +219,8 @@ impl Choice {
                 Ok(number) if (least..=most).contains(&number) => Ok(()),
                 _ => Err(wrong(format!("a whole number from {least} to {most}, or auto"))),
             },
+            Kind::Text { accept, .. } if accept(word) => Ok(()),
+            Kind::Text { shape, .. } => Err(wrong(shape.to_owned())),
         }
     }
 }
@@ -266,7 +317,8 @@ mod tests {
     fn every_option_accepts_what_it_usually_is() {
         for choice in OPTIONS {
             assert_eq!(choice.accept(choice.usual), Ok(()), "{}", choice.name);
-            assert!(choice.accept("no such word").is_err(), "{}", choice.name);
+            let free = matches!(choice.kind, Kind::Text { bare: Some(_), .. });
+            assert!(free || choice.accept("no such word").is_err(), "{}", choice.name);
         }
     }
 
@@ -305,7 +357,7 @@ mod tests {
         check(
             "PHASELAB_GLYPHS",
             "brail",
-            "PHASELAB_GLYPHS: `glyphs` is one of auto, braille, half, ascii, not `brail`; \
+            "PHASELAB_GLYPHS: `glyphs` is one of auto, braille, half, quadrant, sextant, octant, ascii, not `brail`; \
              did you mean `braille`?",
         );
         check("PHASELAB_NO_SYNC", "yes", "PHASELAB_NO_SYNC: `no-sync` is true or false, not `yes`");

@@ -8,6 +8,8 @@ use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
+use super::bandwidth::Bandwidth;
+use super::log::{LogFile, NoLog};
 use super::options::Options;
 use super::stage::Pace;
 use super::store::NoSession;
@@ -18,6 +20,16 @@ const NEAR: u16 = 30;
 
 /// The same at the other end of a line.
 const FAR: u16 = 15;
+
+/// The most frames in a second that can be asked for.
+pub const MOST_FRAMES: u16 = 240;
+
+/// The same where motion is to be reduced.
+const CALM: u16 = 4;
+
+/// Bytes in a second at the other end of a line where nothing is said of it: half a megabit, which every line has that
+/// one would look at a picture over. More would only fill the buffers on the way, and every key would wait behind them.
+const LINE: u32 = 64 * 1024;
 
 /// What the laboratory is to be opened with.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +46,12 @@ pub struct Request {
     pub frames: Option<u16>,
     /// Leaves out the marks round each frame, for terminals that show them.
     pub unsynchronized: bool,
+    /// The most bytes in a second; otherwise no limit, and 64 KiB where `SSH_CONNECTION` or `SSH_TTY` is set.
+    pub bandwidth: Option<Bandwidth>,
+    /// Draws little that moves: at most 4 frames a second, and trails that do not fade.
+    pub reduced_motion: bool,
+    /// Where to write what happens, if anywhere.
+    pub log: Option<LogFile>,
     /// Has the mouse reported from the beginning.
     pub mouse: bool,
     /// Builds the system anew whenever its file has changed.
@@ -55,6 +73,9 @@ pub enum Refusal {
     /// The laboratory was left, and its session could not be saved.
     #[error("the session is not saved: {0}")]
     Unsaved(std::io::Error),
+    /// The log cannot be written.
+    #[error(transparent)]
+    NoLog(#[from] NoLog),
     /// The system refuses something that the laboratory needs.
     #[error("the laboratory cannot go on: {0}")]
     System(#[from] std::io::Error),
@@ -70,12 +91,7 @@ impl Request {
             Some("true") => Some(ColourDepth::True),
             _ => None,
         };
-        let glyphs = match options.get("glyphs") {
-            Some("braille") => Some(Glyphs::Braille),
-            Some("half") => Some(Glyphs::HalfBlock),
-            Some("ascii") => Some(Glyphs::Ascii),
-            _ => None,
-        };
+        let glyphs = options.get("glyphs").and_then(Glyphs::named);
         let frames = options.count("fps");
         Self {
             // a name wins over going on with the last session
@@ -87,6 +103,13 @@ impl Request {
             unsynchronized: options.is_on("no-sync"),
             mouse: options.is_on("mouse"),
             watch: options.is_on("watch"),
+            log: match options.get("log") {
+                None | Some("off") => None,
+                Some("state") => Some(LogFile::Usual),
+                Some(path) => Some(LogFile::At(path.into())),
+            },
+            bandwidth: options.get("bandwidth").and_then(|word| word.parse().ok()),
+            reduced_motion: options.is_on("reduce-motion"),
         }
     }
 
@@ -94,14 +117,23 @@ impl Request {
     pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> Look {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
         let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
-        Look { theme: Theme::dark(depth), glyphs }
+        let theme = Theme::dark(depth);
+        let theme = if self.reduced_motion { theme.with_ages(1) } else { theme };
+        Look { theme, glyphs }
+    }
+
+    /// The most frames in a second that may be asked for.
+    pub(super) fn most_frames(&self) -> u16 {
+        if self.reduced_motion { CALM } else { MOST_FRAMES }
     }
 
     /// How fast frames come.
     pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> Pace {
         let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
-        let frames = self.frames.unwrap_or(if far { FAR } else { NEAR });
-        Pace { frames, synchronized: !self.unsynchronized, mouse: self.mouse }
+        let frames = self.frames.unwrap_or(if far { FAR } else { NEAR }).min(self.most_frames());
+        let bandwidth = if far { Bandwidth::Bytes(LINE) } else { Bandwidth::Unlimited };
+        let bytes = self.bandwidth.unwrap_or(bandwidth).bytes();
+        Pace { frames, bytes, synchronized: !self.unsynchronized, mouse: self.mouse }
     }
 }
 
@@ -120,6 +152,29 @@ mod tests {
         assert_eq!(frames(&plain, "SSH_CONNECTION"), 15);
         let asked = Request { frames: Some(60), ..Request::default() };
         assert_eq!(frames(&asked, "SSH_TTY"), 60);
+    }
+
+    #[test]
+    fn a_line_is_taken_for_slow_unless_it_is_said_how_fast_it_is() {
+        let bytes = |bandwidth: Option<Bandwidth>, set: &str| {
+            let request = Request { bandwidth, ..Request::default() };
+            request.pace(&|name| (name == set).then(|| "value".to_owned())).bytes
+        };
+        assert_eq!(bytes(None, "HOME"), None);
+        assert_eq!(bytes(None, "SSH_TTY"), Some(64 * 1024));
+        assert_eq!(bytes(Some(Bandwidth::Unlimited), "SSH_TTY"), None);
+        assert_eq!(bytes(Some(Bandwidth::Bytes(16_384)), "HOME"), Some(16_384));
+    }
+
+    #[test]
+    fn reduced_motion_is_few_frames_and_no_fading() {
+        let request = |frames| Request { reduced_motion: true, frames, ..Request::default() };
+        for (asked, frames) in [(None, 4), (Some(60), 4), (Some(2), 2)] {
+            assert_eq!(request(asked).pace(&|_| None).frames, frames);
+        }
+        let look = request(None).look(&|name| (name == "TERM").then(|| "xterm-direct".to_owned()));
+        assert_eq!(look.theme.trail(0).len(), 1);
+        assert_eq!(look.reduced(crate::view::Detail::default()).theme.trail(0).len(), 1);
     }
 
     #[test]

@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
+use super::governor::Governor;
 use super::input::{Decoder, Input};
 use super::panic;
 use super::queue::Queue;
@@ -20,6 +21,7 @@ use super::request::Refusal;
 use super::signals::Signals;
 use super::terminal::{Mode, NoTerminal, Ready, Terminal};
 use crate::app::Mouse;
+use crate::view::Detail;
 use crate::view::frame::Frames;
 
 /// What can be held up on a terminal.
@@ -35,6 +37,9 @@ pub trait Page {
 
     /// Whether text is being typed, so that a paste should come as one.
     fn is_typing(&self) -> bool;
+
+    /// The line to the terminal carries only so much: the next pictures should be that much poorer.
+    fn reduce(&mut self, _detail: Detail) {}
 }
 
 /// What a page wants of the terminal.
@@ -46,6 +51,8 @@ pub enum Wish {
     Repaint,
     /// The mouse reported, or left to the terminal.
     Mouse(bool),
+    /// At most so many frames in a second.
+    Frames(u16),
     /// To be stopped as by Ctrl-Z.
     Suspend,
     /// To end.
@@ -57,6 +64,8 @@ pub enum Wish {
 pub struct Pace {
     /// The most frames in a second, at least one.
     pub frames: u16,
+    /// The most bytes in a second, if there is a limit.
+    pub bytes: Option<u32>,
     /// Whether they come between the marks of synchronized output.
     pub synchronized: bool,
     /// Whether the mouse is reported from the beginning.
@@ -81,9 +90,6 @@ const READ: usize = 4096;
 /// Frames that may fail one after the other before the terminal is given up.
 const FAILURES: u32 = 20;
 
-/// Between two frames while the window has not got the keyboard: two in a second are enough to see that it lives.
-const ASIDE: Duration = Duration::from_millis(500);
-
 /// Holds a page up on the terminal until it ends. The terminal is then as it was, whatever the way out.
 ///
 /// # Errors
@@ -101,12 +107,12 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         screen: Frames::new(pace.synchronized),
         queue: Queue::default(),
         size: None,
-        focused: true,
+        governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
         mouse: pace.mouse,
         failures: 0,
     };
     stage.enter()?;
-    Ok(stage.run(page, Duration::from_secs(1) / u32::from(pace.frames.max(1)))?)
+    Ok(stage.run(page)?)
 }
 
 /// Restores the terminal when it goes.
@@ -125,15 +131,14 @@ struct Stage<'a> {
     screen: Frames,
     queue: Queue,
     size: Option<Size>,
-    /// The window has got the keyboard, as far as is known.
-    focused: bool,
+    governor: Governor,
     /// The mouse is wanted.
     mouse: bool,
     failures: u32,
 }
 
 impl Stage<'_> {
-    fn run(&mut self, page: &mut impl Page, interval: Duration) -> io::Result<Ending> {
+    fn run(&mut self, page: &mut impl Page) -> io::Result<Ending> {
         let mut last = Instant::now();
         let mut due = last;
         let mut changed = true;
@@ -155,7 +160,7 @@ impl Stage<'_> {
             }
             while let Some(input) = self.decoder.next() {
                 changed = true;
-                due = due.min(Instant::now() + interval);
+                due = due.min(self.governor.soon(Instant::now()));
                 if !self.admits(&input) {
                     continue;
                 }
@@ -163,18 +168,17 @@ impl Stage<'_> {
                     Wish::Nothing => {}
                     Wish::Repaint => self.screen.forget(),
                     Wish::Mouse(on) => self.mouse = on,
+                    Wish::Frames(count) => self.governor.want(count),
                     Wish::Suspend => self.suspend()?,
                     Wish::Quit => return Ok(Ending::Quit),
                 }
             }
             if due <= Instant::now() && !self.queue.is_busy() {
                 let now = Instant::now();
-                changed |= self.resize(page) | page.advance(now - last) | !self.screen.is_known();
-                if changed {
-                    self.frame(page);
-                }
-                let interval = if self.focused { interval } else { interval.max(ASIDE) };
-                (last, due, changed) = (now, now + interval, false);
+                changed |= self.resize(page) | page.advance(now - last) | !self.screen.is_current();
+                let bytes = if changed { self.frame(page) } else { 0 };
+                changed = self.count(bytes, page);
+                (last, due) = (now, self.governor.due());
             }
             self.send()?;
 
@@ -190,7 +194,7 @@ impl Stage<'_> {
         self.queue.clear();
         self.queue.push(&self.terminal.enter()?);
         self.decoder.expect(Mode::Focus, true);
-        self.focused = true;
+        self.governor.watched = true;
         self.screen.forget();
         Ok(())
     }
@@ -205,8 +209,8 @@ impl Stage<'_> {
     /// where the terminal has not said so.
     fn admits(&mut self, input: &Input) -> bool {
         match *input {
-            Input::Focus(gained) => self.focused = gained,
-            Input::Key(_) | Input::Paste(_) => self.focused = true,
+            Input::Focus(gained) => self.governor.watched = gained,
+            Input::Key(_) | Input::Paste(_) => self.governor.watched = true,
             Input::Mouse(Mouse { column, row, .. }) => {
                 let size = self.size.unwrap_or_default();
                 return column < size.width && row < size.height;
@@ -233,11 +237,26 @@ impl Stage<'_> {
         changed
     }
 
-    fn frame(&mut self, page: &mut impl Page) {
+    /// Draws, and puts what has changed in the queue; how many bytes that are.
+    fn frame(&mut self, page: &mut impl Page) -> usize {
         let size = self.size.unwrap_or_default();
         self.switch(Mode::Paste, page.is_typing());
         self.switch(Mode::Mouse, self.mouse);
-        self.queue.push(&self.screen.next(size, |area, buffer| page.draw(area, buffer)));
+        let draw = |area, buffer: &mut Buffer| page.draw(area, buffer);
+        let frame = self.screen.next_within(size, self.governor.most(), draw);
+        self.queue.push(&frame);
+        frame.len()
+    }
+
+    /// Has the bytes of a frame count, and says whether the next must be drawn because it is richer or poorer.
+    fn count(&mut self, bytes: usize, page: &mut impl Page) -> bool {
+        let before = self.governor.detail();
+        self.governor.sent(bytes, Instant::now());
+        let detail = self.governor.detail();
+        if detail != before {
+            page.reduce(detail);
+        }
+        detail != before
     }
 
     /// Sends what the terminal takes. One failed write costs a frame; then all is set up and painted anew.

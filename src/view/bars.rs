@@ -90,7 +90,14 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     ]);
     pieces.push(vec![
         canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
-        canvas.span(Role::Dim, " fps"),
+        canvas.span(
+            Role::Dim,
+            if area.width < 100 {
+                " fps".to_owned()
+            } else {
+                format!("/{:<3} fps", app.meter.asked)
+            },
+        ),
     ]);
     let mut used = 0;
     for piece in pieces {

@@ -21,13 +21,16 @@ pub struct Frames {
     shown: Option<Buffer>,
     next: Buffer,
     pen: Pen,
+    /// The row in which the next frame begins, where the last had not room for all.
+    rest: Option<u16>,
     synchronized: bool,
 }
 
 impl Frames {
     /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
     pub fn new(synchronized: bool) -> Self {
-        Self { shown: None, next: Buffer::default(), pen: Pen::default(), synchronized }
+        let (next, pen) = (Buffer::default(), Pen::default());
+        Self { shown: None, next, pen, rest: None, synchronized }
     }
 
     /// What the terminal shows is no longer known: the next frame paints every cell.
@@ -35,9 +38,9 @@ impl Frames {
         self.shown = None;
     }
 
-    /// Whether what the terminal shows is known.
-    pub fn is_known(&self) -> bool {
-        self.shown.is_some()
+    /// Whether the terminal shows what was drawn last, as far as is known.
+    pub fn is_current(&self) -> bool {
+        self.shown.is_some() && self.rest.is_none()
     }
 
     /// What the terminal shows, where that is known.
@@ -47,6 +50,17 @@ impl Frames {
 
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
     pub fn next(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
+        self.next_within(size, usize::MAX, draw)
+    }
+
+    /// The same in about so many bytes at most: where there would be more, the frame turns as many cells into what is
+    /// drawn as it has room for, and the frame after it goes on from there.
+    pub fn next_within(
+        &mut self,
+        size: Size,
+        most: usize,
+        draw: impl FnOnce(Rect, &mut Buffer),
+    ) -> Vec<u8> {
         let area = Rect::new(0, 0, size.width, size.height);
         self.next.resize(area);
         self.next.reset();
@@ -67,8 +81,18 @@ impl Frames {
             self.pen.clear(&mut out);
             Buffer::empty(area)
         });
-        for (x, y, cell) in shown.diff_iter(&self.next) {
-            self.pen.put(&mut out, (x, y), cell, area.width);
+        let changed: Vec<_> = shown.diff_iter(&self.next).map(|(x, y, _)| (x, y)).collect();
+        let start = changed.partition_point(|(_, y)| Some(*y) < self.rest);
+        self.rest = None;
+        for at in changed[start..].iter().chain(&changed[..start]).copied() {
+            if self.rest.is_none() && out.len() >= most {
+                self.rest = Some(at.1);
+            }
+            if self.rest.is_none() {
+                self.pen.put(&mut out, at, &self.next[at], area.width);
+            } else {
+                self.next[at] = shown[at].clone();
+            }
         }
         self.shown = Some(mem::replace(&mut self.next, shown));
         if out.len() == empty {
@@ -177,6 +201,33 @@ mod tests {
                 check(terminal.screen(), &drawn);
                 let again = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer));
                 prop_assert_eq!(again, Vec::<u8>::new());
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_has_no_room_in_a_frame_comes_with_the_next(
+            pictures in prop::collection::vec((cells(), 1..60_usize), 1..6),
+        ) {
+            let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
+            let mut screen = Frames::new(false);
+            for (cells, most) in pictures {
+                let mut drawn = Buffer::empty(Rect::from(SIZE));
+                paint(&cells, drawn.area, &mut drawn);
+                // A picture has 60 cells, and each frame brings at least one of them.
+                for _ in 0..=60 {
+                    let paint = |area, buffer: &mut Buffer| paint(&cells, area, buffer);
+                    let bytes = screen.next_within(SIZE, most, paint);
+                    // The clearing before and one cell with its way and its colours.
+                    prop_assert!(bytes.len() <= most + 64, "{} bytes for {most}", bytes.len());
+                    terminal.process(&bytes);
+                    if screen.is_current() {
+                        break;
+                    }
+                }
+                prop_assert!(screen.is_current());
+                check(terminal.screen(), &drawn);
             }
         }
     }

@@ -14,6 +14,12 @@ pub enum Glyphs {
     Braille,
     /// Half blocks, 1×2 dots in a cell.
     HalfBlock,
+    /// Quadrants, 2×2 dots in a cell without gaps between them.
+    Quadrant,
+    /// Sextants, 2×3 dots in a cell; of Unicode 13.
+    Sextant,
+    /// Octants, 2×4 dots in a cell; of Unicode 16, and missing from most fonts.
+    Octant,
     /// Characters below 0x80 only, one dot in a cell.
     Ascii,
 }
@@ -49,14 +55,25 @@ impl Glyphs {
         }
     }
 
-    /// The choice a person names: `braille`, `half` or `ascii`.
+    /// All of them, the most trusted first.
+    pub const ALL: [Self; 6] =
+        [Self::Braille, Self::HalfBlock, Self::Quadrant, Self::Sextant, Self::Octant, Self::Ascii];
+
+    /// What a person calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Braille => "braille",
+            Self::HalfBlock => "half",
+            Self::Quadrant => "quadrant",
+            Self::Sextant => "sextant",
+            Self::Octant => "octant",
+            Self::Ascii => "ascii",
+        }
+    }
+
+    /// The choice a person names.
     pub fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "braille" => Self::Braille,
-            "half" => Self::HalfBlock,
-            "ascii" => Self::Ascii,
-            _ => return None,
-        })
+        Self::ALL.into_iter().find(|glyphs| glyphs.name() == name)
     }
 
     /// Whether only characters below 0x80 may be used.
@@ -67,8 +84,10 @@ impl Glyphs {
     /// Dots in one cell: columns, rows.
     pub fn dots(self) -> (u16, u16) {
         match self {
-            Self::Braille => (2, 4),
+            Self::Braille | Self::Octant => (2, 4),
             Self::HalfBlock => (1, 2),
+            Self::Quadrant => (2, 2),
+            Self::Sextant => (2, 3),
             Self::Ascii => (1, 1),
         }
     }

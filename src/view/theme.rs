@@ -147,6 +147,22 @@ impl Theme {
         }
     }
 
+    /// The same theme at another depth.
+    #[must_use]
+    pub fn with_depth(self, depth: ColourDepth) -> Self {
+        let ages = self.trails.first().map_or(AGES, Vec::len);
+        Self::new(self.palette, depth).with_ages(ages)
+    }
+
+    /// The same theme with only a share of the dots of its trails.
+    #[must_use]
+    pub fn thinned(mut self, share: f64) -> Self {
+        for shade in self.trails.iter_mut().flatten() {
+            shade.coverage *= share;
+        }
+        self
+    }
+
     /// The same theme with another number of steps in its trails: fewer change fewer cells a frame.
     #[must_use]
     pub fn with_ages(self, ages: usize) -> Self {

@@ -4,6 +4,7 @@ mod bracket;
 mod check;
 mod completions;
 mod derive;
+mod doctor;
 mod exit;
 mod help;
 mod list;

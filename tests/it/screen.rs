@@ -1,6 +1,7 @@
 //! The screen, from snapshots made by hand: text and styles, any size, any terminal.
 
 mod golden;
+mod motion;
 mod panes;
 mod purity;
 mod workbench;

@@ -10,6 +10,7 @@ mod hand;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
 use super::scale::{Frame, Scale};
 use crate::expr::portable;
@@ -219,6 +220,9 @@ impl Raster {
                 (None, _) if spot.dots == 0 => continue,
                 (None, Glyphs::Braille) => braille(spot.dots),
                 (None, Glyphs::HalfBlock) => half_block(spot.dots),
+                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(spot.dots & 0xf)],
+                (None, Glyphs::Sextant) => SEXTANTS[usize::from(spot.dots & 0x3f)],
+                (None, Glyphs::Octant) => OCTANTS[usize::from(spot.dots)],
                 (None, Glyphs::Ascii) => '.',
             };
             let x = u32::from(self.area.x) + (index % width) as u32;

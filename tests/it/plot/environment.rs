@@ -91,6 +91,7 @@ fn names_people_give() {
         ["braille", "half", "ascii", "auto"].map(Glyphs::named),
         [Some(Braille), Some(HalfBlock), Some(Ascii), None]
     );
+    assert!(Glyphs::ALL.iter().all(|glyphs| Glyphs::named(glyphs.name()) == Some(*glyphs)));
 }
 
 #[test]

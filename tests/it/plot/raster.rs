@@ -230,3 +230,35 @@ fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
     assert_eq!(colours, [0, 2, 5, 7].map(Color::Indexed));
     assert_eq!(rows(&buffer), [".=o@"]);
 }
+
+#[test]
+fn every_pattern_of_dots_has_a_character_of_its_own() {
+    for glyphs in Glyphs::ALL.into_iter().filter(|glyphs| !glyphs.is_ascii()) {
+        let (across, down) = glyphs.dots();
+        let count = across * down;
+        let mut symbols: Vec<String> = (1..1_u32 << count)
+            .map(|pattern| {
+                let buffer = drawn(Rect::new(0, 0, 1, 1), glyphs, |raster| {
+                    for dot in (0..count).filter(|dot| pattern & (1 << dot) != 0) {
+                        raster.dot([i32::from(dot % across), i32::from(dot / across)], &PLAIN);
+                    }
+                });
+                buffer[(0, 0)].symbol().to_owned()
+            })
+            .collect();
+        assert!(!symbols.contains(&" ".to_owned()), "{glyphs:?}");
+        let full = if glyphs == Glyphs::Braille { "⣿" } else { "█" };
+        assert_eq!(symbols.last().map(String::as_str), Some(full), "{glyphs:?}");
+        let all = symbols.len();
+        symbols.sort_unstable();
+        symbols.dedup();
+        assert_eq!(symbols.len(), all, "{glyphs:?}");
+    }
+    let corner = |glyphs: Glyphs| {
+        let (across, down) = glyphs.dots();
+        let last = [i32::from(across) - 1, i32::from(down) - 1];
+        drawn(Rect::new(0, 0, 1, 1), glyphs, |r| r.dot(last, &PLAIN))[(0, 0)].symbol().to_owned()
+    };
+    let corners = [Glyphs::Quadrant, Glyphs::Sextant, Glyphs::Octant, Glyphs::HalfBlock];
+    assert_eq!(corners.map(corner), ["▗", "🬞", "\u{1cea0}", "▄"]);
+}

@@ -34,7 +34,7 @@ fn scale() -> impl Strategy<Value = Scale> {
 }
 
 fn glyphs() -> impl Strategy<Value = Glyphs> {
-    prop::sample::select(vec![Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii])
+    prop::sample::select(Glyphs::ALL.to_vec())
 }
 
 fn depth() -> impl Strategy<Value = ColourDepth> {

@@ -182,8 +182,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn no_size_is_a_panic(width in 0..250_u16, height in 0..250_u16, glyphs in 0..3_usize) {
-        let glyphs = [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii][glyphs];
+    fn no_size_is_a_panic(width in 0..250_u16, height in 0..250_u16, glyphs in 0..Glyphs::ALL.len()) {
+        let glyphs = Glyphs::ALL[glyphs];
         let look = Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs };
         for app in everything() {
             let mut app = app.clone();

@@ -106,6 +106,45 @@ fn the_mouse_is_the_terminals_until_it_is_asked_for() {
     quits(asked);
 }
 
+#[test]
+fn a_narrow_line_is_kept_to() {
+    let mut lab = Setup::new(PROGRAM, &["double-pendulum", "--bandwidth", "8k"])
+        .size(200, 60)
+        .variable("COLORTERM", "truecolor")
+        .start();
+    lab.shows("running");
+    let bytes = lab.bytes_in(Duration::from_secs(5));
+    assert!(bytes <= 8 * 1024 * 5 * 11 / 10 + 4096, "{bytes} bytes in five seconds");
+    quits(lab);
+}
+
+#[test]
+fn frames_a_second_are_shown_and_changed() {
+    let mut lab = lab(&["pendulum", "--fps", "20"]).start();
+    lab.shows("/20  fps");
+    lab.press("<");
+    lab.shows("/15  fps");
+    lab.press("<<<");
+    lab.shows("/2   fps");
+    lab.quiet(Duration::from_millis(300));
+    let frames = lab.frames_in(Duration::from_secs(2));
+    assert!((1..=5).contains(&frames), "{frames} frames in two seconds");
+    quits(lab);
+
+    let mut calm =
+        Setup::new(PROGRAM, &["pendulum", "--reduce-motion", "--fps", "60"]).size(120, 40).start();
+    calm.shows("/4   fps");
+    let frames = calm.frames_in(Duration::from_secs(2));
+    assert!(frames <= 9, "{frames} frames in two seconds");
+    calm.press(">");
+    calm.shows("the most");
+    quits(calm);
+
+    let mut wrong = Setup::new(PROGRAM, &["pendulum", "--bandwidth", "slow"]).start();
+    assert_eq!(wrong.ends().0, 2);
+    assert!(wrong.text().contains("16k"), "{}", wrong.text());
+}
+
 /// All numbers of the `CSI … m` sequences in what was sent.
 fn attributes(sent: &str) -> Vec<Vec<u16>> {
     let sequences = sent.split("\x1b[").skip(1).filter_map(|rest| {

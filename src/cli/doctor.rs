@@ -1,0 +1,65 @@
+//! `phaselab doctor`: what the laboratory takes the terminal for, and why; the glyphs for a look at them.
+
+use std::io::{IsTerminal, Write, stdout};
+
+use rustix::termios::tcgetwinsize;
+
+use super::failure::Failure;
+use super::output::Output;
+use crate::shell::diagnosis;
+use crate::view::card::card;
+use crate::view::glyphs::Glyphs;
+
+/// Tell what the laboratory takes the terminal for, and why.
+///
+/// Nothing is asked of the terminal: the environment says it.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab doctor
+  phaselab doctor --glyphs               every set of glyphs in your font")]
+pub(super) struct Arguments {
+    /// Show every set of glyphs, to see which of them the font has.
+    #[arg(long)]
+    glyphs: bool,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let variables = |name: &str| std::env::var(name).ok();
+    let near = stdout().is_terminal();
+    let text = if arguments.glyphs {
+        glyphs(Glyphs::from_environment(&variables), near)
+    } else {
+        let size = tcgetwinsize(rustix::stdio::stdout()).ok().filter(|_| near);
+        findings(&variables, size.map(|size| (size.ws_col, size.ws_row)))
+    };
+    let mut output = Output::open(None)?;
+    output.write_all(text.as_bytes()).map_err(|error| output.failed(&error))?;
+    output.finish()
+}
+
+fn findings(variables: &dyn Fn(&str) -> Option<String>, size: Option<(u16, u16)>) -> String {
+    let mut text = String::new();
+    for finding in diagnosis(variables, size) {
+        let line = format!("{:<12} {:<16} {}", finding.what, finding.found, finding.why);
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text + "\n--color, --glyphs, --fps and --bandwidth choose otherwise;\n\
+        `phaselab doctor --glyphs` shows which glyphs the font has.\n"
+}
+
+fn glyphs(chosen: Glyphs, near: bool) -> String {
+    let mut text = String::new();
+    if !near {
+        text += "This is no terminal: look at it in the one you use.\n";
+    }
+    if chosen.is_ascii() {
+        text += "The locale is not UTF-8, so plots are drawn in ASCII; what is not ASCII below\n\
+            can be judged only where the terminal takes UTF-8.\n";
+    }
+    text += "A set is in your font where its curve is unbroken, its block at the right is full\n\
+        and the bars at the right end are in one column. Take it with --glyphs NAME.\n";
+    text += &format!("Where nothing is said, {} is taken here.\n\n", chosen.name());
+    text + &card().join("\n") + "\n"
+}

@@ -1,0 +1,56 @@
+//! `doctor`: what the terminal is taken for, and the card of glyphs.
+
+use super::{done, phaselab, program};
+
+#[test]
+fn the_doctor_says_what_was_found_and_why() {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let text = done(program(home.path()).args(["doctor"]).envs([
+        ("TERM", "xterm-256color"),
+        ("SSH_TTY", "/dev/pts/7"),
+        ("TMUX", "/tmp/x"),
+    ]))
+    .success();
+    for (what, found) in [
+        ("terminal", "standard output is no terminal"),
+        ("color", "TERM=xterm-256color"),
+        ("glyphs", "LANG=C.UTF-8"),
+        ("fps", "15"),
+        ("bandwidth", "64 KiB a second"),
+        ("link", "SSH_TTY is set"),
+        ("multiplexer", "tmux"),
+    ] {
+        let line = text.lines().find(|line| line.starts_with(what)).unwrap_or_default();
+        assert!(line.contains(found), "no {found:?} in {line:?} of {text}");
+    }
+    assert!(text.is_ascii() && !text.contains("/dev/pts/7"), "{text}");
+}
+
+#[test]
+fn the_card_shows_every_set_of_glyphs_also_in_a_pipe() {
+    let card = phaselab(&["doctor", "--glyphs"]).success();
+    assert!(card.starts_with("This is no terminal"), "{card}");
+    assert!(!card.contains('\u{1b}'), "{card}");
+    for (name, sign) in [
+        ("braille   |", '⣿'),
+        ("half      |", '▀'),
+        ("quadrant  |", '▚'),
+        ("sextant   |", '🬞'),
+        ("octant    |", '\u{1cd00}'),
+        ("ascii     |", '/'),
+        ("signs", '◆'),
+    ] {
+        assert!(card.contains(name), "no {name} in {card}");
+        let sign_near = |c: char| {
+            c == sign
+                || (sign == '\u{1cd00}' && ('\u{1cd00}'..='\u{1cde5}').contains(&c))
+                || (sign == '🬞' && ('\u{1fb00}'..='\u{1fb3b}').contains(&c))
+                || (sign == '▚' && ('▖'..='▟').contains(&c))
+        };
+        assert!(card.contains(sign_near), "no {sign} in {card}");
+    }
+    let home = tempfile::tempdir().expect("a temporary folder");
+    let plain = done(program(home.path()).args(["doctor", "--glyphs"]).env("LANG", "C")).success();
+    assert!(plain.contains("The locale is not UTF-8"), "{plain}");
+    assert!(plain.contains("ascii is taken here"), "{plain}");
+}

@@ -1,0 +1,33 @@
+//! Reduced motion: nothing on the screen blinks, spins or fades by itself.
+
+use std::fs;
+use std::path::Path;
+
+/// What moves although nothing happens: how code or text names it.
+const RESTLESS: [&str; 6] = ["SLOW_BLINK", "RAPID_BLINK", "spinner", "Throbber", "⠋", "◐"];
+
+/// Where these words may stand: the pen only knows how a terminal is told.
+const PEN: &str = "view/frame/pen.rs";
+
+fn check(folder: &Path, wrong: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).expect("a folder of src") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            check(&path, wrong);
+        } else if !path.ends_with(PEN) {
+            let code = fs::read_to_string(&path).expect("a source file");
+            let found = RESTLESS.iter().filter(|word| code.contains(**word));
+            wrong.extend(found.map(|word| format!("{word} in {}", path.display())));
+        }
+    }
+}
+
+#[test]
+fn nothing_on_the_screen_moves_by_itself() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut wrong = Vec::new();
+    for room in ["app", "view", "shell"] {
+        check(&source.join(room), &mut wrong);
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
