@@ -81,6 +81,8 @@ pub struct App {
     pub meter: Meter,
     /// Whether the terminal is to report the mouse; its own selection of text does not work meanwhile.
     pub mouse: bool,
+    /// Whether what is shown is being recorded.
+    pub recording: bool,
     /// How many rows the page of text is scrolled down.
     pub scroll: u16,
     /// The file of a system being edited, also while its editor is closed.
@@ -150,6 +152,7 @@ impl App {
             notice: None,
             meter: Meter::default(),
             mouse: false,
+            recording: false,
             scroll: 0,
             workbench: None,
             drafts: Vec::new(),

@@ -22,6 +22,7 @@ mod manual;
 mod methods;
 mod open;
 mod output;
+mod play;
 mod record;
 mod report;
 mod rows;
@@ -82,6 +83,7 @@ enum Command {
     Run(Box<run::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
+    Play(play::Arguments),
     Methods(methods::Arguments),
     Doctor(doctor::Arguments),
     Config(config::Arguments),
@@ -127,6 +129,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Run(arguments)) => run::perform(&arguments),
         Some(Command::Record(arguments)) => record::perform(&arguments),
         Some(Command::Script(arguments)) => demo::perform(&arguments),
+        Some(Command::Play(arguments)) => play::perform(&arguments),
         Some(Command::Methods(arguments)) => methods::perform(&arguments),
         Some(Command::Doctor(arguments)) => doctor::perform(&arguments),
         Some(Command::Config(arguments)) => config::perform(&arguments),

@@ -7,7 +7,9 @@
 
 pub mod account;
 pub mod cast;
+pub mod data;
 pub mod script;
+pub mod still;
 
 mod assertion;
 mod clock;
@@ -15,6 +17,7 @@ mod plain;
 mod player;
 mod tape;
 
+pub use plain::plain;
 pub use player::{Entry, Event, Marker, Recording, play};
 pub use script::Script;
-pub use tape::{Tape, TapeError};
+pub use tape::{Tape, TapeError, Turn};

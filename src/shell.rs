@@ -14,6 +14,7 @@ mod checker;
 pub mod config;
 mod diagnosis;
 mod files;
+mod fresh;
 mod governor;
 mod input;
 mod loader;
@@ -21,7 +22,9 @@ mod log;
 pub mod options;
 mod panic;
 mod product;
+mod projector;
 mod queue;
+mod recorder;
 mod request;
 mod session;
 mod signals;
@@ -35,6 +38,7 @@ pub use input::{Input, PASTE_LIMIT};
 pub use log::{LogFile, NoLog};
 pub use options::Options;
 pub use panic::report_panics;
+pub use projector::Projector;
 pub use request::{MOST_FRAMES, Refusal, Request};
 pub use stage::{Ending, Pace, Page, Wish, perform};
 pub use store::NoSession;
@@ -43,6 +47,7 @@ pub use terminal::NoTerminal;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use crate::preset::Catalog;
+use crate::record::Tape;
 use log::Log;
 use session::Session;
 use store::Store;
@@ -77,6 +82,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         session.resume(saved);
     }
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
+    let recorded = session.finish_recording();
     let kept = session.keep();
     match &ended {
         Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
@@ -91,5 +97,16 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
     std::mem::forget(session);
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
     kept.map_err(Refusal::Unsaved)?;
+    recorded.map_err(Refusal::Unrecorded)?;
     Ok(ending)
+}
+
+/// Shows a tape on the terminal until it is left.
+///
+/// # Errors
+/// Where there is no terminal, before the screen is touched.
+pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
+    NoTerminal::check()?;
+    let variable = |name: &str| std::env::var(name).ok();
+    perform(&mut Projector::new(tape, request.look(&variable)), request.pace(&variable))
 }

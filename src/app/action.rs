@@ -57,6 +57,12 @@ pub enum Action {
     Edit,
     /// Do something to the text being edited.
     Work(Work),
+    /// Write a still of the screen.
+    Still,
+    /// Write the recorded motion as a table.
+    Data,
+    /// Record what is shown into a cast, or end the recording.
+    Record,
     /// Look from the next frame of the file.
     NextFrame,
     /// Strike a blow that waits for a key.

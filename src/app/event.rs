@@ -134,6 +134,12 @@ pub enum Effect {
     Frames(u16),
     /// Have the terminal report the mouse, or leave it alone.
     Mouse(bool),
+    /// Write a still of the screen into a fresh file.
+    Still,
+    /// Write the recorded motion as a table into a fresh file.
+    Data,
+    /// Begin to record what is shown, or end it.
+    Record(bool),
     /// Stop the process as the terminal's Ctrl-Z does.
     Suspend,
     /// End the program.

@@ -85,6 +85,12 @@ impl App {
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
             Action::Edit => self.edit_file(),
+            Action::Still => vec![Effect::Still],
+            Action::Data => vec![Effect::Data],
+            Action::Record => {
+                self.recording = !self.recording;
+                vec![Effect::Record(self.recording)]
+            }
             Action::ChooseMethod => self.open_methods(),
             Action::TypeStep => self.open_field(Purpose::Step),
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),

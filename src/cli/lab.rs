@@ -95,12 +95,16 @@ fn argument(choice: &'static Choice) -> Arg {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+/// What a terminal is to be used with: what was asked for, else the environment, else the configuration.
+pub(super) fn request(name: Option<String>, asked: Options) -> Result<Request, Failure> {
     let variable = |name: &str| std::env::var(name).ok();
     let environment = Options::of_environment(&variable).map_err(Failure::WrongUse)?;
     let configured = config::options()?.within(&variable);
-    let options = arguments.options.clone().or(environment).or(configured);
-    let mut request = Request::new(arguments.name.clone(), &options);
+    Ok(Request::new(name, &asked.or(environment).or(configured)))
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let mut request = request(arguments.name.clone(), arguments.options.clone())?;
     let mut ended = shell::run(&request);
     if let Err(Refusal::NoSession(NoSession::NoHome | NoSession::Unread { .. })) = ended
         && !arguments.options.is_on("resume")
@@ -109,12 +113,17 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         request.resume = false;
         ended = shell::run(&request);
     }
+    how_it_ended(ended)
+}
+
+/// What an ending on the terminal means for the exit code.
+pub(super) fn how_it_ended(ended: Result<Ending, Refusal>) -> Result<(), Failure> {
     match ended {
         Ok(Ending::Quit) => Ok(()),
         Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
         Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),
         Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
-        Err(refusal @ (Refusal::Unsaved(_) | Refusal::NoLog(_))) => {
+        Err(refusal @ (Refusal::Unsaved(_) | Refusal::Unrecorded(_) | Refusal::NoLog(_))) => {
             Err(Failure::CouldNotWrite(refusal.to_string()))
         }
         Err(Refusal::NoSession(why @ (NoSession::Newer { .. } | NoSession::Malformed { .. }))) => {

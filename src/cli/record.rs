@@ -1,7 +1,7 @@
 //! `phaselab record`: a script becomes a cast, byte for byte the same on every machine.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
@@ -12,7 +12,7 @@ use crate::expr::nearest;
 use crate::preset::{Document, Mistake, demo, demos};
 use crate::record::cast::{self, Version};
 use crate::record::script::read_size;
-use crate::record::{Recording, Script, account, play};
+use crate::record::{Recording, Script, account, play, still};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
@@ -24,7 +24,8 @@ use crate::record::{Recording, Script, account, play};
 Examples:
   phaselab record pendulum -o pendulum.cast            a preset's own demo
   phaselab record my/system.toml --script my.demo --size 100x30 -o my.cast
-  phaselab record pendulum --format account            what is done and found")]
+  phaselab record pendulum --format account            what is done and found
+  phaselab record pendulum --still swing.svg --at 'Large swings'")]
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
@@ -38,6 +39,12 @@ pub(super) struct Arguments {
     /// What is written.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t, alias = "cast-version")]
     format: Format,
+    /// Takes a still as well: a drawing (.svg), text (.txt), or text with colours (.ans).
+    #[arg(long, value_name = "FILE")]
+    still: Option<PathBuf>,
+    /// The chapter the still is taken at; the end where it is left out.
+    #[arg(long, value_name = "MARKER", requires = "still")]
+    at: Option<String>,
     /// Writes to a file, which appears when it is complete.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -67,6 +74,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.format != Format::Account {
         hold(&source, &recording)?;
     }
+    if let Some(path) = &arguments.still {
+        take_still(&recording, path, arguments.at.as_deref())?;
+        // with nowhere else to go, a cast would fill the terminal
+        if arguments.output.is_none() {
+            return hold(&source, &recording);
+        }
+    }
     let mut out = Output::open(arguments.output.as_deref())?;
     let written = match arguments.format {
         Format::V3 => cast::write(&recording, Version::Three, &mut out).map(|_| ()),
@@ -76,6 +90,32 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;
     hold(&source, &recording)
+}
+
+/// Writes a still of the end, or of the beginning of a chapter.
+fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), Failure> {
+    let form = path
+        .to_string_lossy()
+        .parse()
+        .map_err(|why| Failure::WrongUse(format!("--still {}: {why}", path.display())))?;
+    let screen = match at {
+        None => &recording.last,
+        Some(name) => {
+            let marker = recording.markers.iter().find(|marker| marker.name == name);
+            let names = || recording.markers.iter().map(|marker| marker.name.as_str());
+            let help = || match nearest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            let unknown = || Failure::WrongUse(format!("there is no marker `{name}`; {}", help()));
+            &marker.ok_or_else(unknown)?.screen
+        }
+    };
+    let palette = recording.look.theme.palette();
+    let text = still::write(screen, palette, form, &recording.title);
+    let mut out = Output::open(Some(path))?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
 }
 
 /// The demo that is shipped with a preset.

@@ -6,8 +6,8 @@
 
 use ratatui::buffer::{Buffer, Cell};
 
-/// Rewrites every row.
-pub(super) fn plain(buffer: &mut Buffer) {
+/// Rewrites every row, so that each cell holds one character.
+pub fn plain(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
         let mut x = 0;

@@ -78,6 +78,9 @@ pub enum Refusal {
     /// The log cannot be written.
     #[error(transparent)]
     NoLog(#[from] NoLog),
+    /// The laboratory was left, and what it recorded could not be saved.
+    #[error("the recording is not saved: {0}")]
+    Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
     #[error("the laboratory cannot go on: {0}")]
     System(#[from] std::io::Error),

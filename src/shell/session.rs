@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
 use super::files::{self, Watch};
@@ -17,13 +17,17 @@ use super::input::Input;
 use super::loader::Loader;
 use super::log::Log;
 use super::product;
+use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
 use super::store::{NoStore, Store};
 use crate::app::{Act, App, Checked, Effect, Event, Loaded, Mouse, Notice, Saved};
 use crate::experiment::{Export, Ready, Status};
 use crate::preset::{Catalog, Document, is_path};
-use crate::view::theme::PALETTES;
+use crate::record::{data, plain, still};
+use crate::view::colour::ColourDepth;
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::{PALETTES, Theme};
 use crate::view::{self, Detail, Look};
 use crate::worker::Worker;
 
@@ -47,7 +51,10 @@ pub(super) struct Session {
     pub(super) log: Log,
     /// The fault last told of there.
     fault: Option<String>,
-    size: (u16, u16),
+    /// What is shown goes in here too.
+    recorder: Option<Recorder>,
+    /// The screen's size when it was last drawn.
+    size: Size,
 }
 
 /// How often the session is saved while the laboratory is open.
@@ -85,7 +92,8 @@ impl Session {
             warning: None,
             log,
             fault: None,
-            size: (0, 0),
+            recorder: None,
+            size: Size::default(),
         };
         session.perform(effects);
         Ok(session)
@@ -179,6 +187,10 @@ impl Session {
                 Effect::Repaint => wish = Wish::Repaint,
                 Effect::Frames(count) => wish = Wish::Frames(count),
                 Effect::Mouse(on) => wish = Wish::Mouse(on),
+                Effect::Still => self.tell_of(Session::still),
+                Effect::Data => self.tell_of(Session::data),
+                Effect::Record(true) => self.record(),
+                Effect::Record(false) => self.tell_of(Session::end_recording),
                 Effect::Suspend => wish = Wish::Suspend,
                 Effect::Quit => return Wish::Quit,
             }
@@ -236,6 +248,76 @@ impl Session {
         }
     }
 
+    /// Writes a file, and tells its name or why there is none.
+    fn tell_of(&mut self, write: fn(&mut Session) -> io::Result<String>) {
+        let written = write(self).map(|name| format!("{name} is written."));
+        self.app.update(Event::Written(written.map_err(|why| why.to_string())));
+    }
+
+    /// Writes a file about the present into the current folder; its name.
+    fn put(&self, ending: &str, bytes: &[u8]) -> io::Result<String> {
+        let path = product::put(Path::new("."), product::stem(&self.stem()), ending, bytes)?;
+        Ok(path.strip_prefix(".").unwrap_or(&path).display().to_string())
+    }
+
+    /// What files are called that are written about the present.
+    fn stem(&self) -> String {
+        self.app.lab.as_ref().map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.name.clone())
+    }
+
+    fn title(&self) -> String {
+        let lab = self.app.lab.as_ref();
+        lab.map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.model.info.title.clone())
+    }
+
+    /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
+    fn still(&mut self) -> io::Result<String> {
+        let palette = self.look.theme.palette();
+        let look = Look { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
+        let area = Rect::from(self.size);
+        let mut screen = Buffer::empty(area);
+        view::draw(&self.app, &look, area, &mut screen);
+        plain(&mut screen);
+        let drawing = still::write(&screen, palette, still::Form::Svg, &self.title());
+        self.put("svg", drawing.as_bytes())
+    }
+
+    /// The rows that are recorded of the motion.
+    fn data(&mut self) -> io::Result<String> {
+        let seen = self.app.lab.as_ref().and_then(|lab| Some((&lab.loaded, lab.seen()?)));
+        let (loaded, snapshot) =
+            seen.ok_or_else(|| io::Error::other("there is no motion here to write down"))?;
+        let mut table = Vec::new();
+        data::write(loaded, snapshot, &mut table)?;
+        self.put("csv", &table)
+    }
+
+    /// Begins to record; where that cannot be it is told, and nothing is recorded.
+    fn record(&mut self) {
+        let palette = self.look.theme.palette();
+        match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
+            Ok(recorder) => self.recorder = Some(recorder),
+            Err(why) => self.give_up_recording(&why),
+        }
+    }
+
+    fn give_up_recording(&mut self, why: &io::Error) {
+        (self.recorder, self.app.recording) = (None, false);
+        self.app.notice = Some(Notice::error(why.to_string()));
+    }
+
+    /// Ends a recording; its name.
+    fn end_recording(&mut self) -> io::Result<String> {
+        self.app.recording = false;
+        let recorder = self.recorder.take();
+        recorder.map_or_else(|| Ok("nothing".to_owned()), Recorder::end)
+    }
+
+    /// Ends a recording on the way out, if there is one.
+    pub(super) fn finish_recording(&mut self) -> io::Result<()> {
+        self.recorder.take().map_or(Ok(()), |recorder| recorder.end().map(|_| ()))
+    }
+
     /// Sets a loaded system in motion.
     fn begin(&mut self, name: String, ready: Ready) -> Loaded {
         let Ready { document, model, equations, system, experiment } = ready;
@@ -246,17 +328,15 @@ impl Session {
 
 impl Page for Session {
     fn input(&mut self, input: Input) -> Wish {
-        match input {
-            Input::Resize(columns, rows) => self.size = (columns, rows),
+        if let Input::Mouse(Mouse { act: Act::Press, .. }) = input {
             // Not every terminal says that the button came up.
-            Input::Mouse(Mouse { act: Act::Press, .. }) => self.app.drop_hold(),
-            _ => {}
+            self.app.drop_hold();
         }
         self.update(match input {
             Input::Key(key) => Event::Key(key),
             Input::Paste(text) => Event::Paste(text),
             Input::Mouse(Mouse { column, row, act }) => {
-                let area = Rect::new(0, 0, self.size.0, self.size.1);
+                let area = Rect::from((Position::ORIGIN, self.size));
                 match view::spot(&self.app, &self.look, area, column, row) {
                     Some(spot) => Event::Mouse(act, spot),
                     None => return Wish::Nothing,
@@ -301,6 +381,12 @@ impl Page for Session {
         let reduced = (self.detail != Detail::default()).then(|| self.look.reduced(self.detail));
         let look = reduced.as_ref().unwrap_or(&self.look);
         let drawn = view::draw(&self.app, look, area, buffer);
+        self.size = area.as_size();
+        if let Some(recorder) = &mut self.recorder
+            && let Err(why) = recorder.take(buffer)
+        {
+            self.give_up_recording(&why);
+        }
         self.update(Event::Drawn(drawn));
         drawn.cursor.map(Position::from)
     }

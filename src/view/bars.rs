@@ -94,6 +94,10 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             ],
             vec![canvas.span(Role::Text, method(snapshot, canvas))],
         ];
+    if app.recording {
+        let mark = canvas.span(Role::Bad, format!("{} rec", glyphs.pick("●", "o")));
+        pieces.insert(1, vec![mark]);
+    }
     pieces.push(vec![
         canvas.span(Role::Text, format!("{:>5}", rate(app.meter.steps))),
         canvas.span(Role::Dim, " steps/s"),

@@ -26,7 +26,7 @@ pub fn draw(look: &Look, caption: &Caption<'_>, row: Rect, buffer: &mut Buffer) 
     let mut used = 0;
     if !caption.text.is_empty() {
         used = canvas.left(columns(row, 1, 2), Role::Accent, look.glyphs.pick("▌", "|"));
-        used += 2 + canvas.left(columns(row, used + 1, row.width), Role::Title, caption.text);
+        used += 2 + canvas.left(columns(row, used + 2, row.width), Role::Title, caption.text);
     }
     let mut right = row.width.saturating_sub(1);
     for key in caption.keys.iter().rev() {

@@ -1,8 +1,10 @@
 //! Recordings: played on the virtual clock, written as casts, replayed by terminals that know nothing of them.
 
 mod demos;
+mod projector;
 mod replay;
 mod scripts;
+mod stills;
 
 use phaselab::preset::{Catalog, Document, demo};
 use phaselab::record::{Recording, Script, play};

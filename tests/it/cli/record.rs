@@ -72,6 +72,52 @@ fn a_cast_is_written_whole_or_not_at_all() {
 }
 
 #[test]
+fn a_still_is_taken_of_a_moment() {
+    let home = tempfile::tempdir().expect("a folder");
+    fs::write(home.path().join("my.demo"), SCRIPT).expect("a file");
+    let take = |still: &str, at: &[&str]| {
+        let arguments = ["record", "pendulum", "--script", "my.demo", "--still", still];
+        done(program(home.path()).args(arguments).args(at))
+    };
+    let read = |name: &str| fs::read_to_string(home.path().join(name)).expect(name);
+    let last = take("last.txt", &[]);
+    assert_eq!((last.code, last.stdout.as_str()), (0, ""), "{}", last.stderr);
+    assert_eq!(take("middle.txt", &["--at", "Middle"]).code, 0);
+    assert!(read("last.txt").contains(" t 2.10000"), "{}", read("last.txt"));
+    assert!(read("middle.txt").contains(" t 1.10000"), "{}", read("middle.txt"));
+    assert_eq!(take("last.svg", &[]).code, 0);
+    assert!(read("last.svg").starts_with("<svg xmlns="));
+    assert_eq!(take("last.ans", &[]).code, 0);
+    let wrong = take("last.svg", &["--at", "Midle"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("did you mean `Middle`?"), "{}", wrong.stderr);
+    let wrong = take("last.gif", &[]);
+    assert!(wrong.code == 2 && wrong.stderr.contains(".svg, .txt or .ans"), "{}", wrong.stderr);
+}
+
+#[test]
+fn what_is_played_is_a_cast_or_a_script() {
+    let home = tempfile::tempdir().expect("a folder");
+    let check = |text: &str, code: i32, part: &str| {
+        fs::write(home.path().join("it.cast"), text).expect("a file");
+        let done = done(program(home.path()).args(["play", "it.cast"]));
+        assert_eq!((done.code, done.stdout.as_str()), (code, ""), "{}", done.stderr);
+        assert!(done.stderr.contains(part), "{}", done.stderr);
+    };
+    let head = "{\"version\":2,\"width\":80,\"height\":24}\n";
+    check(
+        "{\"version\":9,\"width\":80,\"height\":24}",
+        65,
+        "it.cast: line 1: casts of version 2 and 3",
+    );
+    check(&format!("{head}nonsense"), 65, "it.cast: line 2: this is no event");
+    check("Wiat 1s", 65, "did you mean `Wait`?");
+    check("Wait 1s", 65, "does not say which system");
+    // all is well, but there is no terminal
+    check(&format!("{head}[1, \"o\", \"hello\"]"), 2, "terminal");
+    check("Open pendulum\nWait 1s", 2, "terminal");
+}
+
+#[test]
 fn scripts_are_checked() {
     let home = tempfile::tempdir().expect("a folder");
     let check = |text: &str, code: i32, part: &str| {

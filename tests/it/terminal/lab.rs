@@ -1,6 +1,7 @@
 //! The laboratory itself, as a person meets it.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
@@ -324,4 +325,94 @@ fn without_a_terminal_it_says_what_to_do() {
     let mut dumb = lab(&[]).variable("TERM", "dumb").start();
     assert_eq!(dumb.ends().0, 2);
     assert!(dumb.text().contains("phaselab run"), "{}", dumb.text());
+}
+
+/// The files of a folder whose names end so.
+fn written(folder: &Path, ending: &str) -> Vec<(String, String)> {
+    let entries = fs::read_dir(folder).expect("a folder").filter_map(Result::ok);
+    let named = entries.map(|e| (e.file_name().to_string_lossy().into_owned(), e.path()));
+    let wanted = named.filter(|(name, _)| name.ends_with(ending));
+    let mut all: Vec<(String, String)> =
+        wanted.map(|(name, path)| (name, fs::read_to_string(path).unwrap_or_default())).collect();
+    all.sort();
+    all
+}
+
+/// The pendulum in motion, started in a folder.
+fn pendulum_in(folder: &Path) -> Session {
+    let mut lab = lab(&["pendulum"]).folder(folder).start();
+    lab.shows("running");
+    lab
+}
+
+#[test]
+fn stills_data_and_recordings_are_written_by_keys() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut lab = pendulum_in(folder.path());
+    lab.press("S");
+    lab.shows("pendulum.svg is written");
+    lab.press("S");
+    lab.shows("pendulum-2.svg is written");
+    lab.press("D");
+    lab.shows("pendulum.csv is written");
+    lab.press("O");
+    lab.shows("rec");
+    lab.press("2");
+    lab.shows("Equations");
+    lab.press("1O");
+    lab.shows("pendulum.cast is written");
+    // and once more, ended by leaving
+    lab.press("O");
+    lab.shows("rec");
+    let stills = written(folder.path(), ".svg");
+    assert_eq!(stills.len(), 2);
+    assert!(stills.iter().all(|(_, text)| text.ends_with("</svg>\n") && text.contains("<circle")));
+    let data = written(folder.path(), ".csv").remove(0).1;
+    let mut lines = data.lines().skip_while(|line| line.starts_with('#'));
+    let head = lines.next().expect("names of columns");
+    assert!(head.starts_with("t,theta,theta',p_theta,energy"), "{head}");
+    assert!(lines.next().is_some_and(|row| row.starts_with("0.0,2.0,0.0,0.0,")), "{data}");
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+    let casts = written(folder.path(), ".cast");
+    assert_eq!(casts.len(), 2);
+    for (name, text) in casts {
+        let tape =
+            phaselab::record::Tape::read(&text).unwrap_or_else(|why| panic!("{name}: {why}"));
+        assert_eq!(tape.size, (120, 40));
+        let mut terminal = avt::Vt::new(120, 40);
+        for (_, turn) in &tape.events {
+            if let phaselab::record::Turn::Output(text) = turn {
+                terminal.feed_str(text);
+            }
+        }
+        assert!(terminal.text().join("\n").contains("Parameters"), "{name}");
+    }
+    assert!(written(folder.path(), ".partial").is_empty());
+}
+
+#[test]
+fn a_recording_survives_a_signal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut lab = pendulum_in(folder.path());
+    lab.press("O");
+    lab.shows("rec");
+    lab.signal(Signal::TERM);
+    assert_eq!(lab.ends().0, 143);
+    let casts = written(folder.path(), ".cast");
+    assert!(casts.len() == 1 && phaselab::record::Tape::read(&casts[0].1).is_ok(), "{casts:?}");
+}
+
+#[test]
+fn a_cast_is_played_on_the_terminal() {
+    let mut player = lab(&["play", "pendulum"]).start();
+    player.shows("Let go from one degree");
+    player.shows(" of 0:");
+    player.press(" ");
+    player.shows("‖");
+    player.press("\x1b[F");
+    player.shows("Energy is measured");
+    player.press("q");
+    assert_eq!(player.ends().0, 0);
+    player.assert_restored();
 }

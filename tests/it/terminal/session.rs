@@ -4,7 +4,7 @@
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -23,6 +23,7 @@ pub(super) struct Setup {
     command: Vec<OsString>,
     size: (u16, u16),
     environment: Vec<(&'static str, OsString)>,
+    folder: PathBuf,
 }
 
 impl Setup {
@@ -32,7 +33,8 @@ impl Setup {
         command.extend(arguments.iter().map(OsString::from));
         let environment = [("TERM", "xterm-256color"), ("LANG", "C.UTF-8")];
         let environment = environment.map(|(name, value)| (name, value.into())).to_vec();
-        Self { command, size: (80, 24), environment }
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+        Self { command, size: (80, 24), environment, folder }
     }
 
     /// The page of `examples/page.rs`.
@@ -62,6 +64,12 @@ impl Setup {
     /// One more environment variable; the last of a name counts.
     pub(super) fn variable(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
         self.environment.push((name, value.into()));
+        self
+    }
+
+    /// Another folder to start it in.
+    pub(super) fn folder(mut self, folder: &Path) -> Self {
+        folder.clone_into(&mut self.folder);
         self
     }
 
@@ -117,7 +125,7 @@ impl Session {
         let state = tempfile::tempdir().expect("a folder of its own");
         command.env("XDG_STATE_HOME", state.path());
         setup.environment.iter().for_each(|(name, value)| command.env(name, value));
-        command.cwd(env!("CARGO_MANIFEST_DIR"));
+        command.cwd(setup.folder);
 
         let before = settings(&*pair.master);
         let mut reader = pair.master.try_clone_reader().expect("a reader");

@@ -1,0 +1,69 @@
+//! `phaselab play`: a cast or a script on the terminal.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::{lab, open, record};
+use crate::preset::{Document, demo};
+use crate::record::{Script, Tape};
+use crate::shell::{self, Options};
+
+/// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
+///
+/// Space holds it, `.` steps, `[` and `]` change the pace, the arrows go five seconds back and on,
+/// Tab goes to the next chapter, Home to the beginning, q leaves. Whatever a cast holds, only its
+/// characters and colours reach the terminal.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab play pendulum               a preset's own demo
+  phaselab play my.demo                a script
+  phaselab play session.cast           what asciinema or phaselab recorded")]
+pub(super) struct Arguments {
+    /// A cast, a script, or a preset with a demo of its own.
+    #[arg(value_name = "CAST|SCRIPT|PRESET")]
+    file: PathBuf,
+}
+
+/// The greatest cast that is read.
+const LIMIT: u64 = 64 << 20;
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let tape = tape(&arguments.file)?;
+    let request = lab::request(None, Options::default())?;
+    lab::how_it_ended(shell::show(tape, &request))
+}
+
+fn tape(path: &Path) -> Result<Tape, Failure> {
+    if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
+        return scripted(&own);
+    }
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LIMIT + 1).read_to_end(&mut bytes));
+    read.map_err(|why| Failure::reading(path, &why))?;
+    if bytes.len() as u64 > LIMIT {
+        let what = format!("{}: a cast may have 64 MiB; this one has more", path.display());
+        return Err(Failure::WrongFile(what));
+    }
+    if bytes.trim_ascii_start().starts_with(b"{") {
+        let text = String::from_utf8_lossy(&bytes);
+        let wrong = |why| Failure::WrongFile(format!("{}: {why}", path.display()));
+        return Tape::read(&text).map_err(wrong);
+    }
+    scripted(&Document::open(path).map_err(|why| Failure::reading(path, &why))?)
+}
+
+/// What a script comes to.
+fn scripted(source: &Document) -> Result<Tape, Failure> {
+    let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
+    let Some(system) = &script.head.open else {
+        let what = format!("{} does not say which system it is about: Open NAME", source.path);
+        return Err(Failure::WrongFile(what));
+    };
+    let document = open::find(&system.text)?;
+    let recording = record::recorded(&script, source, &document, &system.text, None)?;
+    record::hold(source, &recording)?;
+    Ok(recording.into())
+}

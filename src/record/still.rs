@@ -1,0 +1,49 @@
+//! Stills: one screen as a drawing, as plain text, or as text with its colours.
+//!
+//! In: a screen of cells. Out: SVG, text, or text with ANSI colours. Never here: which moment, or files.
+
+mod ansi;
+mod shape;
+mod svg;
+
+use std::str::FromStr;
+
+use ratatui::buffer::Buffer;
+
+use super::player::rows;
+use crate::view::theme::Palette;
+
+/// The form of a still.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A drawing: dots and lines are shapes, words are text in whatever font there is.
+    Svg,
+    /// Characters alone.
+    Text,
+    /// Characters with their colours, for `cat` in a terminal.
+    Ansi,
+}
+
+impl FromStr for Form {
+    type Err = String;
+
+    /// The form by the ending of a file's name.
+    fn from_str(path: &str) -> Result<Form, String> {
+        let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+        match ending.to_ascii_lowercase().as_str() {
+            "svg" => Ok(Form::Svg),
+            "txt" => Ok(Form::Text),
+            "ans" | "ansi" => Ok(Form::Ansi),
+            _ => Err("a still ends in .svg, .txt or .ans".to_owned()),
+        }
+    }
+}
+
+/// The screen in a form; `palette` says the background it was made for.
+pub fn write(screen: &Buffer, palette: &Palette, form: Form, title: &str) -> String {
+    match form {
+        Form::Svg => svg::write(screen, palette, title),
+        Form::Text => rows(screen).join("\n") + "\n",
+        Form::Ansi => ansi::write(screen),
+    }
+}

@@ -1,0 +1,160 @@
+//! Characters that are drawn: dots of braille, blocks, shades and the lines of frames, as shapes within a cell.
+//!
+//! In: a character. Out: its dots, rectangles or strokes, in units of a cell 8 wide and 16 high. Never here: colours, or
+//! where the cell stands.
+
+/// The width and height of a cell.
+pub(super) const CELL: (f64, f64) = (8.0, 16.0);
+
+/// The radius of a dot.
+pub(super) const DOT: f64 = 1.45;
+
+/// A character as shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    /// Dots, by their centres.
+    Dots(Vec<(f64, f64)>),
+    /// Rectangles: left, top, width, height; and how much of their colour is seen.
+    Blocks(Vec<[f64; 4]>, f64),
+    /// A stroke, as the data of a path; whether it is heavy.
+    Stroke(&'static str, bool),
+}
+
+impl Shape {
+    /// The shape of a character; letters have none.
+    pub(super) fn of(character: char) -> Option<Shape> {
+        match character {
+            '\u{2800}'..='\u{28ff}' => Some(Shape::Dots(dots(character as u32 - 0x2800))),
+            '░' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.25)),
+            '▒' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.5)),
+            '▓' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.75)),
+            _ => blocks(character)
+                .map(|blocks| Shape::Blocks(blocks, 1.0))
+                .or_else(|| stroke(character).map(|(data, heavy)| Shape::Stroke(data, heavy))),
+        }
+    }
+}
+
+/// The dots of a braille pattern: bits 0 to 2 down the left, 3 to 5 down the right, 6 and 7 below them.
+fn dots(bits: u32) -> Vec<(f64, f64)> {
+    const PLACES: [(f64, f64); 8] = [
+        (2.0, 2.0),
+        (2.0, 6.0),
+        (2.0, 10.0),
+        (6.0, 2.0),
+        (6.0, 6.0),
+        (6.0, 10.0),
+        (2.0, 14.0),
+        (6.0, 14.0),
+    ];
+    (0..8).filter(|bit| bits >> bit & 1 == 1).map(|bit| PLACES[bit as usize]).collect()
+}
+
+/// The rectangles of a block character.
+fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
+    let code = character as u32;
+    let quadrants = |bits: u32| {
+        let places = [(0.0, 0.0), (4.0, 0.0), (0.0, 8.0), (4.0, 8.0)];
+        let set = places.iter().enumerate().filter(|(bit, _)| bits >> bit & 1 == 1);
+        set.map(|(_, (x, y))| [*x, *y, 4.0, 8.0]).collect()
+    };
+    Some(match character {
+        '▀' => vec![[0.0, 0.0, 8.0, 8.0]],
+        // from an eighth at the bottom to the whole
+        '▁'..='█' => {
+            let height = f64::from(code - 0x2580) * 2.0;
+            vec![[0.0, 16.0 - height, 8.0, height]]
+        }
+        // from seven eighths at the left to one
+        '▉'..='▏' => vec![[0.0, 0.0, f64::from(0x2590 - code), 16.0]],
+        '▐' => vec![[4.0, 0.0, 4.0, 16.0]],
+        '▔' => vec![[0.0, 0.0, 8.0, 2.0]],
+        '▖' => quadrants(4),
+        '▗' => quadrants(8),
+        '▘' => quadrants(1),
+        '▙' => quadrants(1 + 4 + 8),
+        '▚' => quadrants(1 + 8),
+        '▛' => quadrants(1 + 2 + 4),
+        '▜' => quadrants(1 + 2 + 8),
+        '▝' => quadrants(2),
+        '▞' => quadrants(2 + 4),
+        '▟' => quadrants(2 + 4 + 8),
+        // six parts, two across and three down; the two halves and the whole stand elsewhere
+        '\u{1fb00}'..='\u{1fb3b}' => {
+            let n = code - 0x1fb00 + 1;
+            let bits = n + u32::from(n > 20) + u32::from(n > 40);
+            let third = 16.0 / 3.0;
+            let set = (0..6).filter(|bit| bits >> bit & 1 == 1);
+            set.map(|bit: u32| [f64::from(bit % 2) * 4.0, f64::from(bit / 2) * third, 4.0, third])
+                .collect()
+        }
+        _ => return None,
+    })
+}
+
+/// The stroke of a line of a frame.
+fn stroke(character: char) -> Option<(&'static str, bool)> {
+    Some(match character {
+        '─' => ("M0 8H8", false),
+        '│' => ("M4 0V16", false),
+        '╭' => ("M4 16V12Q4 8 8 8", false),
+        '╮' => ("M0 8Q4 8 4 12V16", false),
+        '╰' => ("M4 0V4Q4 8 8 8", false),
+        '╯' => ("M0 8Q4 8 4 4V0", false),
+        '┌' => ("M4 16V8H8", false),
+        '┐' => ("M0 8H4V16", false),
+        '└' => ("M4 0V8H8", false),
+        '┘' => ("M0 8H4V0", false),
+        '├' => ("M4 0V16M4 8H8", false),
+        '┤' => ("M4 0V16M0 8H4", false),
+        '┬' => ("M0 8H8M4 8V16", false),
+        '┴' => ("M0 8H8M4 0V8", false),
+        '┼' => ("M0 8H8M4 0V16", false),
+        '┈' => ("M.5 8H1.5M2.5 8H3.5M4.5 8H5.5M6.5 8H7.5", false),
+        '┊' => ("M4 1V3M4 5V7M4 9V11M4 13V15", false),
+        '━' => ("M0 8H8", true),
+        '┃' => ("M4 0V16", true),
+        '┏' => ("M4 16V8H8", true),
+        '┓' => ("M0 8H4V16", true),
+        '┗' => ("M4 0V8H8", true),
+        '┛' => ("M0 8H4V0", true),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_braille_pattern_has_as_many_dots_as_bits() {
+        for bits in 0..256_u32 {
+            let character = char::from_u32(0x2800 + bits).expect("braille");
+            let Some(Shape::Dots(dots)) = Shape::of(character) else { panic!("no dots") };
+            assert_eq!(dots.len() as u32, bits.count_ones(), "{character}");
+        }
+        assert_eq!(Shape::of('⠁'), Some(Shape::Dots(vec![(2.0, 2.0)])));
+        assert_eq!(Shape::of('⢀'), Some(Shape::Dots(vec![(6.0, 14.0)])));
+    }
+
+    #[test]
+    fn blocks_cover_what_they_should() {
+        let area = |character: char| match Shape::of(character) {
+            Some(Shape::Blocks(blocks, _)) => blocks.iter().map(|[.., w, h]| w * h).sum::<f64>(),
+            other => panic!("{character}: {other:?}"),
+        };
+        let check = |character, eighths: f64| {
+            assert!((area(character) - eighths * 16.0).abs() < 1e-9, "{character}");
+        };
+        check('█', 8.0);
+        check('▁', 1.0);
+        check('▄', 4.0);
+        check('▀', 4.0);
+        check('▏', 1.0);
+        check('▌', 4.0);
+        check('▟', 6.0);
+        check('\u{1fb00}', 8.0 / 6.0);
+        check('\u{1fb3b}', 5.0 * 8.0 / 6.0);
+        assert_eq!(Shape::of('a'), None);
+    }
+}

@@ -1,0 +1,192 @@
+//! The projector: casts shown at their pace, whoever made them.
+
+use std::time::Duration;
+
+use phaselab::app::{Code, Key};
+use phaselab::record::Tape;
+use phaselab::shell::{Input, Page, Projector, Wish};
+use phaselab::view::Look;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+use proptest::prelude::*;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+
+use super::played;
+
+fn look() -> Look {
+    Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille }
+}
+
+fn projector(cast: &str) -> Projector {
+    Projector::new(Tape::read(cast).expect("a cast"), look())
+}
+
+fn shown(projector: &mut Projector, (width, height): (u16, u16)) -> String {
+    let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+    projector.draw(buffer.area, &mut buffer);
+    let row = |y| (0..width).map(|x| buffer[(x, y)].symbol().to_owned()).collect::<String>();
+    (0..height).map(|y| row(y).trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+}
+
+fn press(projector: &mut Projector, code: Code) -> Wish {
+    projector.input(Input::Key(Key::plain(code)))
+}
+
+/// Lets so many milliseconds pass, in frames.
+fn pass(projector: &mut Projector, milliseconds: u64) {
+    for _ in 0..milliseconds / 20 {
+        projector.advance(Duration::from_millis(20));
+    }
+}
+
+const CAST: &str = "{\"version\":3,\"term\":{\"cols\":30,\"rows\":3}}\n[0.0, \"o\", \"one\"]\n\
+                    [1.0, \"m\", \"middle\"]\n[0.0, \"o\", \" two\"]\n[1.0, \"o\", \" three\"]\n";
+
+#[test]
+fn a_cast_runs_at_its_pace() {
+    let mut it = projector(CAST);
+    pass(&mut it, 500);
+    assert_eq!(shown(&mut it, (30, 3)), "one\n\n");
+    pass(&mut it, 600);
+    assert_eq!(shown(&mut it, (30, 3)), "one two\n\n");
+    press(&mut it, Code::Char(' '));
+    pass(&mut it, 5000);
+    let held = shown(&mut it, (80, 4));
+    assert!(
+        held.contains("one two\n") && held.contains("‖ 0:01 of 0:02") && held.contains("middle")
+    );
+    press(&mut it, Code::Char('.'));
+    pass(&mut it, 20);
+    assert!(shown(&mut it, (30, 4)).contains("one two three"));
+    assert!(it.is_over());
+    press(&mut it, Code::Home);
+    pass(&mut it, 20);
+    assert!(shown(&mut it, (30, 4)).starts_with("one\n"));
+    press(&mut it, Code::Tab);
+    pass(&mut it, 20);
+    assert!(shown(&mut it, (30, 4)).starts_with("one two\n"));
+    press(&mut it, Code::Char(' '));
+    press(&mut it, Code::Home);
+    for _ in 0..2 {
+        press(&mut it, Code::Char(']'));
+    }
+    pass(&mut it, 300);
+    assert!(shown(&mut it, (30, 4)).starts_with("one two\n"), "four times as fast");
+    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+}
+
+#[test]
+fn a_recording_looks_as_it_was_drawn() {
+    let recording = played("pendulum", "Size 90x28\nColor 256\nCaption \"Hello\"\nWait 2s");
+    let last = recording.last.clone();
+    let mut it = Projector::new(recording.into(), look());
+    pass(&mut it, 2500);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 90, 29));
+    it.draw(buffer.area, &mut buffer);
+    for y in 0..28 {
+        for x in 0..90 {
+            let (cell, drawn) = (&buffer[(x, y)], &last[(x, y)]);
+            assert_eq!(cell.symbol(), drawn.symbol(), "at {x}, {y}");
+            if drawn.symbol() != " " {
+                assert_eq!(cell.fg, drawn.fg, "at {x}, {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn colours_are_those_the_terminal_has() {
+    use Color::{Indexed, Reset, Rgb};
+    let cast = "{\"version\":2,\"width\":3,\"height\":1}\n\
+                [0, \"o\", \"\\u001b[38;2;255;0;0ma\\u001b[38;5;200mb\\u001b[31mc\"]\n";
+    let check = |depth, expected: [Color; 3]| {
+        let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let mut it = Projector::new(Tape::read(cast).expect("a cast"), look);
+        pass(&mut it, 20);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 2));
+        it.draw(buffer.area, &mut buffer);
+        assert_eq!([0, 1, 2].map(|x| buffer[(x, 0)].fg), expected, "{depth:?}");
+    };
+    check(ColourDepth::True, [Rgb(255, 0, 0), Indexed(200), Indexed(1)]);
+    check(ColourDepth::Ansi256, [Indexed(196), Indexed(200), Indexed(1)]);
+    check(ColourDepth::Ansi16, [Reset, Reset, Indexed(1)]);
+    check(ColourDepth::None, [Reset, Reset, Reset]);
+}
+
+/// What a stranger may put into a cast: letters and the pieces of sequences.
+fn hostile() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        any::<char>().prop_map(String::from),
+        prop::sample::select(vec![
+            "\u{1b}",
+            "\u{1b}[",
+            "\u{1b}]52;c;",
+            "\u{1b}P",
+            "\u{7}",
+            "\u{1b}[?1049h",
+            "\u{1b}[65535b",
+            "\u{1b}[99999;99999H",
+            "\u{1b}[?1003h",
+            "\u{1b}[6n",
+            "\u{1b}c",
+            "漢",
+            "e\u{301}",
+            "\r\n",
+            "\u{1b}[2;1r",
+            "\u{1b}[9999L",
+            "\u{1b}[9999P",
+            "\u{1b}[9999@",
+            "\u{9b}31m",
+            "\u{1b}#8",
+        ])
+        .prop_map(str::to_owned),
+    ];
+    prop::collection::vec(piece, 0..60).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+    #[test]
+    fn no_cast_does_harm(
+        size in (1..90_u16, 1..30_u16),
+        outputs in prop::collection::vec((hostile(), prop::option::of((1..90_u16, 1..30_u16))), 1..6),
+        area in (0..100_u16, 0..40_u16),
+    ) {
+        let (columns, rows) = size;
+        let mut cast =
+            format!("{{\"version\":3,\"term\":{{\"cols\":{columns},\"rows\":{rows}}}}}\n");
+        for (output, resize) in outputs {
+            cast += &format!("[0.01, \"o\", {}]\n", serde_json::Value::from(output));
+            if let Some((columns, rows)) = resize {
+                cast += &format!("[0.01, \"r\", \"{columns}x{rows}\"]\n");
+            }
+        }
+        let mut it = projector(&cast);
+        for code in [Code::Right, Code::Home, Code::Char('.'), Code::End, Code::Char(' ')] {
+            press(&mut it, code);
+            pass(&mut it, 60);
+            let mut buffer = Buffer::empty(Rect::new(0, 0, area.0, area.1));
+            it.draw(buffer.area, &mut buffer);
+            let escapes = buffer.content.iter().filter(|c| c.symbol().contains('\u{1b}')).count();
+            prop_assert_eq!(escapes, 0);
+        }
+        prop_assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    }
+}
+
+#[test]
+fn a_bomb_does_not_keep_the_keys_waiting() {
+    // each of these asks for 65535 characters
+    let bomb = "x\\u001b[65535b".repeat(100_000);
+    let mut it = projector(&format!(
+        "{{\"version\":2,\"width\":80,\"height\":24}}\n[0, \"o\", \"{bomb}\"]\n"
+    ));
+    let began = std::time::Instant::now();
+    for _ in 0..10 {
+        it.advance(Duration::from_millis(20));
+    }
+    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+}

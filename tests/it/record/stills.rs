@@ -1,0 +1,82 @@
+//! Stills: well-formed drawings with as many dots as the screen has, and text that is the screen's.
+
+use phaselab::record::still::{Form, write};
+use ratatui::buffer::Buffer;
+
+use super::played;
+
+fn pendulum() -> (Buffer, String) {
+    let recording = played("pendulum", "Size 110x32\nCaption \"<A & B> \\\"C\\\"\"\nWait 2s");
+    let palette = recording.look.theme.palette();
+    let drawing = write(&recording.last, palette, Form::Svg, "a < b & c");
+    (recording.last, drawing)
+}
+
+#[test]
+fn a_drawing_has_the_dots_of_its_screen() {
+    let (screen, drawing) = pendulum();
+    let patterns = screen.content.iter().filter_map(|cell| cell.symbol().chars().next());
+    let bits = patterns.filter(|c| ('\u{2800}'..='\u{28ff}').contains(c));
+    let dots: u32 = bits.map(|c| (c as u32 - 0x2800).count_ones()).sum();
+    assert!(dots > 300, "{dots}");
+    let document = roxmltree::Document::parse(&drawing).expect("well-formed");
+    let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
+    assert_eq!(circles.count() as u32, dots);
+    // every dot stands inside
+    let size =
+        |name: &str| document.root_element().attribute(name).unwrap().parse::<f64>().unwrap();
+    assert_eq!((size("width"), size("height")), (110.0 * 8.0 + 16.0, 32.0 * 16.0 + 16.0));
+    for circle in document.descendants().filter(|node| node.has_tag_name("circle")) {
+        let place = |name: &str| circle.attribute(name).unwrap().parse::<f64>().unwrap();
+        assert!((0.0..880.0).contains(&place("cx")) && (0.0..512.0).contains(&place("cy")));
+    }
+}
+
+#[test]
+fn a_drawing_has_the_words_of_its_screen_and_no_fonts() {
+    let (screen, drawing) = pendulum();
+    let document = roxmltree::Document::parse(&drawing).expect("well-formed");
+    let words = |name: &'static str| {
+        document.descendants().filter(move |node| node.has_tag_name(name)).filter_map(|n| n.text())
+    };
+    assert_eq!(words("title").next(), Some("a < b & c"));
+    let written: String = words("text").collect();
+    for word in ["phaselab", "Parameters", "<A", "&", "B>", "\"C\""] {
+        assert!(written.contains(word), "{word}");
+    }
+    let letters = |text: &str| text.chars().filter(|c| c.is_alphabetic()).count();
+    let shown: String = screen.content.iter().map(ratatui::buffer::Cell::symbol).collect();
+    assert_eq!(letters(&written), letters(&shown));
+    for refused in ["font-face", "<script", "<style", "href", "data:"] {
+        assert!(!drawing.contains(refused), "{refused}");
+    }
+}
+
+#[test]
+fn text_and_colours_are_those_of_the_screen() {
+    let recording = played("pendulum", "Size 80x24\nColor 256\nWait 1s");
+    let palette = recording.look.theme.palette();
+    let text = write(&recording.last, palette, Form::Text, "");
+    assert_eq!(text.lines().count(), 24);
+    let ansi = write(&recording.last, palette, Form::Ansi, "");
+    let mut terminal = vt100::Parser::new(25, 80, 0);
+    terminal.process(ansi.replace('\n', "\r\n").as_bytes());
+    for y in 0..24 {
+        for x in 0..80 {
+            let drawn = &recording.last[(x, y)];
+            let cell = terminal.screen().cell(y, x).expect("inside");
+            let contents = if cell.has_contents() { cell.contents() } else { " " };
+            assert_eq!(contents, drawn.symbol(), "at {x}, {y}");
+            if let ratatui::style::Color::Indexed(index) = drawn.fg
+                && drawn.symbol() != " "
+            {
+                assert_eq!(cell.fgcolor(), vt100::Color::Idx(index), "at {x}, {y}");
+            }
+        }
+    }
+    let rows: Vec<String> = terminal.screen().rows(0, 80).take(24).collect();
+    assert_eq!(
+        rows.iter().map(|r| r.trim_end()).collect::<Vec<_>>(),
+        text.lines().collect::<Vec<_>>()
+    );
+}
