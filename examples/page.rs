@@ -12,7 +12,7 @@ use color_eyre::eyre::Result;
 use phaselab::app::{Code, Key, Mouse};
 use phaselab::shell::{Ending, Input, Pace, Page, Refusal, Wish, perform, report_panics};
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
 
 #[derive(Default)]
@@ -73,7 +73,7 @@ impl Page for Clock {
         !self.held
     }
 
-    fn draw(&mut self, area: Rect, buffer: &mut Buffer) {
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         if self.full {
             for (place, cell) in buffer.content.iter_mut().enumerate() {
                 let digit = (self.time.as_millis() as usize + place) % 10;
@@ -101,6 +101,9 @@ impl Page for Clock {
         {
             cell.set_symbol("#");
         }
+        // The terminal's cursor stands in the line of text, and nowhere else.
+        let long = self.typing.as_ref()?.chars().count() as u16;
+        Some(Position::new(6 + long, 3))
     }
 
     fn is_typing(&self) -> bool {

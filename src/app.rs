@@ -6,6 +6,7 @@
 //! A key goes through [`keymap::KEYS`] to an [`Action`]; `perform` carries it out.
 
 mod action;
+mod change;
 mod choose;
 mod editor;
 mod event;
@@ -24,17 +25,20 @@ mod palette;
 mod perform;
 mod picker;
 mod plot;
+mod point;
 mod potential;
 mod prompt;
+mod reading;
 mod saved;
 mod speed;
+mod spot;
 mod strike;
 mod update;
 mod value;
 mod workbench;
 
 pub use action::{Action, Axes, Way};
-pub use editor::{Editor, Spot};
+pub use editor::{Caret, Editor};
 pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
 pub use field::{Field, Purpose};
 pub use fuzzy::Fit;
@@ -48,7 +52,9 @@ pub use picker::Picker;
 pub use plot::{Eye, Lens, Plot};
 pub use potential::Potential;
 pub use prompt::Prompt;
+pub use reading::Reading;
 pub use saved::{Quantity, Saved, SavedPlot};
+pub use spot::{Hold, Spot};
 pub use value::{Facts, Target};
 pub use workbench::{Asking, Checked, Flaw, NotSaved, State as BenchState, Work, Workbench};
 
@@ -81,6 +87,16 @@ pub struct App {
     pub workbench: Option<Box<Workbench>>,
     /// Files of other systems with changes that are not saved.
     drafts: Vec<Workbench>,
+    /// The themes there are, each with a line about it.
+    pub themes: Vec<(&'static str, &'static str)>,
+    /// The theme chosen, in place of the one phaselab was opened with.
+    pub theme: Option<&'static str>,
+    /// What is read on the page of plain reading.
+    pub reading: Reading,
+    /// What is to be told after that.
+    news: notice::Queue,
+    /// What the mouse holds on to.
+    pub hold: Option<Hold>,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -102,6 +118,8 @@ pub enum Page {
     Notes,
     /// Every channel as a number.
     Numbers,
+    /// All that is on the screen as lines of plain text, which keep still.
+    Plain,
 }
 
 /// Something that lies over a page and takes its keys.
@@ -135,6 +153,11 @@ impl App {
             scroll: 0,
             workbench: None,
             drafts: Vec::new(),
+            themes: Vec::new(),
+            theme: None,
+            reading: Reading::default(),
+            news: notice::Queue::default(),
+            hold: None,
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
@@ -158,6 +181,18 @@ impl App {
     /// Whether an action can do something with the loaded system; most always can.
     pub fn offers(&self, action: Action) -> bool {
         self.lack(action).is_none()
+    }
+
+    /// The theme to be shown: the one selected while they are chosen from, else the one chosen.
+    pub fn theme_shown(&self) -> Option<&'static str> {
+        let previewed = match &self.over {
+            Some(Over::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
+                Choice::Theme(index) => self.themes.get(index).map(|(name, _)| *name),
+                _ => None,
+            }),
+            _ => None,
+        };
+        previewed.or(self.theme)
     }
 
     /// Whether text is being typed, so that a paste means something.
@@ -201,6 +236,7 @@ impl App {
             (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => {
                 [Place::Text, Place::Experiment]
             }
+            (Page::Plain, Some(_)) => [Place::Plain, Place::Experiment],
         }
     }
 }

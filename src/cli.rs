@@ -28,6 +28,7 @@ mod rows;
 mod run;
 mod script;
 mod stderr;
+mod theme;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -86,6 +87,7 @@ enum Command {
     Config(config::Arguments),
     Completions(completions::Arguments),
     Man(manual::Arguments),
+    Theme(theme::Arguments),
 }
 
 /// Does what the arguments say; the first is the program's name.
@@ -130,6 +132,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Config(arguments)) => config::perform(&arguments),
         Some(Command::Completions(arguments)) => completions::perform(&arguments),
         Some(Command::Man(arguments)) => manual::perform(&arguments),
+        Some(Command::Theme(arguments)) => theme::perform(&arguments),
         None => lab::perform(&arguments.lab),
     }
 }

@@ -32,7 +32,7 @@ pub use command::Command;
 pub use export::Export;
 pub use moment::{Changed, Moment, Named, Reference, Whereabouts};
 pub use ready::{Ready, Unready};
-pub use setup::{NoMethod, Setup, choose_method};
+pub use setup::{NoMethod, Setup, choose_method, with_given};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 

@@ -8,6 +8,7 @@ mod bracket;
 mod class;
 mod comparison;
 mod constrain;
+mod dimension;
 mod equations;
 mod frames;
 mod hamilton;

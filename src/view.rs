@@ -32,11 +32,13 @@ mod notes;
 mod numbers;
 mod phase;
 mod picker;
+mod plain;
 mod potential;
 mod prompt;
 mod quantity;
 mod series;
 mod space;
+mod spot;
 mod values;
 mod workbench;
 mod wrap;
@@ -44,13 +46,14 @@ mod wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::app::{App, Drawn, Lab, Over, Page};
+use crate::app::{App, Drawn, Lab, Over, Page, Spot};
 use canvas::{Canvas, row};
 pub use detail::Detail;
 use document::Document;
 use glyphs::Glyphs;
 use layout::{LEAST, Screen};
 use quantity::Quantities;
+pub use spot::{Spots, spot, spots};
 use theme::{Role, Theme};
 
 /// How the screen looks: what the terminal can show, and in which colours.
@@ -64,17 +67,34 @@ pub struct Look {
 
 /// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
 pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
-    let area = area.intersection(buffer.area);
-    let mut canvas = Canvas { buffer, look };
+    let themed = look.chosen_by(app);
+    let look = themed.as_ref().unwrap_or(look);
+    let mut canvas = Canvas::over(buffer, look);
+    let drawn = paint(&mut canvas, app, area);
+    Drawn { cursor: canvas.cursor.map(|at| (at.x, at.y)), ..drawn }
+}
+
+impl Look {
+    /// The look in the theme that a person chose, if it is another than this one's.
+    fn chosen_by(&self, app: &App) -> Option<Self> {
+        let name = app.theme_shown().filter(|name| *name != self.theme.palette().name)?;
+        Some(Self { theme: self.theme.renamed(name)?, glyphs: self.glyphs })
+    }
+}
+
+fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
+    let area = area.intersection(canvas.buffer.area);
     if area.width < LEAST.0 || area.height < LEAST.1 {
-        too_small(&mut canvas, area);
+        too_small(canvas, area);
         return Drawn::default();
     }
-    let screen = Screen::of(area, app.page != Page::Picker && app.lab.is_some());
-    bars::header(&mut canvas, screen.header, app);
-    let drawn = body(&mut canvas, screen.body, app);
-    bars::status(&mut canvas, screen.status, app);
-    bars::footer(&mut canvas, screen.footer, app);
+    // What is read keeps still, and says the status itself.
+    let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
+    let screen = Screen::of(area, status);
+    bars::header(canvas, screen.header, app);
+    let drawn = body(canvas, screen.body, app);
+    bars::status(canvas, screen.status, app);
+    bars::footer(canvas, screen.footer, app);
     drawn
 }
 
@@ -117,6 +137,13 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
     let look = canvas.look;
+    if page == Page::Plain {
+        canvas.spot(area, Spot::Text);
+        let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
+        let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
+        let document = read.map(|q| plain::document(&q)).unwrap_or_default();
+        return document.read(canvas, area, app.reading.line);
+    }
     let (title, document) = match page {
         Page::Equations => ("Equations", equations::document(lab, look)),
         Page::Notes => ("Notes", notes::document(lab, look)),
@@ -131,6 +158,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
 fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: Document, scroll: u16) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
+    canvas.spot(area, Spot::Text);
     page.draw(canvas, inner, scroll)
 }
 

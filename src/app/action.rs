@@ -21,12 +21,18 @@ pub enum Action {
     FewerFrames,
     /// Draw more frames in a second.
     MoreFrames,
+    /// Choose the colours.
+    ChooseTheme,
     /// Have the mouse reported, or leave it to the terminal again.
     Mouse,
     /// Leave the innermost thing that is open.
     Back,
     /// Show a page.
     Show(Page),
+    /// Read the present on the page of plain reading.
+    ReadAnew,
+    /// Read it anew by itself, or only when asked.
+    ReadOn,
     /// Start or hold time.
     PlayPause,
     /// One single step.
@@ -98,6 +104,8 @@ pub enum Action {
     Farther(Axes),
     /// Make the axis upwards logarithmic, or linear again.
     Log,
+    /// Make a unit as long across as upwards, or let the plot fill its pane again.
+    Equal,
     /// Put a cursor on the plot that reads coordinates, or take it away.
     Cursor,
     /// The view as it was at first.

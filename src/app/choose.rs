@@ -7,7 +7,6 @@ use super::plot::Lens;
 use super::{
     App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Over, Pane, Plot, Purpose,
 };
-use crate::experiment::Command;
 use crate::integrate::{METHODS, Stepping};
 use crate::model::ViewKind;
 
@@ -26,11 +25,25 @@ impl App {
             Choosing::Method,
             METHODS.iter().map(item).collect(),
         );
-        let now = lab.snapshot.as_ref().map(|s| Choice::Method(s.method.name));
+        let now = lab.method().map(Choice::Method);
         self.over = Some(Over::Menu(match now {
             Some(now) => menu.on(now),
             None => menu,
         }));
+        Vec::new()
+    }
+
+    pub(super) fn open_themes(&mut self) -> Vec<Effect> {
+        let line = |(index, (name, about)): (usize, &(&str, &str))| {
+            line(name, about, Choice::Theme(index))
+        };
+        let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
+        if items.is_empty() {
+            return self.say("There is only one theme here.");
+        }
+        let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
+        let menu = Menu::new("Theme", Choosing::Theme, items);
+        self.over = Some(Over::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
         Vec::new()
     }
 
@@ -111,8 +124,14 @@ impl App {
             return self.say(sentence);
         }
         match (menu.purpose, item.choice) {
-            (_, Choice::Method(name)) => vec![Effect::Tell(Command::Method(name.to_owned()))],
+            (_, Choice::Method(name)) => {
+                self.lab.as_mut().map_or(Vec::new(), |lab| lab.integrate_by(name))
+            }
             (_, Choice::Blow(index)) => self.strike_by(index),
+            (_, Choice::Theme(index)) => {
+                self.theme = self.themes.get(index).map(|(name, _)| *name);
+                Vec::new()
+            }
             (_, Choice::Action(action)) => self.perform(action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
@@ -138,14 +157,8 @@ impl App {
     fn put(&mut self, plot: usize, make: impl FnOnce(&Lab) -> Plot) -> Vec<Effect> {
         if let Some(lab) = &mut self.lab {
             let new = make(lab);
-            if let Some(place) = lab.plots.get_mut(plot) {
-                *place = new;
-                lab.focus = Pane::Plot(plot);
-            }
-            // A plane that was not shown before needs its landscape.
-            if let Some(snapshot) = lab.snapshot.clone() {
-                lab.see(snapshot);
-            }
+            lab.redraw(plot, |plot, _| *plot = new);
+            lab.focus = Pane::Plot(plot);
         }
         Vec::new()
     }
@@ -177,7 +190,7 @@ impl App {
                 effects
             }
             Purpose::Step => {
-                let name = lab.snapshot.as_ref().map_or("", |s| s.method.name);
+                let name = lab.method().unwrap_or_default();
                 let adaptive =
                     METHODS.iter().any(|m| m.name == name && m.stepping == Stepping::Adaptive);
                 if adaptive {
@@ -185,9 +198,9 @@ impl App {
                         "{name} chooses its own steps; this one is for methods of fixed step."
                     ));
                 }
-                vec![Effect::Tell(Command::StepSize(value))]
+                self.lab.as_mut().map_or(Vec::new(), |lab| lab.step_by(value))
             }
-            Purpose::Tolerance => vec![Effect::Tell(Command::Tolerance(value))],
+            Purpose::Tolerance => lab.tolerate(value),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{Code, Key};
 
 /// A place in the text, both counted from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Spot {
+pub struct Caret {
     /// The line.
     pub row: usize,
     /// The character within the line.
@@ -23,9 +23,9 @@ pub struct Editor {
     lines: Vec<String>,
     /// Whether lines end as on Windows.
     carriage: bool,
-    cursor: Spot,
+    cursor: Caret,
     /// The other end of what is selected.
-    anchor: Option<Spot>,
+    anchor: Option<Caret>,
     /// The column that moves up and down keep to.
     goal: Option<usize>,
     done: Vec<Change>,
@@ -41,11 +41,11 @@ pub struct Editor {
 /// A stretch replaced by another text.
 #[derive(Clone, Debug)]
 struct Change {
-    at: Spot,
+    at: Caret,
     old: String,
     new: String,
     /// Where the cursor stood before.
-    cursor: Spot,
+    cursor: Caret,
 }
 
 /// The columns of a tabulator.
@@ -59,7 +59,7 @@ impl Editor {
         Self {
             lines: text.split(ending).map(str::to_owned).collect(),
             carriage,
-            cursor: Spot::default(),
+            cursor: Caret::default(),
             anchor: None,
             goal: None,
             done: Vec::new(),
@@ -81,34 +81,34 @@ impl Editor {
     }
 
     /// Where the cursor stands.
-    pub fn cursor(&self) -> Spot {
+    pub fn cursor(&self) -> Caret {
         self.cursor
     }
 
     /// What is selected, its beginning first.
-    pub fn selection(&self) -> Option<(Spot, Spot)> {
+    pub fn selection(&self) -> Option<(Caret, Caret)> {
         let anchor = self.anchor.filter(|anchor| *anchor != self.cursor)?;
         Some((anchor.min(self.cursor), anchor.max(self.cursor)))
     }
 
     /// The place of a byte of the text.
-    pub fn spot(&self, byte: usize) -> Spot {
+    pub fn spot(&self, byte: usize) -> Caret {
         let ending = if self.carriage { 2 } else { 1 };
         let mut left = byte;
         for (row, line) in self.lines.iter().enumerate() {
             if left <= line.len() || row + 1 == self.lines.len() {
                 let column = line.char_indices().take_while(|(at, _)| *at < left).count();
-                return Spot { row, column };
+                return Caret { row, column };
             }
             left = left.saturating_sub(line.len() + ending);
         }
-        Spot::default()
+        Caret::default()
     }
 
     /// Puts the cursor on a place, or the nearest there is.
-    pub fn go(&mut self, spot: Spot) {
+    pub fn go(&mut self, spot: Caret) {
         let row = spot.row.min(self.lines.len() - 1);
-        self.cursor = Spot { row, column: spot.column.min(self.length(row)) };
+        self.cursor = Caret { row, column: spot.column.min(self.length(row)) };
         (self.anchor, self.goal, self.typing) = (None, None, false);
     }
 
@@ -207,8 +207,8 @@ impl Editor {
             let from = if step == 0 { self.cursor.column } else { 0 };
             let found = (from..line.len()).find(|&at| line[at..].starts_with(&wanted));
             if let Some(column) = found {
-                self.go(Spot { row, column: column + wanted.len() });
-                self.anchor = Some(Spot { row, column });
+                self.go(Caret { row, column: column + wanted.len() });
+                self.anchor = Some(Caret { row, column });
                 return true;
             }
         }
@@ -219,10 +219,10 @@ impl Editor {
     pub fn become_text(&mut self, text: &str) {
         let cursor = self.cursor;
         let last = self.lines.len() - 1;
-        let end = Spot { row: last, column: self.length(last) };
+        let end = Caret { row: last, column: self.length(last) };
         let other = Self::new(text, self.limit);
         self.carriage = other.carriage;
-        self.replace(Spot::default(), end, &other.lines.join("\n"));
+        self.replace(Caret::default(), end, &other.lines.join("\n"));
         self.go(cursor);
     }
 
@@ -255,7 +255,7 @@ impl Editor {
     }
 
     /// Takes out what is selected, or what lies between the cursor and another place.
-    fn erase(&mut self, to: fn(&Self) -> Spot) -> bool {
+    fn erase(&mut self, to: fn(&Self) -> Caret) -> bool {
         let other = to(self);
         let (from, to) =
             self.selection().unwrap_or((self.cursor.min(other), self.cursor.max(other)));
@@ -266,7 +266,7 @@ impl Editor {
         true
     }
 
-    fn replace(&mut self, from: Spot, to: Spot, text: &str) {
+    fn replace(&mut self, from: Caret, to: Caret, text: &str) {
         let cursor = self.cursor;
         let old = self.exchange(from, to, text);
         if !(old.is_empty() && text.is_empty()) {
@@ -277,7 +277,7 @@ impl Editor {
     }
 
     /// Puts a text in the place of a stretch, and returns what stood there.
-    fn exchange(&mut self, from: Spot, to: Spot, text: &str) -> String {
+    fn exchange(&mut self, from: Caret, to: Caret, text: &str) -> String {
         let old = self.between(from, to);
         let byte = |line: &str, column: usize| {
             line.char_indices().nth(column).map_or(line.len(), |(at, _)| at)
@@ -289,7 +289,7 @@ impl Editor {
         old
     }
 
-    fn between(&self, from: Spot, to: Spot) -> String {
+    fn between(&self, from: Caret, to: Caret) -> String {
         let mut text = String::new();
         for row in from.row..=to.row {
             let line = self.lines[row].chars();
@@ -303,43 +303,43 @@ impl Editor {
         text
     }
 
-    fn selected_or_line(&self) -> (Spot, Spot) {
+    fn selected_or_line(&self) -> (Caret, Caret) {
         let row = self.cursor.row;
         self.selection().unwrap_or_else(|| {
-            let start = Spot { row, column: 0 };
+            let start = Caret { row, column: 0 };
             if row + 1 < self.lines.len() {
-                (start, Spot { row: row + 1, column: 0 })
+                (start, Caret { row: row + 1, column: 0 })
             } else {
-                (start, Spot { row, column: self.length(row) })
+                (start, Caret { row, column: self.length(row) })
             }
         })
     }
 
     /// Moves the cursor, with Shift one end of the selection.
     fn shift(&mut self, key: Key, page: usize) {
-        let Spot { row, column } = self.cursor;
+        let Caret { row, column } = self.cursor;
         let last = self.lines.len() - 1;
         let goal = self.goal.unwrap_or(column);
-        let upright = |row: usize| Spot { row, column: goal };
+        let upright = |row: usize| Caret { row, column: goal };
         let (to, keeps_goal) = match (key.code, key.ctrl) {
             (Code::Left, false) => (self.left(), false),
             (Code::Right, false) => (self.right(), false),
             (Code::Left, true) => (self.word_left(), false),
             (Code::Right, true) => (self.word_right(), false),
-            (Code::Up, _) if row == 0 => (Spot::default(), false),
+            (Code::Up, _) if row == 0 => (Caret::default(), false),
             (Code::Up, _) => (upright(row - 1), true),
-            (Code::Down, _) if row == last => (Spot { row, column: self.length(row) }, false),
+            (Code::Down, _) if row == last => (Caret { row, column: self.length(row) }, false),
             (Code::Down, _) => (upright(row + 1), true),
             (Code::PageUp, _) => (upright(row.saturating_sub(page.max(1))), true),
             (Code::PageDown, _) => (upright((row + page.max(1)).min(last)), true),
-            (Code::Home, true) => (Spot::default(), false),
-            (Code::End, true) => (Spot { row: last, column: self.length(last) }, false),
+            (Code::Home, true) => (Caret::default(), false),
+            (Code::End, true) => (Caret { row: last, column: self.length(last) }, false),
             (Code::Home, false) | (Code::Char('a'), true) => {
                 let blank = self.lines[row].chars().take_while(|c| c.is_whitespace()).count();
-                (Spot { row, column: if column == blank { 0 } else { blank } }, false)
+                (Caret { row, column: if column == blank { 0 } else { blank } }, false)
             }
             (Code::End, false) | (Code::Char('e'), true) => {
-                (Spot { row, column: self.length(row) }, false)
+                (Caret { row, column: self.length(row) }, false)
             }
             _ => return,
         };
@@ -349,29 +349,29 @@ impl Editor {
         self.goal = keeps_goal.then_some(goal);
     }
 
-    fn left(&self) -> Spot {
-        let Spot { row, column } = self.cursor;
+    fn left(&self) -> Caret {
+        let Caret { row, column } = self.cursor;
         match (row, column) {
             (0, 0) => self.cursor,
-            (_, 0) => Spot { row: row - 1, column: self.length(row - 1) },
-            _ => Spot { row, column: column - 1 },
+            (_, 0) => Caret { row: row - 1, column: self.length(row - 1) },
+            _ => Caret { row, column: column - 1 },
         }
     }
 
-    fn right(&self) -> Spot {
-        let Spot { row, column } = self.cursor;
+    fn right(&self) -> Caret {
+        let Caret { row, column } = self.cursor;
         if column < self.length(row) {
-            Spot { row, column: column + 1 }
+            Caret { row, column: column + 1 }
         } else if row + 1 < self.lines.len() {
-            Spot { row: row + 1, column: 0 }
+            Caret { row: row + 1, column: 0 }
         } else {
             self.cursor
         }
     }
 
     /// To the beginning of a word.
-    fn word_left(&self) -> Spot {
-        let Spot { row, column } = self.cursor;
+    fn word_left(&self) -> Caret {
+        let Caret { row, column } = self.cursor;
         if column == 0 {
             return self.left();
         }
@@ -383,12 +383,12 @@ impl Editor {
         while at > 0 && is_word(line[at - 1]) {
             at -= 1;
         }
-        Spot { row, column: at }
+        Caret { row, column: at }
     }
 
     /// Behind the end of a word.
-    fn word_right(&self) -> Spot {
-        let Spot { row, column } = self.cursor;
+    fn word_right(&self) -> Caret {
+        let Caret { row, column } = self.cursor;
         let line: Vec<char> = self.lines[row].chars().collect();
         if column == line.len() {
             return self.right();
@@ -400,7 +400,7 @@ impl Editor {
         while at < line.len() && is_word(line[at]) {
             at += 1;
         }
-        Spot { row, column: at }
+        Caret { row, column: at }
     }
 }
 
@@ -409,11 +409,11 @@ fn is_word(c: char) -> bool {
 }
 
 /// Where a text ends that begins here.
-fn end_of(at: Spot, text: &str) -> Spot {
+fn end_of(at: Caret, text: &str) -> Caret {
     match text.rsplit_once('\n') {
-        None => Spot { row: at.row, column: at.column + text.chars().count() },
+        None => Caret { row: at.row, column: at.column + text.chars().count() },
         Some((above, last)) => {
-            Spot { row: at.row + 1 + above.matches('\n').count(), column: last.chars().count() }
+            Caret { row: at.row + 1 + above.matches('\n').count(), column: last.chars().count() }
         }
     }
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Checked, Key, NotSaved};
+use super::{Act, Checked, Key, NotSaved, Spot};
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -23,6 +23,8 @@ pub enum Event {
     Paste(String),
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
+    /// The mouse did something at a spot that `view` has found.
+    Mouse(Act, Spot),
     /// The window of the terminal has got the keyboard, or lost it.
     Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
@@ -59,6 +61,8 @@ pub struct Drawn {
     pub rows: u16,
     /// How many columns of a text being edited it holds.
     pub columns: u16,
+    /// Where the terminal's cursor belongs, column and row: in the text being typed, or at the line being read.
+    pub cursor: Option<(u16, u16)>,
 }
 
 /// A system ready to be looked at.

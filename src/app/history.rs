@@ -1,28 +1,83 @@
-//! Undo: the changes of values, to be taken back and done again.
+//! Undo: all that a person changed of values, method and pictures, to be taken back and done again in one order.
 //!
-//! In: changes as they are made. Out: the change to be made instead. Never here: how a value is set.
+//! In: changes as they are made. Out: the change to be taken back or made again. Never here: how it is carried out.
+//! Where a person looks (the focus, the page, a pane that fills the page) is no change.
 
 use std::time::Duration;
 
-use super::Target;
+use super::Plot;
+use crate::integrate::Settings;
+use crate::system::Given;
 
-/// Changes of one value that follow each other within this time are taken back together.
+/// Changes of one thing that follow each other within this time are taken back together.
 const TOGETHER: Duration = Duration::from_millis(800);
 
 /// One change that can be taken back.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Change {
-    /// A value went from one number to another.
-    Value {
+    /// A parameter went from one number to another.
+    Parameter {
         /// Which.
-        target: Target,
-        /// The number before.
-        from: f64,
-        /// The number after.
-        to: f64,
+        index: usize,
+        /// The number before, and after.
+        numbers: [f64; 2],
     },
+    /// An initial value was given.
+    Initial {
+        /// Which.
+        index: usize,
+        /// What stood there before, and after.
+        numbers: [f64; 2],
+        /// All that was given in place of the file's values before, and after.
+        given: [Vec<Given>; 2],
+    },
+    /// Several initial values were given at once: all that was given before, and after.
+    Start([Vec<Given>; 2]),
     /// All values were given back to the file; these are the ones before.
-    FullReset(Vec<(Target, f64)>),
+    FullReset {
+        /// The parameters.
+        parameters: Vec<f64>,
+        /// What was given in place of the file's initial values.
+        given: Vec<Given>,
+    },
+    /// A picture shows something else, or is looked at in another way.
+    Plot {
+        /// Its place among the pictures.
+        index: usize,
+        /// It before, and after.
+        plots: Box<[Plot; 2]>,
+    },
+    /// Another method integrates: its name before, and after.
+    Method([&'static str; 2]),
+    /// It has another step or tolerance: before, and after.
+    Settings([Settings; 2]),
+}
+
+impl Change {
+    /// Takes in a later change of the same thing; whether it is one that goes together with it.
+    fn join(&mut self, later: &Self) -> bool {
+        match (self, later) {
+            (
+                Self::Parameter { index, numbers },
+                Self::Parameter { index: other, numbers: [_, to] },
+            ) if index == other => numbers[1] = *to,
+            (
+                Self::Initial { index, numbers, given },
+                Self::Initial { index: other, numbers: [_, to], given: [_, after] },
+            ) if index == other => {
+                numbers[1] = *to;
+                given[1].clone_from(after);
+            }
+            (Self::Start(given), Self::Start([_, after])) => given[1].clone_from(after),
+            (Self::Plot { index, plots }, Self::Plot { index: other, plots: later })
+                if index == other && plots[0].differs_smoothly(&later[1]) =>
+            {
+                plots[1] = later[1].clone();
+            }
+            _ => return false,
+        }
+        true
+    }
 }
 
 /// What was changed, and what of it was taken back.
@@ -31,25 +86,33 @@ pub(super) struct History {
     done: Vec<Change>,
     undone: Vec<Change>,
     since: Option<Duration>,
+    /// How much was done when the mouse took hold of something.
+    grip: Option<usize>,
 }
 
 impl History {
     /// Takes note of a change made now.
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
-        let soon = self.since.is_some_and(|since| since < TOGETHER);
+        let together = match self.grip {
+            // All that is done while the mouse holds on is one change, however long it takes.
+            Some(before) => self.done.len() > before,
+            None => self.since.is_some_and(|since| since < TOGETHER),
+        };
         self.since = Some(Duration::ZERO);
-        if let (
-            true,
-            Some(Change::Value { target: last, to: end, .. }),
-            Change::Value { target, to, .. },
-        ) = (soon, self.done.last_mut(), &change)
-            && last == target
-        {
-            *end = *to;
-            return;
+        if !(together && self.done.last_mut().is_some_and(|last| last.join(&change))) {
+            self.done.push(change);
         }
-        self.done.push(change);
+    }
+
+    /// The mouse takes hold of something.
+    pub(super) fn grip(&mut self) {
+        self.grip = Some(self.done.len());
+    }
+
+    /// The mouse lets go.
+    pub(super) fn release(&mut self) {
+        (self.grip, self.since) = (None, None);
     }
 
     /// Time has passed.

@@ -31,6 +31,8 @@ pub enum Place {
     Gauges,
     /// A page of text, the help included.
     Text,
+    /// The page of plain reading.
+    Plain,
     /// A pop-up list.
     Menu,
     /// The editor of a system's file.
@@ -43,7 +45,7 @@ pub enum Place {
 
 impl Place {
     /// Every place, in the order of the help page.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Anywhere,
         Self::Picker,
         Self::Search,
@@ -54,6 +56,7 @@ impl Place {
         Self::Values,
         Self::Gauges,
         Self::Text,
+        Self::Plain,
         Self::Menu,
         Self::Workbench,
         Self::Field,
@@ -75,6 +78,7 @@ impl Place {
             Self::Values => "Parameters and initial values",
             Self::Gauges => "Gauges",
             Self::Text => "Pages of text",
+            Self::Plain => "Plain reading",
             Self::Menu => "Pop-up lists",
             Self::Workbench => "Editing the file",
             Self::Field => "Typing a value",
@@ -85,8 +89,8 @@ impl Place {
 
 /// The places that can be active together, the innermost first.
 #[rustfmt::skip]
-pub const CHAINS: [&[Place]; 12] = {
-    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plot, Search, Space, Text, Typing, Values, Workbench};
+pub const CHAINS: [&[Place]; 13] = {
+    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
     [
         &[Picker, Anywhere, Always],
         &[Search, Typing, Always],
@@ -95,6 +99,7 @@ pub const CHAINS: [&[Place]; 12] = {
         &[Values, Lab, Experiment, Anywhere, Always],
         &[Gauges, Lab, Experiment, Anywhere, Always],
         &[Text, Experiment, Anywhere, Always],
+        &[Plain, Experiment, Anywhere, Always],
         &[Text, Anywhere, Always],
         &[Menu, Anywhere, Always],
         &[Menu, Typing, Always],
@@ -163,6 +168,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[c('?'), Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
     row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave phaselab at once"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
+    row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),
 
     row(Place::Picker, &[UP], Action::Move(Way::Up), "", "the system above"),
@@ -202,9 +208,12 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),
     row(Place::Experiment, &[c('M')], Action::Mouse, "", "have the mouse reported, or leave it to the terminal to select text"),
 
+    row(Place::Experiment, &[c('9')], Action::Show(Page::Plain), "", "page 9: all that is on the screen as plain text that keeps still, to be read line by line"),
+
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
     row(Place::Lab, &[c('b')], Action::Strike, "strike", "strike a blow of the file that waits for a key"),
+    row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "look at the motion in space from the next frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
     row(Place::Space, &[LEFT, c('h')], Action::Move(Way::Left), "turn", "turn the picture to the left"),
@@ -214,7 +223,6 @@ pub const KEYS: &[Binding] = &[
     row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
     row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the view as it was at first"),
-    row(Place::Space, &[c('f')], Action::NextFrame, "frame", "look from the next frame of the file, or from the axes again"),
     row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows"),
 
     row(Place::Plot, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
@@ -225,6 +233,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('y')], Action::Closer(Axes::Upwards), "", "stretch the axis upwards"),
     row(Place::Plot, &[c('Y')], Action::Farther(Axes::Upwards), "", "shrink the axis upwards"),
     row(Place::Plot, &[c('g')], Action::Log, "", "make the axis upwards logarithmic, or linear again"),
+    row(Place::Plot, &[c('o')], Action::Equal, "", "one to one: a unit as long across as upwards, or fill the pane again"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
     row(Place::Plot, &[LEFT, c('h')], Action::Move(Way::Left), "move", "move the window, or the cursor, to the left"),
     row(Place::Plot, &[RIGHT, c('l')], Action::Move(Way::Right), "", "move the window, or the cursor, to the right"),
@@ -252,6 +261,15 @@ pub const KEYS: &[Binding] = &[
     row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a screenful on"),
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
     row(Place::Text, &[END, c('G')], Action::Last, "", "to the end"),
+
+    row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the present"),
+    row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the present anew every two seconds, or only when asked"),
+    row(Place::Plain, &[UP, c('k')], Action::Move(Way::Up), "", "the line above"),
+    row(Place::Plain, &[DOWN, c('j')], Action::Move(Way::Down), "line", "the line below"),
+    row(Place::Plain, &[PAGE_UP], Action::PageUp, "", "a screenful back"),
+    row(Place::Plain, &[PAGE_DOWN], Action::PageDown, "", "a screenful on"),
+    row(Place::Plain, &[HOME, c('g')], Action::First, "", "the first line"),
+    row(Place::Plain, &[END, c('G')], Action::Last, "", "the last line"),
 
     row(Place::Menu, &[UP], Action::Move(Way::Up), "", "the line above"),
     row(Place::Menu, &[DOWN], Action::Move(Way::Down), "choose", "the line below"),

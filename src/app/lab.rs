@@ -8,11 +8,12 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::history::{Change, History};
+use super::change::Wishes;
+use super::history::History;
 use super::landscape::{self, Survey};
 use super::plot::{Eye, Plot};
-use super::{Effect, Loaded, Target};
-use crate::experiment::{Command, Snapshot};
+use super::{Loaded, Target};
+use crate::experiment::Snapshot;
 use crate::expr::Zero;
 use crate::model::Shape;
 
@@ -61,6 +62,8 @@ pub struct Lab {
     pub(super) surveys: Vec<Survey>,
     /// Values asked for and not yet seen.
     pub(super) wishes: Vec<(Target, f64)>,
+    /// What else was asked for and not yet seen.
+    pub(super) asked: Wishes,
     /// The speed asked for and not yet seen.
     pub(super) speed_wish: Option<f64>,
     pub(super) history: History,
@@ -115,6 +118,7 @@ impl Lab {
             selection: Selection::default(),
             surveys: Vec::new(),
             wishes: Vec::new(),
+            asked: Wishes::default(),
             speed_wish: None,
             history: History::default(),
         }
@@ -126,11 +130,17 @@ impl Lab {
             return false;
         }
         self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
+        self.asked.see(&snapshot);
         self.snapshot = Some(snapshot);
-        self.surveys = self.seen().map_or_else(Vec::new, |seen| landscape::surveyed(self, seen));
+        self.survey();
         let wishes = std::mem::take(&mut self.wishes);
         self.wishes = wishes.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true
+    }
+
+    /// Surveys the landscapes that the pictures need and do not have.
+    pub(super) fn survey(&mut self) {
+        self.surveys = self.seen().map_or_else(Vec::new, |seen| landscape::surveyed(self, seen));
     }
 
     /// What an eye sees: each shape, and whether it is a rod.
@@ -143,11 +153,13 @@ impl Lab {
 
     /// The newest snapshot, if it says all that the system has to show; one that tells of a panic does not.
     pub fn seen(&self) -> Option<&Snapshot> {
-        let whole = |s: &&Snapshot| {
-            s.parameters.len() == self.loaded.model.parameters.len()
-                && s.values.len() == self.loaded.system.channels().len()
-        };
-        self.snapshot.as_deref().filter(whole)
+        self.snapshot.as_deref().filter(|snapshot| self.fits(snapshot))
+    }
+
+    /// Whether a snapshot says all that the system has to show.
+    pub fn fits(&self, snapshot: &Snapshot) -> bool {
+        snapshot.parameters.len() == self.loaded.model.parameters.len()
+            && snapshot.values.len() == self.loaded.system.channels().len()
     }
 
     /// Time has passed.
@@ -191,46 +203,6 @@ impl Lab {
         *place = to(*place).min(count.saturating_sub(1));
     }
 
-    /// Changes a value, to be taken back if asked.
-    pub(super) fn change(&mut self, target: Target, to: f64) -> Vec<Effect> {
-        let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
-        self.history.note(Change::Value { target, from, to });
-        vec![self.set(target, to)]
-    }
-
-    /// All values back to the file's.
-    pub(super) fn full_reset(&mut self) -> Vec<Effect> {
-        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
-        let initial = (0..self.count(Target::Initial)).map(Target::Initial);
-        let before = parameters.chain(initial).filter_map(|t| Some((t, self.value(t)?))).collect();
-        self.history.note(Change::FullReset(before));
-        self.wishes.clear();
-        vec![Effect::Tell(Command::FullReset)]
-    }
-
-    /// Takes the last change back; nothing if there is none.
-    pub(super) fn undo(&mut self) -> Option<Vec<Effect>> {
-        Some(match self.history.undo()? {
-            Change::Value { target, from, .. } => vec![self.set(target, from)],
-            Change::FullReset(before) => {
-                let other = |(t, v): &(Target, f64)| self.value(*t) != Some(*v);
-                let changed: Vec<_> = before.into_iter().filter(other).collect();
-                changed.into_iter().map(|(target, value)| self.set(target, value)).collect()
-            }
-        })
-    }
-
-    /// Makes the change last taken back again; nothing if there is none.
-    pub(super) fn redo(&mut self) -> Option<Vec<Effect>> {
-        Some(match self.history.redo()? {
-            Change::Value { target, to, .. } => vec![self.set(target, to)],
-            Change::FullReset(_) => {
-                self.wishes.clear();
-                vec![Effect::Tell(Command::FullReset)]
-            }
-        })
-    }
-
     /// The value that the file gives.
     pub(super) fn of_file(&self, target: Target) -> Option<f64> {
         match target {
@@ -240,14 +212,5 @@ impl Lab {
                 self.loaded.system.initial_values(parameters).get(index).copied()
             }
         }
-    }
-
-    fn set(&mut self, target: Target, value: f64) -> Effect {
-        self.wishes.retain(|(t, _)| *t != target);
-        self.wishes.push((target, value));
-        Effect::Tell(match target {
-            Target::Parameter(index) => Command::Parameter { index, value },
-            Target::Initial(index) => Command::Initial { index, value },
-        })
     }
 }

@@ -34,6 +34,8 @@ pub enum Choosing {
     Action,
     /// A blow.
     Blow,
+    /// A theme.
+    Theme,
     /// What runs along the axis of the plot of this index.
     Across {
         /// Its place among the plots.
@@ -86,12 +88,14 @@ pub enum Choice {
     Value(Target),
     /// A pane of the lab.
     Pane(Pane),
+    /// The theme of this place among all.
+    Theme(usize),
 }
 
 impl Menu {
     /// A list on its first line.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let plain = matches!(purpose, Choosing::Method | Choosing::Blow);
+        let plain = matches!(purpose, Choosing::Method | Choosing::Blow | Choosing::Theme);
         let filter = (!plain).then(Input::default);
         Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
     }

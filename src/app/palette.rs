@@ -25,6 +25,7 @@ impl App {
             items.extend(lab.pane_lines());
             items.extend(method_lines(&lab.loaded.system));
         }
+        items.extend(self.theme_lines());
         items.extend(self.system_lines());
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
         self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
@@ -46,6 +47,9 @@ impl App {
 
     /// Why an action can do nothing with the loaded system; most always can.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
+        if let (Action::Mark, Some(Over::Menu(menu))) = (action, &self.over) {
+            return (!menu.takes_several()).then_some("one line is taken here");
+        }
         let lab = self.lab.as_ref()?;
         match action {
             Action::Strike if lab.blows().is_empty() => {
@@ -56,6 +60,17 @@ impl App {
             }
             _ => None,
         }
+    }
+
+    /// A line for each theme.
+    fn theme_lines(&self) -> impl Iterator<Item = Item> {
+        self.themes.iter().enumerate().map(|(index, (name, about))| Item {
+            label: format!("theme: {name}"),
+            about: (*about).to_owned(),
+            keys: String::new(),
+            refusal: None,
+            choice: Choice::Theme(index),
+        })
     }
 
     /// A line for each system of the catalog.
@@ -116,6 +131,7 @@ fn where_it_holds(place: Place) -> &'static str {
         Place::Values => "it is for parameters or initial values; Tab focuses them",
         Place::Gauges => "it is for the gauges; Tab focuses them",
         Place::Text => "it is for pages of text",
+        Place::Plain => "it is for page 9, the plain reading",
         Place::Menu => "it is for pop-up lists, as this one",
         Place::Workbench => "it is for the editor of the system's file, which E opens",
         Place::Field => "it is for a field in which a value is typed",
@@ -191,16 +207,15 @@ impl Lab {
         };
         let channels = self.loaded.system.channels();
         let shown = |channel: &usize| channels.get(*channel).map_or("?", |c| c.shown.as_str());
-        let title = |view: usize| self.loaded.model.views.get(view).map(|view| &view.title);
-        let titled = |view: Option<usize>, else_called: &str| {
-            let title = view.and_then(title).filter(|title| !title.is_empty());
-            title.map_or(else_called, String::as_str).to_owned()
-        };
-        match self.plots.get(index) {
+        let plot = self.plots.get(index);
+        if let Some(title) = plot.and_then(|plot| plot.title(&self.loaded)) {
+            return title.to_owned();
+        }
+        match plot {
             None => "nothing".to_owned(),
-            Some(Plot::Space(eye)) => titled(eye.view, "motion in space"),
+            Some(Plot::Space(_)) => "motion in space".to_owned(),
             Some(Plot::Phase { x, y, .. }) => format!("{} against {}", shown(y), shown(x)),
-            Some(Plot::Potential { view, .. }) => titled(Some(*view), "potential"),
+            Some(Plot::Potential { .. }) => "potential".to_owned(),
             Some(Plot::Time { y, .. }) => {
                 let names: Vec<&str> = y.iter().map(shown).collect();
                 format!("{} against t", names.join(", "))

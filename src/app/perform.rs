@@ -3,6 +3,7 @@
 //! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; what a pop-up list offers.
 
 use super::field::Field;
+use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
 use crate::experiment::{Command, Status};
@@ -16,6 +17,8 @@ impl App {
             Action::Repaint => vec![Effect::Repaint],
             Action::Help => self.help(),
             Action::Palette => self.open_palette(),
+            Action::ReadAnew | Action::ReadOn => self.read_by(action),
+            Action::ChooseTheme => self.open_themes(),
             Action::Mouse => self.switch_mouse(),
             Action::FewerFrames => self.change_frames(false),
             Action::MoreFrames => self.change_frames(true),
@@ -67,6 +70,7 @@ impl App {
             Action::Reset | Action::FullReset => {
                 // What was told of the motion before is no longer so.
                 self.notice = None;
+                self.news.clear();
                 if action == Action::FullReset {
                     return lab.full_reset();
                 }
@@ -112,6 +116,10 @@ impl App {
             Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
             Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
             Action::Log => self.with_lens(|lens| lens.log = !lens.log),
+            Action::Equal => match lab.focused_plot() {
+                Some((_, Plot::Phase { .. })) => self.with_lens(|lens| lens.equal = !lens.equal),
+                _ => self.say("Only where one quantity stands against another can units be equal."),
+            },
             Action::Cursor => self.with_lens(|lens| {
                 lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
@@ -130,24 +138,31 @@ impl App {
     fn with_plot(&mut self, change: impl FnOnce(&mut Plot, &super::Loaded)) -> Vec<Effect> {
         if let Some(lab) = &mut self.lab
             && let Pane::Plot(index) = lab.focus
-            && let Some(plot) = lab.plots.get_mut(index)
         {
-            change(plot, &lab.loaded);
+            lab.redraw(index, change);
         }
         Vec::new()
     }
 
-    /// The focused picture is seen from the next frame; after the last from the axes of the file.
+    /// The focused picture, or else the first of the motion in space, is seen from the next frame; after the last from
+    /// the axes of the file.
     fn next_frame(&mut self) -> Vec<Effect> {
         let count = self.lab.as_ref().map_or(0, |lab| lab.loaded.model.frames.len());
         if count == 0 {
             return self.say("This system has no frames to look from.");
         }
-        self.with_plot(|plot, _| {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
+        let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
+        let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
+            return self.say("No picture shows the motion in space; v chooses what a pane shows.");
+        };
+        lab.redraw(picture, |plot, _| {
             if let Plot::Space(eye) = plot {
                 eye.frame = Some(eye.frame.map_or(0, |frame| frame + 1)).filter(|f| *f < count);
             }
-        })
+        });
+        Vec::new()
     }
 
     fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
@@ -211,7 +226,9 @@ impl App {
                 }
                 self.go(Page::Picker);
             }
-            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.go(Page::Lab),
+            (Page::Equations | Page::Notes | Page::Numbers | Page::Plain, Some(_)) => {
+                self.go(Page::Lab);
+            }
         }
         Vec::new()
     }
@@ -226,7 +243,7 @@ impl App {
     }
 
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
-    fn jump(&mut self, by: isize) -> Vec<Effect> {
+    pub(super) fn jump(&mut self, by: isize) -> Vec<Effect> {
         match &mut self.over {
             Some(Over::Menu(menu)) => menu.step(by),
             Some(Over::Field(_) | Over::Prompt(_) | Over::Workbench) => {}
@@ -241,6 +258,11 @@ impl App {
                     lab.select(|place| place.saturating_add_signed(by));
                 }
                 (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.roll(by),
+                (Page::Plain, Some(_)) => {
+                    let last = usize::from(self.drawn.beyond + self.drawn.rows).saturating_sub(1);
+                    let line = self.reading.line.saturating_add_signed(by);
+                    self.reading.line = line.min(last);
+                }
             },
         }
         Vec::new()
@@ -253,7 +275,8 @@ impl App {
 
     /// How far a page up or down goes.
     fn screenful(&self) -> isize {
-        let text = self.places().contains(&super::keymap::Place::Text);
+        let places = self.places();
+        let text = places.contains(&Place::Text) || places.contains(&Place::Plain);
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
 

@@ -75,6 +75,14 @@ impl Picker {
         }
     }
 
+    /// Selects the system of a place among those shown.
+    pub(super) fn point(&mut self, place: usize) {
+        if place != self.selected && place < self.shown().len() {
+            self.selected = place;
+            self.touch();
+        }
+    }
+
     /// Changes the search, and selects the best that fits.
     pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
         change(self.search.get_or_insert_default());

@@ -65,13 +65,17 @@ pub struct Lens {
     pub pan: [f64; 2],
     /// Whether the axis upwards is logarithmic.
     pub log: bool,
+    /// Whether a unit is as long across as upwards.
+    #[serde(default)]
+    pub equal: bool,
     /// Where the cursor stands, in parts of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
 }
 
 impl Lens {
     /// All of the motion.
-    pub const WHOLE: Self = Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, cursor: None };
+    pub const WHOLE: Self =
+        Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, equal: false, cursor: None };
 
     /// One step in a direction: of the cursor if there is one, else of the window.
     fn shift(&mut self, step: [f64; 2]) {
@@ -175,6 +179,17 @@ impl Plot {
         }
     }
 
+    /// The title that the file gives to a view of the same quantities.
+    pub fn title<'a>(&self, loaded: &'a Loaded) -> Option<&'a str> {
+        let views = loaded.model.views.iter().enumerate();
+        let same = |index| {
+            let plot = Self::of_view(loaded, index);
+            plot.is_some_and(|plot| plot.shows_the_same(self, &loaded.model))
+        };
+        let titled = views.filter(|(_, view)| !view.title.is_empty());
+        titled.filter(|(index, _)| same(*index)).map(|(_, view)| view.title.as_str()).next()
+    }
+
     /// Whether both show the same quantities, however they are looked at.
     fn shows_the_same(&self, other: &Self, model: &Model) -> bool {
         match (self, other) {
@@ -187,6 +202,24 @@ impl Plot {
             (Self::Potential { view, .. }, Self::Potential { view: other, .. }) => view == other,
             _ => false,
         }
+    }
+
+    /// Whether the other shows the same from another place: turned, moved, closer or with another cursor.
+    pub(super) fn differs_smoothly(&self, other: &Self) -> bool {
+        self.at_rest() == other.at_rest()
+    }
+
+    /// The same seen from the place of the beginning.
+    fn at_rest(&self) -> Self {
+        let mut plot = self.clone();
+        match &mut plot {
+            Self::Space(eye) => (eye.yaw, eye.pitch, eye.zoom) = (0.0, 0.0, 1.0),
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
+                let cursor = lens.cursor.map(|_| [0.0; 2]);
+                *lens = Lens { log: lens.log, equal: lens.equal, cursor, ..Lens::WHOLE };
+            }
+        }
+        plot
     }
 
     /// Turns the picture, or moves the window.
@@ -221,6 +254,33 @@ impl Plot {
                 };
                 chosen.iter_mut().for_each(nearer);
             }
+        }
+    }
+
+    /// What the mouse holds goes with it, by parts of the width and of the height: the picture turns, the window moves.
+    pub(super) fn drag(&mut self, by: [f64; 2]) {
+        match self {
+            Self::Space(eye) => {
+                eye.yaw = (eye.yaw - by[0] * PI).rem_euclid(TAU);
+                eye.pitch = (eye.pitch - by[1] * PI).clamp(-FRAC_PI_2, FRAC_PI_2);
+            }
+            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
+                lens.pan = [0, 1].map(|k| lens.pan[k] - by[k]);
+            }
+        }
+    }
+
+    /// Looks closer or from farther away, so that what is at a place (parts of the width and of the height) stays there.
+    pub(super) fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
+        // A window on time ends at the present, any other has its own middle.
+        let anchor = [if matches!(self, Self::Time { .. }) { 1.0 } else { 0.5 }, 0.5];
+        let before = self.lens().map(|lens| lens.zoom);
+        self.zoom(factor, Axes::Both);
+        if let (Some(before), Some(lens)) = (before, self.lens()) {
+            lens.pan = [0, 1].map(|k| {
+                let nearer = lens.zoom[k] / before[k];
+                (lens.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
+            });
         }
     }
 

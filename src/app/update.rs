@@ -15,6 +15,7 @@ impl App {
         match event {
             Event::Key(key) => self.press(key),
             Event::Paste(text) => self.paste(&text),
+            Event::Mouse(act, spot) => self.point(act, spot),
             Event::Resize(..) | Event::Focus(_) => Vec::new(),
             Event::Snapshot(snapshot) => self.see(&snapshot),
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),
@@ -27,7 +28,8 @@ impl App {
             Event::Written(Err(sentence)) => self.say(sentence),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
-                self.notice = self.notice.take().and_then(|notice| notice.after(elapsed));
+                self.reading.tick(elapsed);
+                self.news.tick(&mut self.notice, elapsed);
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
@@ -59,9 +61,12 @@ impl App {
     }
 
     fn press(&mut self, key: Key) -> Vec<Effect> {
+        self.drop_hold();
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {
-            return self.perform(action);
+            let effects = self.perform(action);
+            self.expect(&effects);
+            return effects;
         }
         // Over a slow line Esc and the next key arrive together, and look like one key with Alt.
         if key.alt && !self.is_typing() {
@@ -115,13 +120,13 @@ impl App {
 
     fn see(&mut self, snapshot: &Arc<Snapshot>) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let before = lab.snapshot.as_ref().and_then(|s| s.notices.last().cloned());
+        let before = lab.snapshot.as_ref().map(|s| Arc::clone(&s.notices)).unwrap_or_default();
         let steps = snapshot.method.steps;
         if lab.see(Arc::clone(snapshot)) {
             self.meter.count(steps);
-            let news = snapshot.notices.last().filter(|news| before.as_ref() != Some(news));
-            if let Some(news) = news {
-                self.notice = Some(Notice::info(news.clone()));
+            self.reading.see(snapshot);
+            for sentence in news(&before, &snapshot.notices) {
+                self.news.tell(&mut self.notice, Notice::info(sentence.clone()));
             }
         }
         Vec::new()
@@ -129,8 +134,11 @@ impl App {
 
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
+        self.drop_hold();
         self.lab = Some(Lab::new(loaded));
-        self.notice = None;
+        // What went wrong is not less so because something else is there.
+        self.notice.take_if(|notice| !notice.error);
+        self.news.clear();
         self.meter.forget();
         self.picker.failure = None;
         if answered == Some(true) {
@@ -157,7 +165,16 @@ impl App {
     /// Shows a page from its beginning.
     pub(super) fn go(&mut self, page: Page) {
         (self.page, self.over, self.scroll) = (page, None, 0);
+        if page == Page::Plain {
+            self.read();
+        }
     }
+}
+
+/// The sentences of `now` that came after those of `before`; old ones may have gone at the front.
+fn news<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
+    let mut known = (0..=before.len().min(now.len())).rev();
+    &now[known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0)..]
 }
 
 /// In the list of systems any letter that is no key begins a search.

@@ -6,6 +6,7 @@
 use super::Lab;
 use crate::expr::portable;
 use crate::model::Scale;
+use crate::system::ChannelKind;
 
 /// One value that can be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -70,7 +71,12 @@ impl Lab {
                         "" => String::new(),
                         time => format!("{}/{time}", c.unit),
                     },
-                    "momentum" => String::new(),
+                    "momentum" => {
+                        let kind = ChannelKind::Momentum(index % count.max(1));
+                        let channels = self.loaded.system.channels();
+                        let channel = channels.iter().find(|channel| channel.kind == kind);
+                        channel.map_or_else(String::new, |channel| channel.unit.clone())
+                    }
                     _ => c.unit.clone(),
                 };
                 Some(Facts {
@@ -106,6 +112,21 @@ impl Lab {
         let value = self.value(target)?;
         let range = self.facts(target)?.range;
         Some(step(value, range, f64::from(sign), if coarse { 10.0 } else { 1.0 }))
+    }
+}
+
+impl Lab {
+    /// A value as it would be set by hand: a whole number of fine steps within its range, whose ends are exact.
+    pub(super) fn rounded(&self, target: Target, value: f64) -> f64 {
+        match self.facts(target).and_then(|facts| facts.range) {
+            Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
+            Some((min, max, Scale::Log)) if min > 0.0 => significant(value, 3).clamp(min, max),
+            Some((min, max, _)) => {
+                let fine = nice_step((max - min) / 200.0);
+                significant((value / fine).round() * fine, 12).clamp(min, max)
+            }
+            None => value,
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use tui_input::Input;
 
-use super::editor::{Editor, Spot};
+use super::editor::{Caret, Editor};
 use super::field::{edit, paste};
 use super::{App, Effect, Key, Lab, Loaded, Notice, Over};
 use crate::preset::{Mistake, Origin, Severity, TEXT_LIMIT, is_path};
@@ -60,9 +60,9 @@ pub struct Workbench {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Flaw {
     /// Where it begins.
-    pub from: Spot,
+    pub from: Caret,
     /// Where it ends, on the same line.
-    pub to: Spot,
+    pub to: Caret,
     /// Whether the text can still be used.
     pub warning: bool,
     /// What is wrong.
@@ -209,7 +209,7 @@ impl Workbench {
             let column = if end.row == from.row { end.column } else { length };
             Flaw {
                 from,
-                to: Spot { row: from.row, column: column.max(from.column) },
+                to: Caret { row: from.row, column: column.max(from.column) },
                 warning: mistake.severity == Severity::Warning,
                 message: mistake.message.clone(),
                 help: mistake.help.clone(),

@@ -1,6 +1,8 @@
 //! What can be asked of an experiment: plain data that can be logged and replayed.
 
 use super::Moment;
+use crate::integrate::Settings;
+use crate::system::Given;
 
 /// One request.
 #[derive(Clone, PartialEq, Debug)]
@@ -28,6 +30,8 @@ pub enum Command {
         /// Its new value.
         value: f64,
     },
+    /// Begins the motion anew with these in place of the file's initial values, and with no others.
+    Start(Vec<Given>),
     /// Strikes the motion now with the impulse of this index.
     Strike(usize),
     /// Back to the initial values; parameters stay.
@@ -40,6 +44,8 @@ pub enum Command {
     StepSize(f64),
     /// The tolerance of an adaptive method.
     Tolerance(f64),
+    /// The step and the tolerance of the method, each as asked for or left to the method.
+    Settings(Settings),
     /// Takes the present values as the gauges' reference.
     Reference,
     /// Takes up a motion that was left elsewhere.

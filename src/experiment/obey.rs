@@ -4,10 +4,10 @@
 //! of Dynamics*, § 1.3.3 with no blow.
 
 use super::gauges::Gauges;
-use super::setup::choose_method;
+use super::setup::{choose_method, with_given};
 use super::{Command, Experiment, NoMethod};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::system::{self, ChannelKind, Form, Given, State};
+use crate::system::{self, ChannelKind, State};
 
 /// How many notices are kept.
 const NOTICES: usize = 16;
@@ -29,6 +29,10 @@ impl Experiment {
             Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
             Command::Parameter { index, value } => self.change_parameter(index, value),
             Command::Initial { index, value } => self.change_initial(index, value),
+            Command::Start(given) => {
+                self.setup.given = given;
+                self.restart();
+            }
             Command::Strike(index) => self.strike(index),
             Command::Reset => self.restart(),
             Command::FullReset => {
@@ -40,6 +44,7 @@ impl Experiment {
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
             Command::TakeUp(moment) => self.take_up(&moment),
+            Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
                 self.tell(format!("the gauges measure from t = {}", short(self.time())));
@@ -119,20 +124,10 @@ impl Experiment {
     }
 
     fn change_initial(&mut self, index: usize, value: f64) {
-        let system = self.system();
-        let n = system.degrees();
-        let given = match (index < n, system.form()) {
-            (true, _) => Given::Position(index, value),
-            (false, Form::Velocity) => Given::Velocity(index - n, value),
-            (false, Form::Momentum | Form::Variables) => Given::Momentum(index - n, value),
-        };
-        if index >= system.moving() || !value.is_finite() {
+        if index >= self.system().moving() || !value.is_finite() {
             return self.tell(format!("an initial value cannot be {value}"));
         }
-        let is_rate = |g: &Given| matches!(g, Given::Velocity(i, _) | Given::Momentum(i, _) if i + n == index);
-        let same = |g: &Given| is_rate(g) || matches!(g, Given::Position(i, _) if *i == index);
-        self.setup.given.retain(|g| !same(g));
-        self.setup.given.push(given);
+        self.setup.given = with_given(self.system(), &self.setup.given, index, value);
         self.restart();
     }
 

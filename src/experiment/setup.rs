@@ -3,7 +3,7 @@
 use crate::expr::{Symbol, nearest};
 use crate::integrate::{METHODS, Method, Refusal, Settings};
 use crate::model::Model;
-use crate::system::{Given, System};
+use crate::system::{Form, Given, System};
 
 /// Everything an experiment is told at its beginning.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -53,6 +53,22 @@ impl Setup {
         let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
         index.map(|i| self.parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
     }
+}
+
+/// What is given in place of the file's initial values once the one of an index (coordinates first, then velocities or
+/// momenta) is given too.
+pub fn with_given(system: &System, before: &[Given], index: usize, value: f64) -> Vec<Given> {
+    let n = system.degrees();
+    let given = match (index < n, system.form()) {
+        (true, _) => Given::Position(index, value),
+        (false, Form::Velocity) => Given::Velocity(index - n, value),
+        (false, Form::Momentum | Form::Variables) => Given::Momentum(index - n, value),
+    };
+    let same = |g: &&Given| match g {
+        Given::Position(i, _) => *i == index,
+        Given::Velocity(i, _) | Given::Momentum(i, _) => i + n == index,
+    };
+    before.iter().filter(|g| !same(g)).copied().chain([given]).collect()
 }
 
 /// Why a method cannot be had.

@@ -6,6 +6,7 @@
 
 use super::bandwidth::Bandwidth;
 use crate::expr::nearest;
+use crate::view::theme::PALETTES;
 
 /// One option: `--name` on the command line, `name` in the configuration, `PHASELAB_NAME` in the environment.
 #[derive(Debug)]
@@ -106,6 +107,15 @@ pub const OPTIONS: &[Choice] = &[
         excludes_name: false,
     },
     Choice {
+        name: "theme",
+        letter: None,
+        kind: Kind::Word(THEMES),
+        usual: "auto",
+        about: "The colours of the screen; `phaselab theme list` shows them.",
+        overruled_by: &[],
+        excludes_name: false,
+    },
+    Choice {
         name: "fps",
         letter: None,
         kind: Kind::Count { least: 1, most: 240, auto: "30, and 15 over ssh" },
@@ -168,6 +178,18 @@ pub const OPTIONS: &[Choice] = &[
         excludes_name: false,
     },
 ];
+
+/// The themes by name, and leaving it to the terminal.
+const THEMES: &[(&str, &str)] = &{
+    let auto = "dark, or light where COLORFGBG says so";
+    let mut words = [("auto", auto); PALETTES.len() + 1];
+    let mut at = 0;
+    while at < PALETTES.len() {
+        words[at + 1] = (PALETTES[at].name, PALETTES[at].about);
+        at += 1;
+    }
+    words
+};
 
 /// The names of [`OPTIONS`].
 pub const NAMES: &[&str] = &{

@@ -44,6 +44,8 @@ pub struct Request {
     pub glyphs: Option<Glyphs>,
     /// The most frames in a second; otherwise 30, and 15 where `SSH_CONNECTION` or `SSH_TTY` is set.
     pub frames: Option<u16>,
+    /// The name of the theme; otherwise the one for dark terminals, or for light ones where `COLORFGBG` says so.
+    pub theme: Option<String>,
     /// Leaves out the marks round each frame, for terminals that show them.
     pub unsynchronized: bool,
     /// The most bytes in a second; otherwise no limit, and 64 KiB where `SSH_CONNECTION` or `SSH_TTY` is set.
@@ -93,6 +95,7 @@ impl Request {
         };
         let glyphs = options.get("glyphs").and_then(Glyphs::named);
         let frames = options.count("fps");
+        let theme = options.get("theme").filter(|name| *name != "auto").map(str::to_owned);
         Self {
             // a name wins over going on with the last session
             resume: open.is_none() && options.is_on("resume"),
@@ -100,6 +103,7 @@ impl Request {
             colour,
             glyphs,
             frames,
+            theme,
             unsynchronized: options.is_on("no-sync"),
             mouse: options.is_on("mouse"),
             watch: options.is_on("watch"),
@@ -117,7 +121,11 @@ impl Request {
     pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> Look {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
         let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
-        let theme = Theme::dark(depth);
+        let named = self.theme.as_deref().and_then(|name| Theme::named(name, depth));
+        let theme = named.unwrap_or_else(|| {
+            let name = if is_light(variable) { "light" } else { "dark" };
+            Theme::named(name, depth).unwrap_or_else(|| Theme::dark(depth))
+        });
         let theme = if self.reduced_motion { theme.with_ages(1) } else { theme };
         Look { theme, glyphs }
     }
@@ -135,6 +143,13 @@ impl Request {
         let bytes = self.bandwidth.unwrap_or(bandwidth).bytes();
         Pace { frames, bytes, synchronized: !self.unsynchronized, mouse: self.mouse }
     }
+}
+
+/// Whether the terminal says that it is light: some put the numbers of their colours, foreground and background, into
+/// `COLORFGBG`.
+fn is_light(variable: &dyn Fn(&str) -> Option<String>) -> bool {
+    let colours = variable("COLORFGBG").unwrap_or_default();
+    matches!(colours.rsplit(';').next(), Some("7" | "15"))
 }
 
 #[cfg(test)]
@@ -175,6 +190,20 @@ mod tests {
         let look = request(None).look(&|name| (name == "TERM").then(|| "xterm-direct".to_owned()));
         assert_eq!(look.theme.trail(0).len(), 1);
         assert_eq!(look.reduced(crate::view::Detail::default()).theme.trail(0).len(), 1);
+    }
+
+    #[test]
+    fn the_theme_is_the_one_asked_for_or_suits_the_terminal() {
+        let theme = |asked: Option<&str>, colours: &str| {
+            let request = Request { theme: asked.map(str::to_owned), ..Request::default() };
+            let look = request.look(&|name| (name == "COLORFGBG").then(|| colours.to_owned()));
+            look.theme.palette().name
+        };
+        assert_eq!(theme(None, ""), "dark");
+        assert_eq!(theme(None, "15;0"), "dark");
+        assert_eq!(theme(None, "0;15"), "light");
+        assert_eq!(theme(None, "0;default;15"), "light");
+        assert_eq!(theme(Some("contrast"), "0;15"), "contrast");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::checker::Checker;
 use super::files::{self, Watch};
@@ -20,9 +20,10 @@ use super::product;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
 use super::store::{NoStore, Store};
-use crate::app::{App, Checked, Effect, Event, Loaded, Notice, Saved};
+use crate::app::{Act, App, Checked, Effect, Event, Loaded, Mouse, Notice, Saved};
 use crate::experiment::{Export, Ready, Status};
 use crate::preset::{Catalog, Document, is_path};
+use crate::view::theme::PALETTES;
 use crate::view::{self, Detail, Look};
 use crate::worker::Worker;
 
@@ -46,6 +47,7 @@ pub(super) struct Session {
     pub(super) log: Log,
     /// The fault last told of there.
     fault: Option<String>,
+    size: (u16, u16),
 }
 
 /// How often the session is saved while the laboratory is open.
@@ -64,6 +66,8 @@ impl Session {
         app.mouse = pace.mouse;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();
+        app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
+        app.theme = Some(look.theme.palette().name);
         let loader = Loader::new(Arc::new(catalog));
         let (detail, store, unsaved) = (Detail::default(), None, Duration::ZERO);
         let watch = request.watch.then(Watch::default);
@@ -81,6 +85,7 @@ impl Session {
             warning: None,
             log,
             fault: None,
+            size: (0, 0),
         };
         session.perform(effects);
         Ok(session)
@@ -241,11 +246,22 @@ impl Session {
 
 impl Page for Session {
     fn input(&mut self, input: Input) -> Wish {
+        match input {
+            Input::Resize(columns, rows) => self.size = (columns, rows),
+            // Not every terminal says that the button came up.
+            Input::Mouse(Mouse { act: Act::Press, .. }) => self.app.drop_hold(),
+            _ => {}
+        }
         self.update(match input {
             Input::Key(key) => Event::Key(key),
             Input::Paste(text) => Event::Paste(text),
-            // Nothing on the screen answers to it yet.
-            Input::Mouse(_) => return Wish::Nothing,
+            Input::Mouse(Mouse { column, row, act }) => {
+                let area = Rect::new(0, 0, self.size.0, self.size.1);
+                match view::spot(&self.app, &self.look, area, column, row) {
+                    Some(spot) => Event::Mouse(act, spot),
+                    None => return Wish::Nothing,
+                }
+            }
             Input::Focus(gained) => Event::Focus(gained),
             Input::Resize(columns, rows) => Event::Resize(columns, rows),
         })
@@ -281,11 +297,12 @@ impl Page for Session {
         changed
     }
 
-    fn draw(&mut self, area: Rect, buffer: &mut Buffer) {
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let reduced = (self.detail != Detail::default()).then(|| self.look.reduced(self.detail));
         let look = reduced.as_ref().unwrap_or(&self.look);
         let drawn = view::draw(&self.app, look, area, buffer);
         self.update(Event::Drawn(drawn));
+        drawn.cursor.map(Position::from)
     }
 
     fn is_typing(&self) -> bool {

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::{Position, Rect, Size};
 
 use super::governor::Governor;
 use super::input::{Decoder, Input};
@@ -32,8 +32,8 @@ pub trait Page {
     /// A frame is due and this much time has passed since the last; whether anything to be seen has changed.
     fn advance(&mut self, elapsed: Duration) -> bool;
 
-    /// Draws on a blank area.
-    fn draw(&mut self, area: Rect, buffer: &mut Buffer);
+    /// Draws on a blank area, and says where the terminal's cursor belongs, if it is to be seen.
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position>;
 
     /// Whether text is being typed, so that a paste should come as one.
     fn is_typing(&self) -> bool;
@@ -243,8 +243,9 @@ impl Stage<'_> {
         self.switch(Mode::Paste, page.is_typing());
         self.switch(Mode::Mouse, self.mouse);
         let draw = |area, buffer: &mut Buffer| page.draw(area, buffer);
-        let frame = self.screen.next_within(size, self.governor.most(), draw);
+        let frame = self.screen.next_with(size, self.governor.most(), draw);
         self.queue.push(&frame);
+        self.switch(Mode::HiddenCursor, self.screen.cursor().is_none());
         frame.len()
     }
 

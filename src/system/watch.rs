@@ -109,6 +109,7 @@ impl List {
         let moving = if model.is_poisson() { &[] } else { &model.coordinates[..] };
         let symbols: Vec<_> = moving.iter().map(|c| (c.velocity, c.momentum)).collect();
         let time = model.time_unit();
+        let (energy_unit, momentum_units) = equations.units(model);
         for (i, &(velocity, _)) in symbols.iter().enumerate() {
             self.add_symbol(ChannelKind::Velocity(i), equations, velocity);
             let unit = &model.coordinates[i].unit;
@@ -120,6 +121,9 @@ impl List {
         }
         for (i, &(_, momentum)) in symbols.iter().enumerate() {
             self.add_symbol(ChannelKind::Momentum(i), equations, momentum);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&momentum_units[i]);
+            }
             self.index.entry(equations.momenta[i]).or_insert(self.channels.len() - 1);
         }
         for (i, row) in equations.constraints.clone().iter().enumerate() {
@@ -130,6 +134,9 @@ impl List {
         }
         let energy = equations.pool.variable(equations.symbols.energy);
         self.add(ChannelKind::Energy, "energy", "E", energy);
+        if let Some(channel) = self.channels.last_mut() {
+            channel.unit = energy_unit;
+        }
         self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
         if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
             for (i, (name, e, _)) in casimirs.iter().enumerate() {

@@ -7,20 +7,23 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns};
 use super::gauges::sentence;
+use super::glyphs::Glyphs;
 use super::help::keys;
 use super::number::{brief, fitted};
+use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::typing;
 use crate::app::keymap::KEYS;
-use crate::app::{App, Field, Lab, Over, Page, Pane, Purpose};
+use crate::app::{Action, App, Field, Lab, Over, Page, Pane, Purpose, Spot};
 use crate::experiment::{Snapshot, Status};
 
 /// The pages of a loaded system, with the key of each.
-const PAGES: [(&str, &str, Page); 4] = [
+const PAGES: [(&str, &str, Page); 5] = [
     ("1", "Lab", Page::Lab),
     ("2", "Equations", Page::Equations),
     ("3", "Notes", Page::Notes),
     ("4", "Numbers", Page::Numbers),
+    ("9", "Plain", Page::Plain),
 ];
 
 /// The program's name, the system's, and the pages.
@@ -40,7 +43,14 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         canvas.left(columns(area, used, room - used), Role::Title, title);
     }
     if usize::from(area.width) > wide {
-        canvas.spans(columns(area, area.width - wide as u16, area.width), &tabs);
+        let mut from = area.width - wide as u16;
+        canvas.spans(columns(area, from, area.width), &tabs);
+        // Each tab is a key and a name.
+        for (pair, (_, _, page)) in tabs.chunks(2).zip(PAGES) {
+            let long = pair.iter().map(|(text, _)| text.width()).sum::<usize>() as u16;
+            canvas.spot(columns(area, from, long), Spot::Page(page));
+            from += long;
+        }
     }
 }
 
@@ -80,7 +90,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             ],
             vec![
                 canvas.span(Role::Dim, "speed "),
-                canvas.span(Role::Text, format!("{:<5}", speed(snapshot, canvas))),
+                canvas.span(Role::Text, format!("{:<5}", speed(snapshot, glyphs))),
             ],
             vec![canvas.span(Role::Text, method(snapshot, canvas))],
         ];
@@ -109,12 +119,34 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
 }
 
-fn speed(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
+fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
     if snapshot.speed.is_infinite() {
         "flat out".to_owned()
     } else {
-        format!("×{}", brief(snapshot.speed, 3, canvas.look.glyphs))
+        format!("×{}", brief(snapshot.speed, 3, glyphs))
     }
+}
+
+/// The status as a sentence.
+pub(super) fn status_words(q: &Quantities<'_>) -> String {
+    let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
+    let status = match &snapshot.status {
+        Status::Running => "running".to_owned(),
+        Status::Paused => "paused".to_owned(),
+        Status::Ended(event) => format!("ended by {event}"),
+        Status::Faulted(fault) => format!("stopped: {}", fault.message),
+    };
+    let unit = q.lab.loaded.model.time_unit();
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let tolerance = snapshot.method.tolerance;
+    let tolerance = tolerance.map_or_else(String::new, |t| format!(", tolerance {t:.0e}"));
+    format!(
+        "Time {}{unit}, {status}, speed {}, method {}{tolerance}, step {}.",
+        brief(snapshot.time, 6, glyphs),
+        speed(snapshot, glyphs),
+        snapshot.method.name,
+        brief(snapshot.method.step, 3, glyphs),
+    )
 }
 
 /// A count in five columns: `940`, `12k`, `3.4M`.
@@ -142,12 +174,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if let Some(Over::Field(field)) = &app.over {
         return open_field(canvas, area, app, field);
     }
-    if let Some(notice) = &app.notice {
-        let role = if notice.error { Role::Bad } else { Role::Good };
-        canvas.left(area, role, &notice.text);
-        return;
-    }
-    if let Some(banner) = app.banner() {
+    if let (None, Some(banner)) = (&app.notice, app.banner()) {
         canvas.left(area, Role::Bad, &banner);
         return;
     }
@@ -158,23 +185,34 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         _ => String::new(),
     };
     let role = if ended.is_some() { Role::Warn } else { Role::Text };
-    let mut hints = hints(canvas, app);
-    let wide = |hints: &[Vec<Span>]| -> usize {
-        hints.iter().flatten().map(|(text, _)| text.width()).sum::<usize>() + 3 * hints.len()
+    let (meaning, role) = match &app.notice {
+        Some(notice) if notice.error => (canvas.text(&notice.text), Role::Bad),
+        Some(notice) => (canvas.text(&notice.text), Role::Good),
+        None => (meaning, role),
     };
+    let mut hints = hints(canvas, app);
+    let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
+    let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two, help and quit, are always there; the others give way to the meaning.
     let room = usize::from(area.width);
-    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(room * 2 / 3) + 2 };
+    // What is told in passing is told whole; what lasts may be cut.
+    let most = if app.notice.is_some() { room } else { room * 2 / 3 };
+    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
     while hints.len() > 2 && meant + wide(&hints) > room + 3 {
         hints.remove(hints.len() - 3);
     }
-    let long = (wide(&hints) as u16).saturating_sub(3).min(area.width);
-    canvas.left(columns(area, 0, area.width.saturating_sub(long + 2)), role, &meaning);
-    let gap = ("   ".to_owned(), ratatui::style::Style::new());
-    let row: Vec<Span> =
-        hints.into_iter().flat_map(|hint| hint.into_iter().chain([gap.clone()])).collect();
-    let start = if meaning.is_empty() { 0 } else { area.width - long };
-    canvas.spans(columns(area, start, area.width), &row);
+    if app.notice.is_some() && meant + wide(&hints) > room + 3 {
+        hints.clear();
+    }
+    let all = (wide(&hints) as u16).saturating_sub(3).min(area.width);
+    canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
+    let mut start = if meaning.is_empty() { 0 } else { area.width - all };
+    for hint in hints {
+        let place = columns(area, start, area.width);
+        let used = canvas.spans(place, &hint.spans);
+        canvas.spot(columns(place, 0, used), Spot::Hint(hint.action));
+        start += used + 3;
+    }
 }
 
 /// What ended the motion, and how to go on.
@@ -205,8 +243,14 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
     canvas.text(&format!("{name}{unit}{about}{range}"))
 }
 
+/// A key and what it does, in a word.
+struct Hint {
+    spans: Vec<Span>,
+    action: Action,
+}
+
 /// The keys worth a hint here, the innermost place first; the ones for help and quitting come last.
-fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Vec<Span>> {
+fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let rows = app.places().iter().flat_map(|place| {
         KEYS.iter().filter(move |row| {
             row.place == *place && !row.hint.is_empty() && app.offers(row.action)
@@ -215,7 +259,8 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Vec<Span>> {
     let hint = |row: &crate::app::keymap::Binding| {
         let keys = keys(row, canvas.look);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
-        vec![canvas.span(Role::Accent, first), canvas.span(Role::Dim, format!(" {}", row.hint))]
+        let word = canvas.span(Role::Dim, format!(" {}", row.hint));
+        Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
     };
     rows.map(hint).collect()
 }

@@ -11,16 +11,29 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Look;
 use super::colour::ColourDepth;
+use super::spot::Region;
 use super::theme::Role;
+use crate::app::Spot;
 
 /// A buffer and how things look on it.
 pub(super) struct Canvas<'a> {
     pub(super) buffer: &'a mut Buffer,
     pub(super) look: &'a Look,
+    /// What lies where, for the mouse, while it is asked for; the later lies over the earlier.
+    pub(super) regions: Option<Vec<(Rect, Region)>>,
+    /// Where the terminal's cursor belongs.
+    pub(super) cursor: Option<Position>,
 }
 
 /// A piece of a row.
 pub(super) type Span = (String, Style);
+
+impl<'a> Canvas<'a> {
+    /// A buffer to be drawn on, and how things look there.
+    pub(super) fn over(buffer: &'a mut Buffer, look: &'a Look) -> Self {
+        Self { buffer, look, regions: None, cursor: None }
+    }
+}
 
 impl Canvas<'_> {
     /// The style of a role.
@@ -115,6 +128,24 @@ impl Canvas<'_> {
     /// Blanks an area for something that lies over what was there.
     pub(super) fn clear(&mut self, area: Rect) {
         Clear.render(area, self.buffer);
+        self.region(area, Region::Blank);
+    }
+
+    /// The terminal's cursor belongs here.
+    pub(super) fn point(&mut self, at: Position) {
+        self.cursor = Some(at).filter(|at| self.buffer.area.contains(*at));
+    }
+
+    /// Says what an area is for the mouse.
+    pub(super) fn region(&mut self, area: Rect, region: Region) {
+        if let Some(regions) = self.regions.as_mut().filter(|_| !area.is_empty()) {
+            regions.push((area, region));
+        }
+    }
+
+    /// Says that an area is one spot.
+    pub(super) fn spot(&mut self, area: Rect, spot: Spot) {
+        self.region(area, Region::Plain(spot));
     }
 
     /// Gives a whole row a style, keeping its text.

@@ -22,7 +22,7 @@ pub struct Caption<'a> {
 
 /// Draws the line over a blank row: the sentence at the left, keys as caps at the right. Keys give way to the sentence.
 pub fn draw(look: &Look, caption: &Caption<'_>, row: Rect, buffer: &mut Buffer) {
-    let mut canvas = Canvas { buffer, look };
+    let mut canvas = Canvas::over(buffer, look);
     let mut used = 0;
     if !caption.text.is_empty() {
         used = canvas.left(columns(row, 1, 2), Role::Accent, look.glyphs.pick("▌", "|"));

@@ -3,15 +3,18 @@
 //! In: the lab and the layout. Out: cells. Never here: what a single pane shows.
 
 use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
 use super::layout::{Slot, panes};
+use super::number::brief;
 use super::quantity::Quantities;
+use super::spot::Region;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, phase, potential, series, space};
-use crate::app::{App, Field, Lab, Over, Pane, Plot, Target};
+use crate::app::{App, Field, Lab, Over, Pane, Plot, Spot, Target};
 use crate::experiment::{Fault, Status};
 
 /// Draws all panes that have a place.
@@ -24,17 +27,23 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
         match slot {
             Slot::Pane(Pane::Plot(index)) => plot(canvas, place, lab, index),
             Slot::Pane(pane) => {
-                let title = [canvas.span(Role::Title, name(pane))];
+                let mut title = vec![canvas.span(Role::Title, name(pane))];
+                if pane == Pane::Gauges {
+                    title.extend(since(canvas, lab));
+                }
                 list(canvas, place, (lab, pane), &title, field);
             }
             Slot::Values(pane) => {
-                let title = tabs(canvas, &[Pane::Parameters, Pane::Initial], pane);
+                let both = [Pane::Parameters, Pane::Initial];
+                let title = tabs(canvas, &both, pane);
                 list(canvas, place, (lab, pane), &title, field);
+                tab_spots(canvas, place, &title, &both);
             }
             Slot::Lists(pane) => {
                 let all = [Pane::Parameters, Pane::Initial, Pane::Gauges];
                 let title = tabs(canvas, &all, pane);
                 list(canvas, place, (lab, pane), &title, field);
+                tab_spots(canvas, place, &title, &all);
             }
             Slot::Law => {
                 let title = [canvas.span(Role::Title, "Law of motion")];
@@ -48,6 +57,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
     }
 }
 
+/// From when the gauges measure, if that is not the beginning.
+fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
+    let time = lab.snapshot.as_ref()?.gauges.first()?.reference_time;
+    let begun = lab.loaded.model.run.start;
+    let text = || format!("  since t = {}", brief(time, 6, canvas.look.glyphs));
+    (time != begun).then(|| canvas.span(Role::Dim, text()))
+}
+
 /// The names of lists that share a frame, the one that is shown in full.
 fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
     let mut spans = Vec::new();
@@ -59,6 +76,20 @@ fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
         spans.push(canvas.span(role, name(*pane)));
     }
     spans
+}
+
+/// The names in a frame are spots; between two of them stands a line.
+fn tab_spots(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
+    let mut from = 3;
+    for (index, (text, _)) in title.iter().enumerate() {
+        let long = text.width() as u16;
+        if let (0, Some(pane)) = (index % 2, panes.get(index / 2)) {
+            let place =
+                columns(row(frame, 0), from, long.min(frame.width.saturating_sub(from + 2)));
+            canvas.spot(place, Spot::Pane(*pane));
+        }
+        from += long;
+    }
 }
 
 fn name(pane: Pane) -> &'static str {
@@ -79,6 +110,7 @@ fn list(
 ) {
     let focused = lab.focus == pane;
     let inner = canvas.pane(area, title, focused);
+    canvas.spot(area, Spot::Pane(pane));
     let values = |kind, selected| Values { lab, kind, selected, focused, field };
     match pane {
         Pane::Parameters => {
@@ -106,23 +138,33 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
     };
     let title = match plot {
         Plot::Space(eye) => space::title(canvas, lab, eye),
-        Plot::Phase { x, y, .. } => phase::title(canvas, &q, [*x, *y]),
-        Plot::Time { y, .. } => series::title(canvas, &q, y),
+        Plot::Phase { x, y, .. } => {
+            phase::title(canvas, &q, ([*x, *y], plot.title(&lab.loaded).unwrap_or("Phase")))
+        }
+        Plot::Time { y, .. } => {
+            series::title(canvas, &q, (y, plot.title(&lab.loaded).unwrap_or("Time")))
+        }
         Plot::Potential { .. } => match &potential {
             Some(shown) => potential::title(canvas, &q, shown),
             None => Vec::new(),
         },
     };
     let inner = canvas.pane(area, &title, focused);
-    match plot {
-        Plot::Space(eye) => space::draw(canvas, inner, &q, eye),
-        Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
-        Plot::Time { y, lens } => series::draw(canvas, inner, &q, (y, *lens)),
-        Plot::Potential { lens, .. } => {
-            if let Some(shown) = &potential {
-                potential::draw(canvas, inner, &q, (shown, *lens));
-            }
+    canvas.spot(area, Spot::Pane(Pane::Plot(index)));
+    let frame = match plot {
+        Plot::Space(eye) => {
+            space::draw(canvas, inner, &q, eye);
+            canvas.region(inner, Region::Space(index));
+            None
         }
+        Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
+        Plot::Time { y, lens } => Some(series::draw(canvas, inner, &q, (y, *lens))),
+        Plot::Potential { lens, .. } => {
+            potential.map(|shown| potential::draw(canvas, inner, &q, (&shown, *lens)))
+        }
+    };
+    if let Some(frame) = frame {
+        canvas.region(frame.area, Region::Plot(index, frame));
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! In: blocks of text. Out: rows, and how many of them lie beyond the screen. Never here: what the text says.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
@@ -25,6 +25,7 @@ enum Block {
     Words(Role, String),
     Formula { label: String, body: String, remark: String },
     Row(Vec<(Role, String)>),
+    Line(String),
     Gap,
 }
 
@@ -56,6 +57,11 @@ impl Document {
         self.blocks.push(Block::Row(pieces));
     }
 
+    /// A line by itself, wrapped if it must be.
+    pub(super) fn line(&mut self, text: &str) {
+        self.blocks.push(Block::Line(text.to_owned()));
+    }
+
     /// An empty row.
     pub(super) fn gap(&mut self) {
         self.blocks.push(Block::Gap);
@@ -72,11 +78,25 @@ impl Document {
             canvas.spans(columns(row(area, index), 1, width + 1), line);
         }
         scroll_bar(canvas, area, first, lines.len());
-        Drawn {
-            beyond: beyond.min(usize::from(u16::MAX)) as u16,
-            rows: area.height,
-            ..Drawn::default()
+        let beyond = beyond.min(usize::from(u16::MAX)) as u16;
+        Drawn { beyond, rows: area.height, ..Drawn::default() }
+    }
+
+    /// Draws the screenful of rows in which a line stands, the cursor at its beginning. Rows turn by whole screenfuls,
+    /// so that they keep still while they are read.
+    pub(super) fn read(self, canvas: &mut Canvas<'_>, area: Rect, line: usize) -> Drawn {
+        let width = area.width.saturating_sub(2).min(MEASURE);
+        let lines = self.lines(canvas, width.into());
+        let rows = usize::from(area.height).max(1);
+        let line = line.min(lines.len().saturating_sub(1));
+        let first = line - line % rows;
+        for (index, spans) in lines.iter().skip(first).take(rows).enumerate() {
+            canvas.spans(columns(row(area, index), 1, width), spans);
         }
+        canvas.point(Position::new(area.x + 1, area.y + (line - first) as u16));
+        let beyond = lines.len().saturating_sub(rows);
+        let shown = rows.min(lines.len());
+        Drawn { beyond: beyond as u16, rows: shown as u16, ..Drawn::default() }
     }
 
     /// The width of the column of labels under a heading.
@@ -141,6 +161,12 @@ impl Document {
                             }
                         }
                     }
+                }
+                Block::Line(text) => {
+                    let wrapped = words(&canvas.text(text), width);
+                    lines.extend(
+                        wrapped.into_iter().map(|line| vec![(line, canvas.style(Role::Text))]),
+                    );
                 }
                 Block::Row(pieces) => {
                     lines.push(pieces.iter().map(|(role, t)| canvas.span(*role, t)).collect());

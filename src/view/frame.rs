@@ -8,7 +8,7 @@ mod pen;
 use std::mem;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::{Position, Rect, Size};
 
 use pen::Pen;
 
@@ -24,13 +24,14 @@ pub struct Frames {
     /// The row in which the next frame begins, where the last had not room for all.
     rest: Option<u16>,
     synchronized: bool,
+    cursor: Option<Position>,
 }
 
 impl Frames {
     /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
     pub fn new(synchronized: bool) -> Self {
         let (next, pen) = (Buffer::default(), Pen::default());
-        Self { shown: None, next, pen, rest: None, synchronized }
+        Self { shown: None, next, pen, rest: None, synchronized, cursor: None }
     }
 
     /// What the terminal shows is no longer known: the next frame paints every cell.
@@ -48,6 +49,11 @@ impl Frames {
         self.shown.as_ref()
     }
 
+    /// Where the terminal's cursor was left, if it is to be seen there.
+    pub fn cursor(&self) -> Option<Position> {
+        self.cursor
+    }
+
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
     pub fn next(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
         self.next_within(size, usize::MAX, draw)
@@ -61,10 +67,23 @@ impl Frames {
         most: usize,
         draw: impl FnOnce(Rect, &mut Buffer),
     ) -> Vec<u8> {
+        self.next_with(size, most, |area, buffer| {
+            draw(area, buffer);
+            None
+        })
+    }
+
+    /// The same, with the terminal's cursor left where `draw` says that it belongs.
+    pub fn next_with(
+        &mut self,
+        size: Size,
+        most: usize,
+        draw: impl FnOnce(Rect, &mut Buffer) -> Option<Position>,
+    ) -> Vec<u8> {
         let area = Rect::new(0, 0, size.width, size.height);
         self.next.resize(area);
         self.next.reset();
-        draw(area, &mut self.next);
+        let cursor = draw(area, &mut self.next).filter(|at| area.contains(*at));
         // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
         for cell in &mut self.next.content {
             if cell.symbol().contains(char::is_control) {
@@ -95,6 +114,10 @@ impl Frames {
             }
         }
         self.shown = Some(mem::replace(&mut self.next, shown));
+        if let Some(at) = cursor {
+            self.pen.rest(&mut out, (at.x, at.y));
+        }
+        self.cursor = cursor;
         if out.len() == empty {
             return Vec::new();
         }
@@ -230,6 +253,27 @@ mod tests {
                 check(terminal.screen(), &drawn);
             }
         }
+    }
+
+    #[test]
+    fn the_cursor_is_left_where_it_belongs() {
+        let mut screen = Frames::new(true);
+        let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
+        for (text, cursor) in
+            [("a", (3, 2)), ("ab", (3, 2)), ("ab", (4, 2)), ("ab", (4, 2)), ("", (0, 0))]
+        {
+            let bytes = screen.next_with(SIZE, usize::MAX, |area, buffer| {
+                buffer.set_string(area.x, 1, text, Style::new());
+                Some(Position::from(cursor))
+            });
+            terminal.process(&bytes);
+            assert_eq!(terminal.screen().cursor_position(), (cursor.1, cursor.0), "{text}");
+            assert_eq!(screen.cursor(), Some(Position::from(cursor)));
+        }
+        let again = screen.next_with(SIZE, usize::MAX, |_, _| Some(Position::new(0, 0)));
+        assert!(again.is_empty(), "nothing is sent where nothing changes: {again:?}");
+        let outside = screen.next_with(SIZE, usize::MAX, |_, _| Some(Position::new(SIZE.width, 0)));
+        assert!(outside.is_empty() && screen.cursor().is_none());
     }
 
     #[test]

@@ -12,7 +12,9 @@ use super::plot::Scale;
 use super::strip::History;
 use super::theme::Role;
 use super::values::window;
+use super::wrap::words;
 use crate::analysis::{Growth, Verdict};
+use crate::app::Spot;
 use crate::experiment::Gauge;
 
 /// Columns of a verdict, a drift and a value.
@@ -36,6 +38,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         canvas.left(row(area, 0), Role::Dim, "  nothing here is conserved");
         return;
     }
+    let (area, below) = match selected.and_then(|index| gauges.get(index)) {
+        Some(gauge) => reason_below(canvas, area, gauges.len(), gauge),
+        None => (area, Vec::new()),
+    };
+    for (index, line) in below.iter().enumerate() {
+        let at = Rect { y: area.bottom() + index as u16, height: 1, ..area };
+        canvas.left(columns(at, 2, at.width), Role::Dim, line);
+    }
     let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
     let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
     if headed {
@@ -47,6 +57,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
         let here = selected == Some(first + place);
         let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
+        for line in 0..height {
+            canvas.spot(row(area, place * height + line), Spot::Gauge(first + place));
+        }
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
         let at = columns(at, 2, area.width.saturating_sub(3));
@@ -58,6 +71,26 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         }
     }
 }
+
+/// The selected gauge's reason in full below the list, as far as there are rows that the gauges leave, and the rest of
+/// the area.
+fn reason_below(
+    canvas: &Canvas<'_>,
+    area: Rect,
+    count: usize,
+    gauge: &Gauge,
+) -> (Rect, Vec<String>) {
+    let text = format!("{}; {}", gauge.reason, sentence(&gauge.verdict));
+    let lines = words(&canvas.text(&text), usize::from(area.width.saturating_sub(3)));
+    let spare = usize::from(area.height).saturating_sub(count.min(MOST_ABOVE));
+    if lines.len() > spare {
+        return (area, Vec::new());
+    }
+    (split_rows(area, area.height - lines.len() as u16).0, lines)
+}
+
+/// Of more gauges than this some are out of sight while a reason is read.
+const MOST_ABOVE: usize = 3;
 
 /// What the columns are.
 fn heads(canvas: &mut Canvas<'_>, area: Rect, height: usize) {

@@ -4,7 +4,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::app::{Lab, Pane, Target};
+use crate::app::{Lab, Pane, Plot, Target};
 
 /// The least screen on which anything can be done.
 pub(super) const LEAST: (u16, u16) = (40, 10);
@@ -67,6 +67,9 @@ pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     }
 }
 
+/// Rows for why the selected gauge is watched.
+const REASON: u16 = 3;
+
 /// Plots at the left, lists in a column at the right.
 fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let lists = (area.width * 3 / 10).clamp(LISTS.0, LISTS.1);
@@ -108,8 +111,10 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(Target::Parameter) as u16;
-    // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two.
-    let wants = [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 3];
+    // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two, the reason of the
+    // selected gauge some more.
+    let wants =
+        [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 3 + REASON];
     let mut heights = wants.map(|want| want.max(4));
     let mut total: u16 = heights.iter().sum();
     while total > area.height {
@@ -147,7 +152,9 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
 
 fn plot_slot(lab: &Lab) -> Slot {
     let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
-    Slot::Pane(focused.unwrap_or(Pane::Plot(0)))
+    // Where there is room for one picture it is the motion itself.
+    let motion = lab.plots.iter().position(|plot| matches!(plot, Plot::Space(_)));
+    Slot::Pane(focused.unwrap_or(Pane::Plot(motion.unwrap_or(0))))
 }
 
 /// The list shown where there is room for one.

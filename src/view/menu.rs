@@ -10,7 +10,7 @@ use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use crate::app::{Choice, Fit, Item, Menu};
+use crate::app::{Choice, Fit, Item, Menu, Spot};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
@@ -30,13 +30,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     canvas.clear(place);
     let title = [canvas.span(Role::Title, &menu.title)];
     let inner = canvas.pane(place, &title, true);
+    canvas.spot(place, Spot::Menu);
     let inner = columns(inner, 1, inner.width.saturating_sub(2));
     let (field, rest) = split_rows(inner, search);
     if let Some(input) = &menu.filter {
         let used = canvas.left(field, Role::Accent, "/ ");
         canvas.left(columns(field, used, field.width), Role::Text, input.value());
         let cursor = used + input.visual_cursor() as u16;
-        canvas.tint(columns(field, cursor, 1), Role::Selected);
+        canvas.point(columns(field, cursor, 1).as_position());
     }
     let (list, below) = split_rows(rest, rest.height.saturating_sub(about));
     let rows = usize::from(list.height);
@@ -53,6 +54,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             " "
         };
         canvas.left(columns(area, 0, 1), Role::Accent, mark);
+        canvas.spot(area, Spot::Line(place));
         line(canvas, area, (&menu.items[*index], fit), &columns_of);
         if place == menu.selected {
             canvas.tint(area, Role::Selected);

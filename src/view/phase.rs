@@ -9,7 +9,7 @@ use super::canvas::{Canvas, Span};
 use super::cursor;
 use super::marks::{self, Marks};
 use super::number::readable;
-use super::plot::{Axes, Marker, Pen, Raster};
+use super::plot::{Axes, Frame, Marker, Pen, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::app::Plot;
@@ -22,8 +22,12 @@ const MARK: u8 = 3;
 const NOW: u8 = 4;
 
 /// The heading: what is shown, and the present values.
-pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, [x, y]: [usize; 2]) -> Vec<Span> {
-    let mut spans = vec![canvas.span(Role::Title, "Phase")];
+pub(super) fn title(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    ([x, y], title): ([usize; 2], &str),
+) -> Vec<Span> {
+    let mut spans = vec![canvas.span(Role::Title, title)];
     for channel in [x, y] {
         let value = readable(q.value(channel), 4, canvas.look.glyphs);
         spans.push(canvas.span(Role::Dim, format!("  {}", q.name(channel))));
@@ -33,13 +37,19 @@ pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, [x, y]: [usize; 2])
     spans
 }
 
-/// The picture inside the frame.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, plot: &Plot) {
-    let Plot::Phase { x, y, lens } = plot else { return };
+/// Draws the picture, and says where its axes stand.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    q: &Quantities<'_>,
+    plot: &Plot,
+) -> Option<Frame> {
+    let Plot::Phase { x, y, lens } = plot else { return None };
     let look = canvas.look;
     let landscape = q.lab.landscape(plot);
     let window = |axis: usize| landscape.map(|l| l.window[axis]);
     let axes = Axes::new(q.axis(*x, window(0), (*lens, 0)), q.axis(*y, window(1), (*lens, 1)));
+    let axes = if lens.equal { axes.equal() } else { axes };
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     if let Some(landscape) = landscape {
@@ -72,4 +82,5 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, plot
     marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
     cursor::draw(canvas, area, &frame, (*lens, &marks));
+    Some(frame)
 }

@@ -12,20 +12,26 @@ use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
 use super::{phase, potential, series, space};
-use crate::app::{App, Picker, Plot};
+use crate::app::{App, Picker, Plot, Spot};
 use crate::preset::{Entry, Origin};
 
 /// Columns of the list where something stands beside it.
 const LIST: (u16, u16) = (34, 46);
 
+/// On narrow screens of this height the preview has room below the list.
+const TALL: u16 = 20;
+
 /// Draws list and preview.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if area.width < 64 {
         let about = if area.height > 12 { 4 } else { 0 };
-        let (above, below) = split_rows(area, area.height - about);
+        let moving = if area.height >= TALL { (area.height - about) / 2 } else { 0 };
+        let (above, below) = split_rows(area, area.height - about - moving);
         list(canvas, above, &app.picker);
         if let Some(entry) = app.picker.current() {
-            summary(canvas, columns(below, 2, below.width.saturating_sub(4)), entry);
+            let (text, picture) = split_rows(below, about);
+            summary(canvas, columns(text, 2, text.width.saturating_sub(4)), entry);
+            preview(canvas, picture, app, entry);
         }
         return;
     }
@@ -62,6 +68,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         title.push(canvas.span(Role::Dim, format!("  {count}")));
     }
     let inner = canvas.pane(area, &title, true);
+    canvas.spot(area, Spot::Systems);
     search(
         canvas,
         columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
@@ -91,6 +98,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
             Line::System(place, entry) => {
+                canvas.spot(area, Spot::System(*place));
                 let selected = *place == picker.selected;
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
@@ -117,7 +125,7 @@ fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {
     let text: String = input.value().chars().skip(skipped).take(room).collect();
     canvas.left(field, Role::Text, &text);
     let cursor = (input.visual_cursor().saturating_sub(skipped)).min(room) as u16;
-    canvas.tint(columns(field, cursor, 1), Role::Selected);
+    canvas.point(columns(field, cursor, 1).as_position());
 }
 
 /// What the selected system is; returns the rows used.
@@ -157,8 +165,8 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     let space = lab.plots.iter().find(|plot| matches!(plot, Plot::Space(_)));
     match space.or(lab.plots.first()) {
         Some(Plot::Space(eye)) => space::draw(canvas, area, &q, eye),
-        Some(plot @ Plot::Phase { .. }) => phase::draw(canvas, area, &q, plot),
-        Some(Plot::Time { y, lens }) => series::draw(canvas, area, &q, (y, *lens)),
+        Some(plot @ Plot::Phase { .. }) => drop(phase::draw(canvas, area, &q, plot)),
+        Some(Plot::Time { y, lens }) => drop(series::draw(canvas, area, &q, (y, *lens))),
         Some(Plot::Potential { view, lens }) => {
             if let Some(shown) = lab.potential(*view) {
                 potential::draw(canvas, area, &q, (&shown, *lens));

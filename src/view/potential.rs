@@ -10,7 +10,7 @@ use super::cursor;
 use super::marks::Marks;
 use super::number::readable;
 use super::plot::ticks::nice_range;
-use super::plot::{Axes, Axis, Marker, Pen, Raster, Scale};
+use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use crate::app::{Lens, Potential};
@@ -46,13 +46,13 @@ pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, shown: &Potential) 
     spans
 }
 
-/// The picture inside the frame.
+/// Draws the picture, and says where its axes stand.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     q: &Quantities<'_>,
     (shown, lens): (&Potential, Lens),
-) {
+) -> Frame {
     let look = canvas.look;
     let across = q.axis(shown.x, Some(across(q, shown.x)), (lens, 0));
     let (from, to) = (across.scale.lo, across.scale.hi);
@@ -90,6 +90,7 @@ pub(super) fn draw(
     raster.marker(&frame, now, Marker::Disc, &Pen::new(bright, NOW));
     raster.draw(canvas.buffer);
     cursor::draw(canvas, area, &frame, (lens, &Marks::none()));
+    frame
 }
 
 /// The range of a coordinate that does not repeat: somewhat more than the motion has reached.

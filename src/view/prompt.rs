@@ -48,7 +48,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     let shown: String = prompt.input.value().chars().skip(scroll).collect();
     canvas.left(columns(field, used, field.width), Role::Text, &shown);
     let cursor = prompt.input.visual_cursor().saturating_sub(scroll) as u16;
-    canvas.tint(columns(field, used + cursor, 1), Role::Selected);
+    canvas.point(columns(field, used + cursor, 1).as_position());
     if let Some(mistake) = &prompt.mistake {
         // A caret under each letter of what is wrong.
         let text = prompt.input.value();

@@ -24,6 +24,11 @@ impl<'a> Quantities<'a> {
         Some(Self { lab, snapshot: lab.seen()?, look })
     }
 
+    /// The quantities as a snapshot has them, if it fits the system.
+    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a Look) -> Option<Self> {
+        lab.fits(snapshot).then_some(Self { lab, snapshot, look })
+    }
+
     /// A channel's name as this terminal shows it.
     pub(super) fn name(&self, channel: usize) -> String {
         let channels = self.lab.loaded.system.channels();

@@ -5,10 +5,11 @@
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span};
+use super::colour::ColourDepth;
 use super::cursor;
 use super::marks::{self, Marks};
 use super::number::readable;
-use super::plot::{Axes, Axis, Marker, Pen, Raster, Scale};
+use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use crate::app::Lens;
@@ -21,12 +22,21 @@ const MARK: u8 = 201;
 const NOW: u8 = 202;
 
 /// The heading: each quantity in its colour with its present value.
-pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, channels: &[usize]) -> Vec<Span> {
-    let mut spans = vec![canvas.span(Role::Title, "Time")];
+pub(super) fn title(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    (channels, title): (&[usize], &str),
+) -> Vec<Span> {
+    let mut spans = vec![canvas.span(Role::Title, title)];
     for (index, channel) in channels.iter().enumerate() {
         let value = readable(q.value(*channel), 4, canvas.look.glyphs);
-        let mark = canvas.look.glyphs.pick("━", "-");
-        spans.push((format!("  {mark} "), canvas.look.theme.curve(index)));
+        let theme = &canvas.look.theme;
+        let [unicode, ascii] = theme.series(index).dash.sample();
+        let sample = canvas.look.glyphs.pick(unicode, ascii);
+        // A colour is seen on one character, a pattern on three.
+        let plain = theme.depth() != ColourDepth::None;
+        let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
+        spans.push((format!("  {mark} "), theme.curve(index)));
         spans.push(canvas.span(Role::Dim, q.name(*channel)));
         spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
     }
@@ -34,13 +44,13 @@ pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, channels: &[usize])
     spans
 }
 
-/// The picture inside the frame.
+/// Draws the picture, and says where its axes stand.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     q: &Quantities<'_>,
     (channels, lens): (&[usize], Lens),
-) {
+) -> Frame {
     let look = canvas.look;
     let time = Axis::new("t", q.lab.loaded.model.time_unit(), window(q, lens));
     let axes = Axes::new(time, common_axis(q, channels, lens));
@@ -61,6 +71,7 @@ pub(super) fn draw(
     marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
     cursor::draw(canvas, area, &frame, (lens, &marks));
+    frame
 }
 
 /// The stretch of time shown: it stands still until it is full, then moves along.

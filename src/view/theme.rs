@@ -3,6 +3,7 @@
 //! In: a palette of [`PALETTES`] and a [`ColourDepth`]. Out: a [`Theme`], which is asked by [`Role`].
 //! Never here: where a role is used. Without colour the roles differ by bold, dim, reverse and underline alone.
 
+mod dash;
 mod palettes;
 mod ramps;
 
@@ -13,6 +14,7 @@ use ratatui::style::{Color, Modifier, Style};
 use super::colour::{ColourDepth, Rgb};
 use ramps::Ramps;
 
+pub use dash::Dash;
 pub use palettes::{PALETTES, Palette};
 
 /// What a piece of the screen is for.
@@ -101,6 +103,8 @@ pub struct Shade {
     pub style: Style,
     /// Share of the dots that are drawn, 0 to 1; below 1 only where colour cannot say how old they are.
     pub coverage: f64,
+    /// The pattern along a line.
+    pub dash: Dash,
 }
 
 /// Series with a colour of their own.
@@ -116,6 +120,8 @@ const DENSITIES: usize = 12;
 #[derive(Clone, Debug)]
 pub struct Theme {
     palette: &'static Palette,
+    /// What the terminal can show, of which the palette may use less.
+    asked: ColourDepth,
     depth: ColourDepth,
     roles: [Style; Role::ALL.len()],
     curves: [Style; CURVES],
@@ -136,9 +142,12 @@ impl Theme {
 
     /// A palette's styles at a depth.
     pub fn new(palette: &'static Palette, depth: ColourDepth) -> Self {
+        let asked = depth;
+        let depth = depth.min(palette.most);
         let ramps = Ramps { palette, depth };
         Self {
             palette,
+            asked,
             depth,
             roles: palette.roles.map(|ink| ink.style(depth)),
             curves: palette.curves.map(|ink| ink.style(depth)),
@@ -171,6 +180,11 @@ impl Theme {
         Self { trails, ..self }
     }
 
+    /// The theme of another palette for the same terminal, if there is one of that name.
+    pub fn renamed(&self, name: &str) -> Option<Self> {
+        Some(Self::named(name, self.asked)?.with_ages(self.trails[0].len()))
+    }
+
     /// The palette.
     pub fn palette(&self) -> &'static Palette {
         self.palette
@@ -186,17 +200,21 @@ impl Theme {
         self.curves[series % CURVES]
     }
 
-    /// What the line of the n-th series is drawn with; without colour every second one is dotted.
+    /// What the line of the n-th series is drawn with; without colour each has a pattern of its own.
     pub fn series(&self, series: usize) -> Shade {
-        let dotted = self.depth == ColourDepth::None && series % 2 == 1;
-        Shade { style: self.curve(series), coverage: if dotted { 0.5 } else { 1.0 } }
+        let dash = match self.depth {
+            ColourDepth::None => Dash::ALL[series % Dash::ALL.len()],
+            _ => Dash::Full,
+        };
+        Shade { style: self.curve(series), coverage: 1.0, dash }
     }
 
     /// What a line of a role is drawn with; without colour what stands behind the motion is dotted.
     pub fn line(&self, role: Role) -> Shade {
         let behind = matches!(role, Role::Level | Role::Border | Role::Dim);
         let dotted = self.depth == ColourDepth::None && behind;
-        Shade { style: self[role], coverage: if dotted { 0.4 } else { 1.0 } }
+        let coverage = if dotted { 0.4 } else { 1.0 };
+        Shade { style: self[role], coverage, dash: Dash::Full }
     }
 
     /// The fading trail of the n-th series, from nearly the background to its colour, brightened.

@@ -9,10 +9,11 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, columns, row};
 use super::number::brief;
 use super::plot::Scale;
+use super::spot::Region;
 use super::strip::RangeBar;
 use super::theme::Role;
 use super::wrap::words;
-use crate::app::{Facts, Field, Lab, Purpose, Target};
+use crate::app::{Facts, Field, Lab, Purpose, Spot, Target};
 use crate::model;
 
 /// Columns of a number.
@@ -93,6 +94,7 @@ impl Values<'_> {
         let Some(facts) = self.lab.facts(target) else { return };
         let value = self.lab.value(target);
         let glyphs = canvas.look.glyphs;
+        canvas.spot(area, Spot::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
         canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);
@@ -112,13 +114,20 @@ impl Values<'_> {
         }
         canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &facts.unit);
         if let Some(value) = value {
-            bar(canvas, columns(area, grid.bar, area.width), &facts, value, here && self.focused);
+            let place = columns(area, grid.bar, area.width);
+            bar(canvas, place, (target, &facts), value, here && self.focused);
         }
     }
 }
 
 /// The bar of a value within its range, if it has one and there is room.
-fn bar(canvas: &mut Canvas<'_>, area: Rect, facts: &Facts, value: f64, here: bool) {
+fn bar(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (target, facts): (Target, &Facts),
+    value: f64,
+    here: bool,
+) {
     let Some((min, max, scale)) = facts.range else { return };
     if area.width < 6 {
         return;
@@ -130,7 +139,9 @@ fn bar(canvas: &mut Canvas<'_>, area: Rect, facts: &Facts, value: f64, here: boo
     let filled = canvas.style(if here { Role::Focus } else { Role::Level });
     let rest = canvas.style(Role::Border);
     let bar = RangeBar { value, scale, filled, rest, glyphs: canvas.look.glyphs };
-    bar.render(columns(area, 0, area.width.saturating_sub(1).min(30)), canvas.buffer);
+    let place = columns(area, 0, area.width.saturating_sub(1).min(30));
+    bar.render(place, canvas.buffer);
+    canvas.region(place, Region::Bar(target, scale));
 }
 
 /// The text of a field, with its end in view, and its cursor.
@@ -145,8 +156,7 @@ pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
     canvas.left(area, role, &format!("{text:<room$}"));
     canvas.tint(area, Role::Title);
     let cursor = area.x + (field.input.visual_cursor().saturating_sub(skipped)).min(room) as u16;
-    let at = Position::new(cursor, area.y);
-    canvas.tint(Rect { x: at.x, width: 1, ..area }, Role::Selected);
+    canvas.point(Position::new(cursor, area.y));
 }
 
 /// The first row of a list that keeps the selected one in view, as near the middle as can be.

@@ -11,7 +11,7 @@ use super::desk;
 use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
-use crate::app::{App, Asking, BenchState, Drawn, Flaw, Lab, Spot, Workbench};
+use crate::app::{App, Asking, BenchState, Caret, Drawn, Flaw, Lab, Workbench};
 
 /// From this width on the motion has room beside the text.
 const WIDE: u16 = 112;
@@ -96,7 +96,7 @@ fn write(
             canvas.left(mark, Role::Dim, canvas.look.glyphs.pick("…", ">"));
             break;
         }
-        let spot = Spot { row: index, column };
+        let spot = Caret { row: index, column };
         let role = if comment.is_some_and(|start| column >= start) { Role::Dim } else { plain };
         let mut style = canvas.style(role);
         if let Some(flaw) = flaws.iter().find(|flaw| covers(flaw, spot)) {
@@ -112,7 +112,7 @@ fn write(
         put(canvas, Position::new(at.x + used, at.y), c, style);
         used += width;
     }
-    let covered = Spot { row: index, column: from };
+    let covered = Caret { row: index, column: from };
     if from > 0 && !line.is_empty() && cursor != covered {
         canvas.left(columns(at, 0, 1), Role::Dim, canvas.look.glyphs.pick("…", "<"));
     }
@@ -125,7 +125,7 @@ fn put(canvas: &mut Canvas<'_>, at: Position, c: char, style: Style) {
 }
 
 /// Whether a mistake is underlined here; one without extent has a place of one character.
-fn covers(flaw: &Flaw, spot: Spot) -> bool {
+fn covers(flaw: &Flaw, spot: Caret) -> bool {
     spot == flaw.from || flaw.from <= spot && spot < flaw.to
 }
 

@@ -2,6 +2,7 @@
 
 mod editor;
 mod keys;
+pub(crate) mod real;
 mod saved;
 mod scripts;
 mod values;

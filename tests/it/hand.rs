@@ -9,6 +9,7 @@ use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
 use phaselab::preset::{Catalog, Document};
 use phaselab::system::{ChannelKind, Given, System};
+use phaselab::view::theme::PALETTES;
 
 /// The shipped presets, without the user's.
 pub(crate) fn catalog() -> &'static Catalog {
@@ -108,6 +109,7 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
 /// The application as it is once the pendulum is open in the lab and was seen at t = 2.
 pub(crate) fn in_lab() -> App {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
+    app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
     app.update(Event::Loaded(Ok(pendulum())));
     app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     app

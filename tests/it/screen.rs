@@ -3,7 +3,9 @@
 mod golden;
 mod motion;
 mod panes;
+mod plain;
 mod purity;
+mod spots;
 mod workbench;
 
 use phaselab::app::{App, Drawn};
@@ -15,7 +17,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 /// A terminal of 24-bit colour that has all characters.
-fn rich() -> Look {
+pub(crate) fn rich() -> Look {
     Look { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
 }
 
@@ -32,7 +34,7 @@ fn drawn(app: &App, look: &Look, (width, height): (u16, u16)) -> (Buffer, Drawn)
 }
 
 /// The text of each row.
-fn rows(buffer: &Buffer) -> Vec<String> {
+pub(crate) fn rows(buffer: &Buffer) -> Vec<String> {
     let row = |y| (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect::<String>();
     (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()
 }

@@ -66,6 +66,12 @@ impl Pen {
         self.at = known.then_some((x + 1, y));
     }
 
+    /// Leaves the cursor at a cell.
+    pub(super) fn rest(&mut self, out: &mut Vec<u8>, (x, y): (u16, u16)) {
+        self.go(out, x, y);
+        self.at = Some((x, y));
+    }
+
     /// Moves to a cell by the shortest way.
     fn go(&mut self, out: &mut Vec<u8>, x: u16, y: u16) {
         let Some((column, row)) = self.at else {

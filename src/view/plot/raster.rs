@@ -15,7 +15,7 @@ use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 use super::scale::{Frame, Scale};
 use crate::expr::portable;
 use crate::view::glyphs::Glyphs;
-use crate::view::theme::Shade;
+use crate::view::theme::{Dash, Shade};
 use hand::Hand;
 
 /// More cells than this in a row or column are not drawn; no terminal has them.
@@ -35,12 +35,14 @@ pub struct Pen {
     pub fresh: u8,
     /// Share of the dots that are drawn, 0 to 1.
     pub coverage: f64,
+    /// The pattern along the line.
+    pub dash: Dash,
 }
 
 impl Pen {
     /// A full line on a layer.
     pub fn new(style: Style, layer: u8) -> Self {
-        Self { style, layer, fresh: 0, coverage: 1.0 }
+        Self { style, layer, fresh: 0, coverage: 1.0, dash: Dash::Full }
     }
 
     /// The same pen leaving out dots: 0.5 looks dotted, 1 is full.
@@ -51,7 +53,8 @@ impl Pen {
 
     /// A line in a shade of the theme.
     pub fn shaded(shade: Shade, layer: u8) -> Self {
-        Self { style: shade.style, layer, fresh: 0, coverage: shade.coverage }
+        let Shade { style, coverage, dash } = shade;
+        Self { style, layer, fresh: 0, coverage, dash }
     }
 
     fn aged(shade: Shade, layer: u8, fresh: usize) -> Self {

@@ -8,7 +8,7 @@
 use ratatui::style::{Color, Modifier};
 
 use super::{CURVES, Ink, Role};
-use crate::view::colour::Rgb;
+use crate::view::colour::{ColourDepth, Rgb};
 
 /// A named set of colours.
 #[derive(Debug)]
@@ -27,10 +27,12 @@ pub struct Palette {
     pub curves: [Ink; CURVES],
     /// Anchors of the density ramp, sparse to dense, of growing contrast.
     pub heat: [Ink; 4],
+    /// The most colour it uses: one of the terminal's own sixteen, or any.
+    pub most: ColourDepth,
 }
 
 /// Every palette; the first is the default.
-pub const PALETTES: [Palette; 2] = [DARK, LIGHT];
+pub const PALETTES: [Palette; 5] = [DARK, LIGHT, CONTRAST, COLOUR_BLIND, TERMINAL];
 
 const NONE: Modifier = Modifier::empty();
 const BOLD: Modifier = Modifier::BOLD;
@@ -83,6 +85,7 @@ const DARK: Palette = Palette {
         ink(0x4f_bf_7a, Color::Yellow, NONE, NONE),
         ink(0xf5_e6_5a, Color::White, NONE, NONE),
     ],
+    most: ColourDepth::True,
 };
 
 /// Deep tones on white.
@@ -120,4 +123,90 @@ const LIGHT: Palette = Palette {
         ink(0x2a_60_90, Color::Red, NONE, NONE),
         ink(0x30_18_60, Color::Black, NONE, NONE),
     ],
+    most: ColourDepth::True,
+};
+
+/// Strong tones on black: all words at 7 to 1 or more, frames and level curves at 4.5.
+const CONTRAST: Palette = Palette {
+    name: "contrast",
+    about: "high contrast, for black terminals",
+    background: Rgb(0x00, 0x00, 0x00),
+    foreground: Rgb(0xff, 0xff, 0xff),
+    roles: [
+        own(NONE, NONE),
+        ink(0xd0_d0_d0, Color::Gray, NONE, DIM),
+        ink(0x5f_ff_ff, Color::LightCyan, BOLD, BOLD),
+        own(BOLD, UNDERLINED),
+        ink(0xa8_a8_a8, Color::Gray, NONE, DIM),
+        ink(0xff_ff_00, Color::LightYellow, BOLD, NONE),
+        ink(0x5f_ff_5f, Color::LightGreen, BOLD, NONE),
+        ink(0xff_ff_00, Color::LightYellow, BOLD, UNDERLINED),
+        ink(0xff_87_87, Color::LightRed, BOLD, REVERSED),
+        own(REVERSED, NONE),
+        ink(0xff_87_ff, Color::LightMagenta, BOLD, BOLD),
+        ink(0x87_af_ff, Color::Gray, NONE, DIM),
+    ],
+    curves: [
+        ink(0x5f_d7_ff, Color::LightCyan, NONE, NONE),
+        ink(0xff_d7_00, Color::LightYellow, NONE, BOLD),
+        ink(0x5f_ff_87, Color::LightGreen, NONE, DIM),
+        ink(0xff_87_ff, Color::LightMagenta, NONE, NONE),
+        ink(0xff_87_5f, Color::LightRed, NONE, BOLD),
+        ink(0x9a_9a_ff, Color::Cyan, NONE, DIM),
+        ink(0xff_ff_ff, Color::White, NONE, NONE),
+    ],
+    heat: [
+        ink(0x5f_5f_ff, Color::LightBlue, NONE, NONE),
+        ink(0x00_af_ff, Color::Cyan, NONE, NONE),
+        ink(0x5f_ff_af, Color::LightYellow, NONE, NONE),
+        ink(0xff_ff_d7, Color::White, NONE, NONE),
+    ],
+    most: ColourDepth::True,
+};
+
+/// Verdicts in blue, yellow and vermilion; nothing hangs on telling red from green.
+const COLOUR_BLIND: Palette = Palette {
+    name: "colour-blind",
+    about: "told apart by people who confuse red and green",
+    background: Rgb(0x14, 0x16, 0x1c),
+    foreground: Rgb(0xff, 0xff, 0xff),
+    roles: [
+        own(NONE, NONE),
+        ink(0x9a_9e_aa, Color::Gray, NONE, DIM),
+        ink(0x6c_b8_f0, Color::LightCyan, NONE, BOLD),
+        own(BOLD, UNDERLINED),
+        ink(0x6a_70_80, Color::DarkGray, NONE, DIM),
+        ink(0xf0_e4_42, Color::LightYellow, BOLD, NONE),
+        ink(0x56_b4_e9, Color::LightCyan, NONE, NONE),
+        ink(0xf0_e4_42, Color::LightYellow, NONE, UNDERLINED),
+        ink(0xe8_72_22, Color::LightRed, BOLD, REVERSED),
+        own(REVERSED, NONE),
+        ink(0xe6_9f_d0, Color::LightMagenta, NONE, BOLD),
+        ink(0x5f_74_a0, Color::DarkGray, NONE, DIM),
+    ],
+    curves: [
+        ink(0x56_b4_e9, Color::LightCyan, NONE, NONE),
+        ink(0xe6_9f_00, Color::Yellow, NONE, BOLD),
+        ink(0x00_9e_73, Color::Green, NONE, DIM),
+        ink(0xf0_e4_42, Color::LightYellow, NONE, NONE),
+        ink(0x4a_7c_e8, Color::LightBlue, NONE, BOLD),
+        ink(0xd5_5e_00, Color::LightRed, NONE, DIM),
+        ink(0xe8_c8_e0, Color::White, NONE, NONE),
+    ],
+    heat: [
+        ink(0x3a_4a_80, Color::LightBlue, NONE, NONE),
+        ink(0x56_84_b0, Color::Cyan, NONE, NONE),
+        ink(0xc0_b0_60, Color::LightYellow, NONE, NONE),
+        ink(0xff_f4_b0, Color::White, NONE, NONE),
+    ],
+    most: ColourDepth::True,
+};
+
+/// The sixteen colours that the terminal itself is set to, whatever more it could show.
+const TERMINAL: Palette = Palette {
+    name: "terminal",
+    about: "the terminal's own sixteen colours",
+    background: Rgb(0x00, 0x00, 0x00),
+    most: ColourDepth::Ansi16,
+    ..DARK
 };

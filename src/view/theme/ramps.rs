@@ -4,7 +4,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::{Ink, Palette, Shade};
+use super::{Dash, Ink, Palette, Shade};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// Makes the ramps of a palette at a depth.
@@ -68,7 +68,7 @@ impl Ramps {
                 if self.contrast(colour) >= strongest.0 {
                     strongest = (self.contrast(colour), colour);
                 }
-                Shade { style: Style::new().fg(strongest.1), coverage: 1.0 }
+                Shade { style: Style::new().fg(strongest.1), coverage: 1.0, dash: Dash::Full }
             })
             .collect()
     }
@@ -86,7 +86,7 @@ fn weight(share: f64) -> Shade {
         _ => Modifier::BOLD,
     };
     let style = Style::new().add_modifier(modifier);
-    Shade { style, coverage: (0.2 + 1.2 * share).min(1.0) }
+    Shade { style, coverage: (0.2 + 1.2 * share).min(1.0), dash: Dash::Full }
 }
 
 /// The bright partner of one of the eight base colours.

@@ -1,6 +1,6 @@
 //! The editor: a text, keys, the text after them.
 
-use phaselab::app::{Editor, Spot};
+use phaselab::app::{Caret, Editor};
 use proptest::prelude::*;
 
 use crate::hand::key;
@@ -32,7 +32,7 @@ fn at(marked: &str) -> Editor {
 }
 
 fn shown(editor: &Editor) -> String {
-    let Spot { row, column } = editor.cursor();
+    let Caret { row, column } = editor.cursor();
     let mut lines = editor.lines().to_vec();
     let byte = lines[row].char_indices().nth(column).map_or(lines[row].len(), |(at, _)| at);
     lines[row].insert(byte, '|');
@@ -104,7 +104,7 @@ fn words_are_found_from_the_cursor_on_and_round_again() {
         assert!(editor.find("mass"));
         places.push(editor.selection().expect("it is selected").0);
     }
-    let spot = |row, column| Spot { row, column };
+    let spot = |row, column| Caret { row, column };
     assert_eq!(places, [spot(0, 0), spot(2, 0), spot(0, 0)]);
     assert!(!editor.find("gravity"));
     assert!(!editor.find(""));
@@ -122,9 +122,9 @@ fn pasted_text_brings_no_steering_and_no_more_than_there_is_room_for() {
 #[test]
 fn places_of_bytes_are_places_of_characters() {
     let editor = Editor::new("θ = 1\r\nφ = 2\r\n", LIMIT);
-    assert_eq!(editor.spot(2), Spot { row: 0, column: 1 });
-    assert_eq!(editor.spot("θ = 1\r\nφ".len()), Spot { row: 1, column: 1 });
-    assert_eq!(editor.spot(1000), Spot { row: 2, column: 0 });
+    assert_eq!(editor.spot(2), Caret { row: 0, column: 1 });
+    assert_eq!(editor.spot("θ = 1\r\nφ".len()), Caret { row: 1, column: 1 });
+    assert_eq!(editor.spot(1000), Caret { row: 2, column: 0 });
 }
 
 const KEYS: [&str; 22] = [
@@ -163,7 +163,7 @@ proptest! {
         prop_assert_eq!(editor.text(), text.clone());
         for word in keys {
             editor.press(key(word), 3);
-            let Spot { row, column } = editor.cursor();
+            let Caret { row, column } = editor.cursor();
             prop_assert!(column <= editor.lines()[row].chars().count());
         }
         let after = editor.text();

@@ -231,7 +231,7 @@ fn news_of_the_experiment_is_told_once() {
 fn a_page_of_text_does_not_scroll_beyond_its_end() {
     let mut app = in_lab();
     press(&mut app, "2");
-    app.update(Event::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20, columns: 0 }));
+    app.update(Event::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20, ..Default::default() }));
     press(&mut app, "Down Down Down Down Down Down");
     assert_eq!(app.scroll, 3);
     press(&mut app, "Up");

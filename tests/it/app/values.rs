@@ -1,12 +1,9 @@
 //! Values: steps, typed numbers, undo.
 
-use std::sync::Arc;
+use phaselab::app::{Effect, Event, Over, Target};
+use phaselab::experiment::Command;
 
-use phaselab::app::{App, Effect, Event, Over, Target};
-use phaselab::experiment::{Command, Snapshot};
-use proptest::prelude::*;
-
-use crate::hand::{in_lab, key, pendulum, press, snapshot};
+use crate::hand::{in_lab, press};
 
 /// Types a text into the field of the first parameter and accepts it: what was asked for, or what is wrong.
 fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
@@ -95,76 +92,4 @@ fn a_held_key_counts_every_press_before_the_experiment_answers() {
     }
     let lab = app.lab.as_ref().unwrap();
     assert_eq!(lab.value(Target::Parameter(0)), Some(1.2));
-}
-
-/// What an experiment would have made of the commands.
-struct Fake {
-    app: App,
-    seen: Snapshot,
-}
-
-impl Fake {
-    fn new() -> Self {
-        // Without bounds there is no landscape to be surveyed after each change.
-        let seen = Snapshot { bounds: [].into(), ..snapshot(&pendulum(), 2.0) };
-        Self { app: in_lab(), seen }
-    }
-
-    fn obey(&mut self, effects: &[Effect]) {
-        let mut parameters = self.seen.parameters.to_vec();
-        let mut initial = self.seen.initial.to_vec();
-        for effect in effects {
-            match effect {
-                Effect::Tell(Command::Parameter { index, value }) => parameters[*index] = *value,
-                Effect::Tell(Command::Initial { index, value }) => initial[*index] = *value,
-                Effect::Tell(Command::FullReset) => {
-                    let file = snapshot(&pendulum(), 2.0);
-                    (parameters, initial) = (file.parameters.to_vec(), file.initial.to_vec());
-                }
-                _ => {}
-            }
-        }
-        (self.seen.parameters, self.seen.initial) = (parameters.into(), initial.into());
-        self.app.update(Event::Snapshot(Arc::new(self.seen.clone())));
-    }
-
-    fn press(&mut self, word: &str) {
-        let effects = self.app.update(Event::Key(key(word)));
-        self.obey(&effects);
-    }
-
-    fn values(&self) -> (Vec<f64>, Vec<f64>) {
-        (self.seen.parameters.to_vec(), self.seen.initial.to_vec())
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
-
-    #[test]
-    fn undoing_everything_leads_back_to_the_beginning(edits in prop::collection::vec(0..9_usize, 100)) {
-        let words = ["Right", "Left", "L", "H", "Down", "Up", "Tab", "Backspace", "R"];
-        let mut fake = Fake::new();
-        let start = fake.values();
-        for edit in edits {
-            // The focus stays among the lists of values.
-            if words[edit] == "Tab" {
-                let word = if fake.app.places().contains(&phaselab::app::keymap::Place::Values)
-                    && fake.app.lab.as_ref().unwrap().focus == phaselab::app::Pane::Parameters
-                { "Tab" } else { "Shift-Tab" };
-                fake.press(word);
-            } else {
-                fake.press(words[edit]);
-            }
-        }
-        let end = fake.values();
-        for _ in 0..100 {
-            fake.press("u");
-        }
-        prop_assert_eq!(fake.values(), start);
-        for _ in 0..100 {
-            fake.press("U");
-        }
-        prop_assert_eq!(fake.values(), end);
-    }
 }

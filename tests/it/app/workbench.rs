@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::{
-    App, BenchState, Checked, Effect, Event, Loaded, NotSaved, Over, Plot, Spot, Workbench,
+    App, BenchState, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Plot, Workbench,
 };
 use phaselab::experiment::{Command, Ready};
 use phaselab::preset::Document;
@@ -126,7 +126,7 @@ fn next_and_previous_go_round_all_mistakes() {
     press(&mut app, "Ctrl-Home Ctrl-n");
     assert_eq!(bench(&app).editor.cursor().row, rows[1]);
     press(&mut app, "Ctrl-n");
-    assert_eq!(bench(&app).editor.cursor(), Spot::default());
+    assert_eq!(bench(&app).editor.cursor(), Caret::default());
     press(&mut app, "Ctrl-p");
     assert_eq!(bench(&app).editor.cursor().row, rows[1]);
 }

@@ -2,14 +2,14 @@
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{Frame, Marker, Pen, Raster, Scale};
-use phaselab::view::theme::Shade;
+use phaselab::view::theme::{Dash, Shade};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
 use super::{dots, rows, unit};
 
-const PLAIN: Pen = Pen { style: Style::new(), layer: 0, fresh: 0, coverage: 1.0 };
+const PLAIN: Pen = Pen { style: Style::new(), layer: 0, fresh: 0, coverage: 1.0, dash: Dash::Full };
 
 fn drawn(area: Rect, glyphs: Glyphs, draw: impl FnOnce(&mut Raster)) -> Buffer {
     let mut raster = Raster::new(area, glyphs);
@@ -191,7 +191,11 @@ fn cells_without_dots_and_backgrounds_are_left_alone() {
 #[test]
 fn an_even_cloud_has_an_even_shade() {
     let shades: Vec<Shade> = (0..8)
-        .map(|i| Shade { style: Style::new().fg(Color::Indexed(i)), coverage: 1.0 })
+        .map(|i| Shade {
+            style: Style::new().fg(Color::Indexed(i)),
+            coverage: 1.0,
+            dash: Dash::Full,
+        })
         .collect();
     let area = Rect::new(0, 0, 20, 10);
     // A lattice of additive recurrences (Roberts' R2) fills the square evenly.
@@ -216,7 +220,11 @@ fn an_even_cloud_has_an_even_shade() {
 #[test]
 fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
     let shades: Vec<Shade> = (0..8)
-        .map(|i| Shade { style: Style::new().fg(Color::Indexed(i)), coverage: 1.0 })
+        .map(|i| Shade {
+            style: Style::new().fg(Color::Indexed(i)),
+            coverage: 1.0,
+            dash: Dash::Full,
+        })
         .collect();
     let area = Rect::new(0, 0, 4, 1);
     let points = [1, 10, 100, 1000]
@@ -261,4 +269,23 @@ fn every_pattern_of_dots_has_a_character_of_its_own() {
     };
     let corners = [Glyphs::Quadrant, Glyphs::Sextant, Glyphs::Octant, Glyphs::HalfBlock];
     assert_eq!(corners.map(corner), ["▗", "🬞", "\u{1cea0}", "▄"]);
+}
+
+#[test]
+fn patterns_run_along_lines_of_every_slope() {
+    let area = Rect::new(0, 0, 40, 20);
+    for end in [[1.0, 0.5], [1.0, 1.0], [0.5, 1.0], [0.02, 1.0], [1.0, 0.02]] {
+        let count = |dash: Dash| {
+            let mut raster = Raster::new(area, Glyphs::Braille);
+            raster.line(&unit(area), [0.0, 0.0], end, &Pen { dash, ..PLAIN });
+            raster.count() as f64
+        };
+        let full = count(Dash::Full);
+        for (dash, share) in
+            [(Dash::Dashed, 5.0 / 9.0), (Dash::Dotted, 0.25), (Dash::Sparse, 0.125)]
+        {
+            let drawn = count(dash) / full;
+            assert!((drawn - share).abs() < 0.1, "{dash:?} to {end:?}: {drawn}");
+        }
+    }
 }

@@ -43,7 +43,7 @@ fn text_has_the_contrast_to_be_read() {
                 assert!(contrast >= least, "{} {depth:?} {role:?}: {contrast:.2}", palette.name);
             }
             // Curves are lines; WCAG asks 3 to 1 of graphics.
-            for series in (0..CURVES).filter(|_| depth != ColourDepth::Ansi16) {
+            for series in (0..CURVES).filter(|_| theme.depth() != ColourDepth::Ansi16) {
                 let contrast = colour(palette, theme.curve(series)).contrast(ground);
                 assert!(
                     contrast >= 3.0,
@@ -73,6 +73,9 @@ fn series_are_told_apart() {
     for palette in &PALETTES {
         for depth in [ColourDepth::Ansi256, ColourDepth::True] {
             let theme = Theme::new(palette, depth);
+            if theme.depth() != depth {
+                continue;
+            }
             for (a, b) in (0..CURVES).flat_map(|a| (0..a).map(move |b| (a, b))) {
                 let [x, y] = [a, b].map(|series| colour(palette, theme.curve(series)));
                 let distance = x.distance(y);
@@ -128,7 +131,7 @@ fn a_depth_is_never_exceeded() {
         for depth in COLOURFUL {
             let theme = Theme::new(palette, depth);
             for colour in styles(&theme).into_iter().filter_map(|style| style.fg) {
-                let fits = match depth {
+                let fits = match depth.min(palette.most) {
                     ColourDepth::True => matches!(colour, Color::Rgb(..) | Color::Reset),
                     ColourDepth::Ansi256 => matches!(colour, Color::Indexed(16..) | Color::Reset),
                     _ => !matches!(colour, Color::Rgb(..) | Color::Indexed(_)),
@@ -162,6 +165,77 @@ fn without_colour_there_is_none_and_weights_tell_roles_apart() {
         assert!(theme.line(Role::Level).coverage < theme.line(Role::Separatrix).coverage);
         assert_ne!(theme.series(0), theme.series(1));
     }
+}
+
+/// What people see who lack one kind of cones, from sRGB in linear light.
+/// Source: F. Viénot, H. Brettel and J. D. Mollon, "Digital video colourmaps for checking the legibility of displays by
+/// dichromats", Color Res. Appl. 24 (1999) 243.
+const DICHROMATS: [[[f64; 3]; 3]; 2] = [
+    [[0.11238, 0.88762, 0.0], [0.11238, 0.88762, 0.0], [0.00401, -0.00401, 1.0]],
+    [[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]],
+];
+
+fn seen_by(matrix: &[[f64; 3]; 3], colour: Rgb) -> Rgb {
+    let linear = [colour.0, colour.1, colour.2].map(|c| (f64::from(c) / 255.0).powf(2.2));
+    let [r, g, b] = matrix.map(|row| {
+        let light: f64 = row.iter().zip(linear).map(|(a, c)| a * c).sum();
+        (255.0 * light.clamp(0.0, 1.0).powf(1.0 / 2.2)).round() as u8
+    });
+    Rgb(r, g, b)
+}
+
+#[test]
+fn the_theme_for_the_colour_blind_is_told_apart_by_them() {
+    for depth in [ColourDepth::Ansi256, ColourDepth::True] {
+        let theme = Theme::named("colour-blind", depth).unwrap();
+        let verdicts = [Role::Good, Role::Warn, Role::Bad].map(|role| theme[role]).to_vec();
+        let curves: Vec<Style> = (0..CURVES).map(|series| theme.curve(series)).collect();
+        for (styles, least) in [(verdicts, 0.1), (curves, 0.05)] {
+            for matrix in &DICHROMATS {
+                for (a, b) in (0..styles.len()).flat_map(|a| (0..a).map(move |b| (a, b))) {
+                    let [x, y] =
+                        [a, b].map(|i| seen_by(matrix, colour(theme.palette(), styles[i])));
+                    assert!(x.distance(y) > least, "{depth:?} {a} {b}: {:.3}", x.distance(y));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn high_contrast_is_high() {
+    for depth in COLOURFUL {
+        let theme = Theme::named("contrast", depth).unwrap();
+        for role in Role::ALL {
+            let contrast = colour(theme.palette(), theme[role]).contrast(Rgb(0, 0, 0));
+            // What the terminal's own sixteen look like is for the terminal to say.
+            let strong = role.is_text() && depth != ColourDepth::Ansi16;
+            assert!(contrast >= if strong { 7.0 } else { 4.5 }, "{role:?} {contrast:.2}");
+        }
+    }
+}
+
+#[test]
+fn the_terminals_own_colours_stay_its_own() {
+    let theme = Theme::named("terminal", ColourDepth::True).unwrap();
+    assert_eq!(theme.depth(), ColourDepth::Ansi16);
+    let dark = theme.renamed("dark").unwrap();
+    assert_eq!(dark.depth(), ColourDepth::True, "another theme has all colours again");
+}
+
+#[test]
+fn without_colour_every_line_of_a_plot_has_a_pattern_of_its_own() {
+    let theme = Theme::dark(ColourDepth::None);
+    let drawn = |series: usize| -> Vec<bool> {
+        (0..400).map(|place| theme.series(series).dash.covers(place)).collect()
+    };
+    for (a, b) in (0..CURVES).flat_map(|a| (0..a).map(move |b| (a, b))) {
+        let apart = drawn(a).iter().zip(drawn(b)).filter(|(x, y)| **x != *y).count();
+        assert!(apart > 20, "{a} and {b} differ in {apart} dots of 400");
+        assert_ne!(theme.series(a).dash.sample(), theme.series(b).dash.sample());
+    }
+    let coloured = Theme::dark(ColourDepth::Ansi16);
+    assert!((0..CURVES).all(|s| (0..99).all(|place| coloured.series(s).dash.covers(place))));
 }
 
 #[test]

@@ -64,6 +64,27 @@ fn the_lab() {
 }
 
 #[test]
+fn the_palette() {
+    let mut app = in_lab();
+    press(&mut app, ": m e t h");
+    check("palette-80x24.txt", &screen(&app, &rich(), (80, 24)), &rich());
+}
+
+#[test]
+fn the_plain_reading() {
+    let mut app = in_lab();
+    press(&mut app, "9");
+    check("plain-80x24.txt", &screen(&app, &rich(), (80, 24)), &rich());
+}
+
+#[test]
+fn the_themes() {
+    let mut app = in_lab();
+    press(&mut app, "T Down");
+    check("themes-80x24.txt", &screen(&app, &rich(), (80, 24)), &rich());
+}
+
+#[test]
 fn the_picker() {
     check("picker-80x24.txt", &screen(&at_picker(), &rich(), (80, 24)), &rich());
 }

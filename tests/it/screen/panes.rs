@@ -1,18 +1,22 @@
 //! What the panes show, and in which style.
 
 use std::sync::Arc;
+use std::time::Duration;
 
-use phaselab::app::{Event, Lens, Plot};
+use phaselab::app::{App, Event, Lens, Plot};
 use phaselab::experiment::{Growth, Status, Verdict};
 use phaselab::integrate::{Happening, Kind};
 use phaselab::model::{Shape, ViewKind};
 use phaselab::system::ChannelKind;
-use phaselab::view::theme::Role;
+use phaselab::view::Look;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::{Role, Theme};
 use ratatui::style::Modifier;
 use unicode_width::UnicodeWidthStr;
 
 use super::{find, rich, rows, screen};
-use crate::hand::{at_picker, gauge, in_lab, loaded, pendulum, press, snapshot};
+use crate::hand::{at_picker, gauge, in_lab, loaded, lowered, pendulum, press, snapshot};
 
 #[test]
 fn a_small_screen_says_how_large_it_must_be() {
@@ -419,4 +423,187 @@ fn a_body_is_drawn_as_it_stands() {
         2 * nowhere < cells(&upright),
         "without an attitude there is no body to draw: {nowhere}"
     );
+}
+
+#[test]
+fn news_are_told_one_after_the_other_and_leave_the_hints_room() {
+    let mut app = in_lab();
+    let mut seen = snapshot(&pendulum(), 2.5);
+    seen.notices = ["old news", "the bob passed", "the bob came back"].map(str::to_owned).into();
+    let mut before = seen.clone();
+    before.notices = ["old news".to_owned()].into();
+    app.update(Event::Snapshot(Arc::new(before)));
+    app.update(Event::Tick(Duration::from_secs(6)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let footer = |app: &App| rows(&screen(app, &rich(), (80, 24)))[23].clone();
+    for news in ["the bob passed", "the bob came back"] {
+        let footer = footer(&app);
+        assert!(footer.contains(news), "{footer}");
+        assert!(footer.contains("? help") && footer.contains("q quit"), "{footer}");
+        app.update(Event::Tick(Duration::from_millis(2100)));
+    }
+    app.update(Event::Tick(Duration::from_secs(6)));
+    assert_eq!(app.notice, None);
+}
+
+#[test]
+fn a_frame_is_chosen_from_any_pane() {
+    let seen = loaded("merry-go-round", 1);
+    let (mut app, _) = App::new(crate::hand::catalog(), Some("merry-go-round"));
+    let now = snapshot(&seen, 2.0);
+    app.update(Event::Loaded(Ok(seen)));
+    app.update(Event::Snapshot(Arc::new(now)));
+    let buffer = screen(&app, &rich(), (120, 40));
+    assert!(find(&buffer, "f frame").is_some(), "the hint stands where parameters are focused");
+    press(&mut app, "f");
+    let first = &app.lab.as_ref().unwrap().plots[0];
+    assert!(matches!(first, Plot::Space(eye) if eye.frame.is_some()), "{first:?}");
+}
+
+#[test]
+fn the_reason_of_a_gauge_is_read_in_full_where_it_is_narrow() {
+    let mut app = in_lab();
+    let mut seen = snapshot(&pendulum(), 2.0);
+    let mut long = gauge("energy", "E", 4.0, Verdict::Bounded);
+    long.reason = "∂L/∂t = 0, and no force does work that would not be in the potential".to_owned();
+    seen.gauges = [long].into();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    press(&mut app, "Tab Tab");
+    for size in [(80, 24), (120, 40)] {
+        let buffer = screen(&app, &rich(), size);
+        let text = rows(&buffer).join(" ");
+        for word in ["would not be", "potential;", "swings without"] {
+            assert!(text.contains(word), "{word} at {size:?} in {:#?}", rows(&buffer));
+        }
+    }
+}
+
+#[test]
+fn a_view_of_any_kind_is_called_what_the_file_calls_it() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+        L = \"1/2*x'^2 - x^2\"\n[[views]]\nkind = 'phase'\nx = 'x'\ny = 'p_x'\n\
+        title = 'The plane'\n[[views]]\nkind = 'time'\ny = 'x'\ntitle = 'The swing'\n";
+    let loaded = lowered(text);
+    let mut app = in_lab();
+    let seen = snapshot(&loaded, 1.0);
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let buffer = screen(&app, &rich(), (120, 40));
+    for title in ["The plane", "The swing"] {
+        let (x, y) = find(&buffer, title).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
+        assert_eq!(buffer[(x, y)].fg, rich().theme[Role::Title].fg.unwrap());
+    }
+    press(&mut app, ": s w i n g Enter");
+    assert!(matches!(app.lab.as_ref().unwrap().focused_plot(), Some((_, Plot::Time { .. }))));
+}
+
+#[test]
+fn a_narrow_screen_shows_the_motion_too() {
+    let braille = |buffer: &ratatui::buffer::Buffer| {
+        let drawn = |c: char| ('⠁'..='⣿').contains(&c) || c == '●';
+        buffer.content.iter().filter(|cell| cell.symbol().starts_with(drawn)).count()
+    };
+    for size in [(60, 24), (50, 20), (70, 24), (79, 24)] {
+        let buffer = screen(&in_lab(), &rich(), size);
+        assert!(find(&buffer, "Motion").is_some(), "{size:?} {:#?}", rows(&buffer));
+        assert!(braille(&buffer) > 10, "{size:?}");
+    }
+    let buffer = screen(&at_picker(), &rich(), (60, 30));
+    assert!(braille(&buffer) > 10, "the preview below the list: {:#?}", rows(&buffer));
+}
+
+#[test]
+fn several_curves_are_told_apart_without_colour() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab v Down Enter Tab Down Tab Down Tab Enter z");
+    for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
+        let look = Look { theme: Theme::dark(ColourDepth::None), glyphs };
+        let buffer = screen(&app, &look, (120, 40));
+        let samples = [0, 1, 2].map(|i| {
+            let [unicode, ascii] = look.theme.series(i).dash.sample();
+            glyphs.pick(unicode, ascii)
+        });
+        for sample in samples {
+            let (_, row) = find(&buffer, &format!("  {sample} ")).expect("a sample in the heading");
+            assert_eq!(row, 1, "{sample}");
+        }
+    }
+}
+
+#[test]
+fn the_theme_under_the_selection_is_previewed_and_taken_by_enter() {
+    let look = rich();
+    let title = |app: &App| {
+        let buffer = screen(app, &look, (120, 40));
+        let at = find(&buffer, "phaselab").unwrap();
+        buffer[at].fg
+    };
+    let accent = |name: &str| {
+        let theme = Theme::named(name, ColourDepth::True).unwrap();
+        theme[Role::Accent].fg.unwrap()
+    };
+    let mut app = in_lab();
+    assert_eq!(title(&app), accent("dark"));
+    press(&mut app, "T Down");
+    assert_eq!(title(&app), accent("light"), "seen before it is taken");
+    press(&mut app, "Esc");
+    assert_eq!(title(&app), accent("dark"), "and left again");
+    press(&mut app, "T Down Down Enter");
+    assert_eq!(title(&app), accent("contrast"));
+}
+
+#[test]
+fn without_colour_what_is_selected_is_reversed_in_every_list() {
+    let look = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    for keys in ["", "Tab", "m", ":", "T", "Tab Tab Tab v"] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        let buffer = screen(&app, &look, (80, 24));
+        let reversed = buffer.content.iter().filter(|c| c.modifier.contains(Modifier::REVERSED));
+        assert!(reversed.count() > 4, "{keys}: {:#?}", rows(&buffer));
+    }
+}
+
+/// Width and height in dots of what is drawn in a zoomed pane; dots are as wide as high.
+fn extent(buffer: &ratatui::buffer::Buffer) -> [f64; 2] {
+    let mut ends = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
+    for y in 2..buffer.area.height - 3 {
+        for x in 1..buffer.area.width - 1 {
+            let symbol = buffer[(x, y)].symbol().chars().next().unwrap_or(' ');
+            let Some(dots) = u32::from(symbol).checked_sub(0x2800).filter(|d| *d < 256) else {
+                continue;
+            };
+            // Bits of the braille block: columns of three, then the lowest row.
+            for bit in (0..8).filter(|bit| dots & (1 << bit) != 0) {
+                let (column, row) = if bit < 6 { (bit / 3, bit % 3) } else { (bit - 6, 3) };
+                let (x, y) = (2 * i32::from(x) + column, 4 * i32::from(y) + row);
+                ends = [ends[0].min(x), ends[1].max(x), ends[2].min(y), ends[3].max(y)];
+            }
+        }
+    }
+    [f64::from(ends[1] - ends[0] + 1), f64::from(ends[3] - ends[2] + 1)]
+}
+
+#[test]
+fn a_circular_orbit_is_round() {
+    // A plane oscillator released on a circle of radius 1, in space and, one to one, in the plane of x and y.
+    let text = "title = 'circle'\n[coordinates]\nx = { initial = 1.0 }\n\
+        y = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\n\
+        L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2)\"\n[[views]]\nkind = 'space'\n\
+        [[views]]\nkind = 'phase'\nx = 'x'\ny = 'y'\n\
+        [space]\nshapes = [{ trace = ['x', 'y', '0'] }]\n";
+    for keys in ["Tab Tab Tab z", "Tab Tab Tab Tab o z"] {
+        let mut real = crate::app::real::Real::with(lowered(text));
+        real.run(400);
+        real.press(keys);
+        for size in [(80, 24), (120, 40), (200, 60)] {
+            let [wide, high] = extent(&screen(&real.app, &rich(), size));
+            assert!((wide / high - 1.0).abs() < 0.05, "{wide} to {high} at {size:?} after {keys}");
+        }
+    }
+    let mut real = crate::app::real::Real::with(lowered(text));
+    real.run(400);
+    real.press("Tab Tab Tab Tab z");
+    let [wide, high] = extent(&screen(&real.app, &rich(), (200, 60)));
+    assert!(wide > 1.5 * high, "unasked it fills the pane");
 }

@@ -15,11 +15,14 @@ use super::screen;
 use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
 
 /// Keys that lead from the lab to every page, pop-up and pane.
-const WAYS: [&str; 18] = [
+const WAYS: [&str; 21] = [
     "",
     "2",
     "3",
     "4",
+    "9",
+    "T Down",
+    "{ t h",
     "?",
     "m",
     ":",
@@ -97,7 +100,7 @@ fn all_presets_are_drawn() {
         let seen = snapshot(&system, 1.0);
         app.update(Event::Loaded(Ok(system)));
         app.update(Event::Snapshot(Arc::new(seen)));
-        for keys in ["", "2", "3", "4"] {
+        for keys in ["", "2", "3", "4", "9"] {
             press(&mut app, keys);
             for size in [(80, 24), (200, 60)] {
                 let text = super::rows(&screen(&app, &super::rich(), size)).join("\n");
@@ -139,7 +142,7 @@ fn ascii_screens_know_every_letter() {
         let seen = snapshot(&system, 1.0);
         app.update(Event::Loaded(Ok(system)));
         app.update(Event::Snapshot(Arc::new(seen)));
-        for keys in ["1", "2", "3", "4"] {
+        for keys in ["1", "2", "3", "4", "9"] {
             press(&mut app, keys);
             let text = super::rows(&screen(&app, &look, (160, 250))).join("\n");
             let strange: Vec<&str> =

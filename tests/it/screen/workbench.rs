@@ -1,6 +1,6 @@
 //! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
 
-use phaselab::app::{App, BenchState, Event, Flaw, Spot};
+use phaselab::app::{App, BenchState, Caret, Event, Flaw};
 use phaselab::view::Look;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -54,7 +54,7 @@ proptest! {
             press(&mut app, word);
         }
         let bench = app.open_workbench().unwrap();
-        let Spot { row, column } = bench.editor.cursor();
+        let Caret { row, column } = bench.editor.cursor();
         let under = bench.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
         let buffer = screen(&app, &rich(), (width, height));
         prop_assert_eq!(cells(&buffer, Modifier::REVERSED, width), [under]);
@@ -65,7 +65,7 @@ proptest! {
 fn a_mistake_is_underlined_marked_and_told_below() {
     let mut app = edited();
     let bench = app.workbench.as_mut().unwrap();
-    let (from, to) = (Spot { row: 2, column: 10 }, Spot { row: 2, column: 13 });
+    let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
     bench.flaws = vec![Flaw { from, to, warning: false, message, help }];
     bench.state = BenchState::Wrong;

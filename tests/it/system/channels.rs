@@ -215,3 +215,21 @@ fn what_has_no_value_is_refused() {
     let outcome = System::compile(&model, &equations, &[]);
     assert_eq!(outcome.err(), Some(CompileError::Unknown("stray".to_owned())));
 }
+
+#[test]
+fn momenta_and_energies_have_the_units_that_follow_from_the_file() {
+    for (name, channel, unit) in [
+        ("pendulum", "p_theta", "kg m²/s"),
+        ("pendulum", "energy", "J"),
+        ("planet", "p_r", "M⊕ au/yr"),
+        ("elastic-pendulum", "p_r", "kg m/s"),
+    ] {
+        let Ok(document) = crate::hand::catalog().find(name) else { panic!("no preset {name}") };
+        let model = document.read().unwrap().model;
+        let equations = phaselab::mechanics::derive(&model).unwrap();
+        let system = phaselab::system::System::compile(&model, &equations, &[]).unwrap();
+        let found = system.channels().iter().find(|c| c.name == channel);
+        let found = found.unwrap_or_else(|| panic!("{name} has no {channel}"));
+        assert_eq!(found.unit, unit, "{name} {channel}");
+    }
+}

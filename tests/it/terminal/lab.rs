@@ -77,6 +77,54 @@ fn a_paused_lab_sends_nothing() {
 }
 
 #[test]
+fn the_cursor_is_seen_where_something_is_read_or_typed_and_nowhere_else() {
+    let mut lab = pendulum();
+    lab.until("the cursor is hidden", |lab| lab.screen().hide_cursor());
+    lab.press("9");
+    lab.until("the cursor is at the first line", |lab| {
+        !lab.screen().hide_cursor() && lab.screen().cursor_position() == (1, 1)
+    });
+    lab.press("j");
+    lab.until("it goes a line on", |lab| lab.screen().cursor_position() == (2, 1));
+    lab.quiet(Duration::from_millis(300));
+    assert_eq!(lab.bytes_in(Duration::from_secs(1)), 0, "what is read keeps still");
+    lab.press("1");
+    lab.until("the cursor is hidden", |lab| lab.screen().hide_cursor());
+    lab.press(":zoo");
+    lab.until("the cursor is in the text", |lab| {
+        let (row, column) = lab.screen().cursor_position();
+        let before = lab.screen().contents_between(row, 0, row, column);
+        !lab.screen().hide_cursor() && before.ends_with("/ zoo")
+    });
+    lab.press("\x1b");
+    lab.until("it is closed", |lab| !lab.text().contains("/ zoo"));
+    quits(lab);
+}
+
+#[test]
+fn a_click_is_done_where_it_falls() {
+    let mut lab = lab(&["pendulum", "--mouse"]).start();
+    lab.shows("running");
+    let text = lab.text();
+    let row = text.lines().position(|line| line.contains("2 Equations")).unwrap();
+    let line = text.lines().nth(row).unwrap();
+    let column = line[..line.find("2 Equations").unwrap()].chars().count();
+    let (x, y) = (column + 3, row + 1);
+    lab.press(&format!("\x1b[<0;{x};{y}M\x1b[<0;{x};{y}m"));
+    lab.shows("Lagrangian");
+    quits(lab);
+}
+
+#[test]
+fn a_theme_is_chosen_by_its_name() {
+    let mut lab = lab(&["pendulum", "--theme", "contrast", "--color", "true"]).start();
+    lab.shows("running");
+    // phaselab, in the accent of that theme
+    lab.until("the theme is there", |lab| lab.sent().contains("38;2;95;255;255"));
+    quits(lab);
+}
+
+#[test]
 fn a_far_terminal_gets_fewer_frames() {
     let mut lab = lab(&["pendulum"]).variable("SSH_TTY", "/dev/pts/0").start();
     lab.shows("running");

@@ -13,7 +13,7 @@ pub(super) struct Hand<'a> {
     raster: &'a mut Raster,
     frame: Frame,
     size: [i32; 2],
-    tip: Tip<(Pen, Option<char>)>,
+    tip: Tip<(Pen, Option<char>, usize)>,
     at: Option<[f64; 2]>,
     /// The first point of a line, until there is a second.
     lone: Option<([f64; 2], Pen)>,
@@ -86,8 +86,10 @@ impl<'a> Hand<'a> {
             Some((age, ages)) => faded(age, ages),
             None => direction(b[0] - a[0], b[1] - a[1]),
         });
+        // The axis along which the line runs, and its pattern with it.
+        let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
         let raster = &mut *self.raster;
-        self.tip.follow((a, b), last, (*pen, sign), |dot, (pen, sign)| raster.ink(dot, &pen, sign));
+        self.tip.follow((a, b), last, (*pen, sign, along), |dot, ink| put(raster, dot, &ink));
         if b != next {
             self.lift();
         }
@@ -95,7 +97,14 @@ impl<'a> Hand<'a> {
 
     fn lift(&mut self) {
         let raster = &mut *self.raster;
-        self.tip.lift(|dot, (pen, sign)| raster.ink(dot, &pen, sign));
+        self.tip.lift(|dot, ink| put(raster, dot, &ink));
+    }
+}
+
+/// Inks a dot of a line unless it falls in a gap of the pattern.
+fn put(raster: &mut Raster, dot: [i32; 2], (pen, sign, along): &(Pen, Option<char>, usize)) {
+    if pen.dash.covers(dot[*along]) {
+        raster.ink(dot, pen, *sign);
     }
 }
 

@@ -1,0 +1,236 @@
+//! Changes to the lab: each is made, noted, and can be taken back.
+//!
+//! In: new values, methods, settings and pictures. Out: commands, and the wishes that stand until the experiment shows
+//! them. Never here: which key asks for it, or how the history keeps it.
+
+use super::history::Change;
+use super::{Effect, Lab, Pane, Plot, Target};
+use crate::experiment::{Command, Snapshot, with_given};
+use crate::integrate::Settings;
+use crate::system::Given;
+
+/// What was asked of the experiment and not yet seen, beside single values.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wishes {
+    method: Option<&'static str>,
+    settings: Option<Settings>,
+    given: Option<Vec<Given>>,
+}
+
+impl Wishes {
+    /// Forgets what a snapshot shows.
+    pub(super) fn see(&mut self, snapshot: &Snapshot) {
+        self.method.take_if(|wish| *wish == snapshot.method.name);
+        self.settings.take_if(|wish| *wish == snapshot.setup.settings);
+        self.given.take_if(|wish| *wish == snapshot.setup.given);
+    }
+}
+
+/// Which side of a change: as it was before, or as it was made.
+#[derive(Clone, Copy)]
+enum Side {
+    Before,
+    After,
+}
+
+impl Lab {
+    /// The method's name: what was asked for last, until the experiment shows it too.
+    pub(super) fn method(&self) -> Option<&'static str> {
+        self.asked.method.or(self.snapshot.as_ref().map(|s| s.method.name))
+    }
+
+    fn settings(&self) -> Option<Settings> {
+        self.asked.settings.or(self.snapshot.as_ref().map(|s| s.setup.settings))
+    }
+
+    fn given(&self) -> Vec<Given> {
+        let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.given.clone());
+        self.asked.given.clone().unwrap_or_else(fact)
+    }
+
+    /// Changes a value.
+    pub(super) fn change(&mut self, target: Target, to: f64) -> Vec<Effect> {
+        let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
+        let numbers = [from, to];
+        self.wish(target, to);
+        match target {
+            Target::Parameter(index) => {
+                self.history.note(Change::Parameter { index, numbers });
+                vec![Effect::Tell(Command::Parameter { index, value: to })]
+            }
+            Target::Initial(index) => {
+                let before = self.given();
+                let after = with_given(&self.loaded.system, &before, index, to);
+                self.asked.given = Some(after.clone());
+                self.history.note(Change::Initial { index, numbers, given: [before, after] });
+                vec![Effect::Tell(Command::Initial { index, value: to })]
+            }
+        }
+    }
+
+    /// Begins the motion with several initial values at once.
+    pub(super) fn start(&mut self, values: &[Given]) -> Vec<Effect> {
+        let before = self.given();
+        let replaced = |old: &&Given| values.iter().any(|new| place(new) == place(old));
+        let kept = before.iter().filter(|old| !replaced(old)).copied();
+        let after: Vec<Given> = kept.chain(values.iter().copied()).collect();
+        self.history.note(Change::Start([before, after.clone()]));
+        vec![self.begin_with(after)]
+    }
+
+    /// All values back to the file's.
+    pub(super) fn full_reset(&mut self) -> Vec<Effect> {
+        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
+        let parameters = parameters.filter_map(|target| self.value(target)).collect();
+        self.history.note(Change::FullReset { parameters, given: self.given() });
+        vec![self.give_back()]
+    }
+
+    /// Takes another method.
+    pub(super) fn integrate_by(&mut self, name: &'static str) -> Vec<Effect> {
+        if let Some(before) = self.method().filter(|before| *before != name) {
+            self.history.note(Change::Method([before, name]));
+        }
+        self.asked.method = Some(name);
+        vec![Effect::Tell(Command::Method(name.to_owned()))]
+    }
+
+    /// Gives the method another step.
+    pub(super) fn step_by(&mut self, step: f64) -> Vec<Effect> {
+        self.settle(|settings| settings.step = Some(step));
+        vec![Effect::Tell(Command::StepSize(step))]
+    }
+
+    /// Gives the method another tolerance.
+    pub(super) fn tolerate(&mut self, tolerance: f64) -> Vec<Effect> {
+        self.settle(|settings| settings.tolerance = Some(tolerance));
+        vec![Effect::Tell(Command::Tolerance(tolerance))]
+    }
+
+    fn settle(&mut self, change: impl FnOnce(&mut Settings)) {
+        let Some(before) = self.settings() else { return };
+        let mut after = before;
+        change(&mut after);
+        if after != before {
+            self.history.note(Change::Settings([before, after]));
+        }
+        self.asked.settings = Some(after);
+    }
+
+    /// Changes a picture.
+    pub(super) fn redraw(&mut self, index: usize, change: impl FnOnce(&mut Plot, &super::Loaded)) {
+        let Some(plot) = self.plots.get_mut(index) else { return };
+        let before = plot.clone();
+        change(plot, &self.loaded);
+        if *plot == before {
+            return;
+        }
+        let plots = Box::new([before, plot.clone()]);
+        self.history.note(Change::Plot { index, plots });
+        self.survey();
+    }
+
+    /// Takes the last change back; nothing if there is none.
+    pub(super) fn undo(&mut self) -> Option<Vec<Effect>> {
+        let change = self.history.undo()?;
+        Some(self.carry_out(change, Side::Before))
+    }
+
+    /// Makes the change last taken back again; nothing if there is none.
+    pub(super) fn redo(&mut self) -> Option<Vec<Effect>> {
+        let change = self.history.redo()?;
+        Some(self.carry_out(change, Side::After))
+    }
+
+    /// Makes one side of a change so, and shows the pane in which it is seen.
+    fn carry_out(&mut self, change: Change, side: Side) -> Vec<Effect> {
+        match change {
+            Change::Parameter { index, numbers } => {
+                self.choose(Target::Parameter(index));
+                vec![self.set_parameter(index, side.of(numbers))]
+            }
+            Change::Initial { index, numbers, given } => {
+                self.choose(Target::Initial(index));
+                let effect = self.begin_with(side.of(given));
+                self.wish(Target::Initial(index), side.of(numbers));
+                vec![effect]
+            }
+            Change::Start(given) => vec![self.begin_with(side.of(given))],
+            Change::FullReset { parameters, given } => match side {
+                Side::After => vec![self.give_back()],
+                Side::Before => {
+                    let mut effects = Vec::new();
+                    for (index, value) in parameters.into_iter().enumerate() {
+                        if self.value(Target::Parameter(index)) != Some(value) {
+                            effects.push(self.set_parameter(index, value));
+                        }
+                    }
+                    effects.push(self.begin_with(given));
+                    effects
+                }
+            },
+            Change::Plot { index, plots } => {
+                if let Some(plot) = self.plots.get_mut(index) {
+                    *plot = side.of(*plots);
+                    self.focus = Pane::Plot(index);
+                }
+                self.survey();
+                Vec::new()
+            }
+            Change::Method(names) => {
+                let name = side.of(names);
+                self.asked.method = Some(name);
+                vec![Effect::Tell(Command::Method(name.to_owned()))]
+            }
+            Change::Settings(settings) => {
+                let settings = side.of(settings);
+                self.asked.settings = Some(settings);
+                vec![Effect::Tell(Command::Settings(settings))]
+            }
+        }
+    }
+
+    fn set_parameter(&mut self, index: usize, value: f64) -> Effect {
+        self.wish(Target::Parameter(index), value);
+        Effect::Tell(Command::Parameter { index, value })
+    }
+
+    /// The motion begins with these in place of the file's values.
+    fn begin_with(&mut self, given: Vec<Given>) -> Effect {
+        // What the others then are, the experiment tells.
+        self.wishes.retain(|(target, _)| matches!(target, Target::Parameter(_)));
+        self.asked.given = Some(given.clone());
+        Effect::Tell(Command::Start(given))
+    }
+
+    /// All values are the file's.
+    fn give_back(&mut self) -> Effect {
+        self.wishes.clear();
+        let parameters = self.loaded.model.parameter_values().into_iter().enumerate();
+        self.wishes.extend(parameters.map(|(index, value)| (Target::Parameter(index), value)));
+        self.asked.given = Some(Vec::new());
+        Effect::Tell(Command::FullReset)
+    }
+
+    fn wish(&mut self, target: Target, value: f64) {
+        self.wishes.retain(|(t, _)| *t != target);
+        self.wishes.push((target, value));
+    }
+}
+
+/// Which value is given: of which coordinate, and whether it is its rate or momentum.
+pub(super) fn place(given: &Given) -> (usize, bool) {
+    match given {
+        Given::Position(i, _) => (*i, false),
+        Given::Velocity(i, _) | Given::Momentum(i, _) => (*i, true),
+    }
+}
+
+impl Side {
+    fn of<T>(self, [before, after]: [T; 2]) -> T {
+        match self {
+            Self::Before => before,
+            Self::After => after,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! `phaselab theme list`: the themes of the laboratory, with their colours where a terminal shows them.
+
+use std::io::{IsTerminal, Write};
+
+use ratatui::style::{Color, Style};
+
+use super::failure::Failure;
+use super::output::Output;
+use crate::view::colour::ColourDepth;
+use crate::view::theme::{CURVES, PALETTES, Role, Theme};
+
+/// Show the themes of the laboratory.
+///
+/// The key `T` chooses one in the lab, `--theme` opens it with one, and so does `theme` in the
+/// configuration.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab theme list                    where colour is allowed, with swatches")]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Command {
+    /// List the themes, with their colours where a terminal shows them.
+    List,
+}
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let Command::List = arguments.command;
+    let variable = |name: &str| std::env::var(name).ok();
+    let depth = if std::io::stdout().is_terminal() {
+        ColourDepth::from_environment(&variable)
+    } else {
+        ColourDepth::None
+    };
+    let mut out = Output::open(None)?;
+    out.write_all(text(depth).as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}
+
+/// A line for each theme.
+fn text(depth: ColourDepth) -> String {
+    let widest = PALETTES.iter().map(|palette| palette.name.len()).max().unwrap_or(0);
+    let line = |palette| {
+        let theme = Theme::new(palette, depth);
+        format!("{:widest$}  {}{}\n", palette.name, swatches(&theme), palette.about)
+    };
+    PALETTES.iter().map(line).collect()
+}
+
+/// A block in the colour of each curve, and the words for verdicts in theirs; nothing without colour.
+fn swatches(theme: &Theme) -> String {
+    if theme.depth() == ColourDepth::None {
+        return String::new();
+    }
+    let blocks: String = (0..CURVES).map(|curve| painted("██", theme.curve(curve))).collect();
+    let words = [("good", Role::Good), ("warn", Role::Warn), ("bad", Role::Bad)];
+    let words = words.map(|(word, role)| painted(word, theme[role]));
+    format!("{blocks}  {}  ", words.join(" "))
+}
+
+/// Text in the colour of a style.
+fn painted(text: &str, style: Style) -> String {
+    let code = match style.fg {
+        Some(Color::Rgb(r, g, b)) => format!("38;2;{r};{g};{b}"),
+        Some(Color::Indexed(index)) => format!("38;5;{index}"),
+        Some(colour) => sixteen(colour).map_or_else(|| "39".to_owned(), |code| code.to_string()),
+        None => "39".to_owned(),
+    };
+    format!("\x1b[{code}m{text}\x1b[39m")
+}
+
+/// The code of one of the terminal's own sixteen.
+fn sixteen(colour: Color) -> Option<u8> {
+    const ORDER: [Color; 16] = [
+        Color::Black,
+        Color::Red,
+        Color::Green,
+        Color::Yellow,
+        Color::Blue,
+        Color::Magenta,
+        Color::Cyan,
+        Color::Gray,
+        Color::DarkGray,
+        Color::LightRed,
+        Color::LightGreen,
+        Color::LightYellow,
+        Color::LightBlue,
+        Color::LightMagenta,
+        Color::LightCyan,
+        Color::White,
+    ];
+    let place = ORDER.iter().position(|c| *c == colour)? as u8;
+    Some(if place < 8 { 30 + place } else { 82 + place })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_theme_is_listed_with_its_colours_where_there_are_any() {
+        let plain = text(ColourDepth::None);
+        assert!(!plain.contains('\x1b'));
+        for palette in &PALETTES {
+            let line = plain.lines().find(|line| line.starts_with(palette.name)).expect("a line");
+            assert!(line.ends_with(palette.about), "{line}");
+        }
+        let coloured = text(ColourDepth::True);
+        let full = coloured.lines().filter(|line| line.matches("38;2;").count() == CURVES + 3);
+        assert_eq!(full.count(), PALETTES.len() - 1, "all but the terminal's own: {coloured:?}");
+        assert!(text(ColourDepth::Ansi256).contains("38;5;"));
+        assert!(text(ColourDepth::Ansi16).lines().all(|line| !line.contains("38;")));
+    }
+}

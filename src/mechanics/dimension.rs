@@ -1,0 +1,227 @@
+//! Units of what follows from a law: of the energy and of the momenta, from those that the file gives.
+//!
+//! The dimension of every part of an expression follows from its symbols; the energy's is that on which all terms agree
+//! whose units are known, and a momentum's is energy times time over its coordinate: pᵢq̇ᵢ is an energy.
+//!
+//! In: a model, its energy. Out: units as text, empty where they are not known. Never here: a conversion of numbers.
+
+use std::collections::BTreeMap;
+
+use super::Equations;
+use crate::expr::{Expr, Node, Number, Symbol};
+use crate::model::Model;
+
+/// Exponents of base units, in halves: the units of Gauss have them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Dimension(BTreeMap<String, i64>);
+
+/// What is made of other units, in halves: g^½ cm^(3/2)/s is the unit of charge of Gauss.
+const MADE: [(&str, &[(&str, i64)]); 10] = [
+    ("N", &[("kg", 2), ("m", 2), ("s", -4)]),
+    ("J", &[("kg", 2), ("m", 4), ("s", -4)]),
+    ("W", &[("kg", 2), ("m", 4), ("s", -6)]),
+    ("Hz", &[("s", -2)]),
+    ("dyn", &[("g", 2), ("cm", 2), ("s", -4)]),
+    ("erg", &[("g", 2), ("cm", 4), ("s", -4)]),
+    ("esu", &[("g", 1), ("cm", 3), ("s", -2)]),
+    ("statV", &[("g", 1), ("cm", 1), ("s", -2)]),
+    ("G", &[("g", 1), ("cm", -1), ("s", -2)]),
+    ("rad", &[]),
+];
+
+/// The units of mass and length come first, in this order; then all others, the units of time last.
+const ORDER: [&str; 7] = ["kg", "g", "M☉", "M⊕", "m", "cm", "au"];
+const TIMES: [&str; 5] = ["s", "min", "h", "d", "yr"];
+
+impl Dimension {
+    /// Reads `kg m²/s` or `au³/(M☉ yr²)`.
+    fn read(unit: &str) -> Option<Self> {
+        let mut dimension = Self::default();
+        for (place, part) in unit.split('/').enumerate() {
+            let part = part.trim().trim_start_matches('(').trim_end_matches(')');
+            for word in part.split([' ', '·']).filter(|word| !word.is_empty() && *word != "1") {
+                let base = word.trim_end_matches(|c| power(c).is_some());
+                let raised = word[base.len()..].chars().filter_map(power);
+                let exponent = raised
+                    .fold(None, |sum: Option<i64>, digit| Some(sum.unwrap_or(0) * 10 + digit));
+                let exponent = exponent.unwrap_or(1) * if place == 0 { 1 } else { -1 };
+                if !base.chars().all(|c| c.is_alphabetic() || "☉⊕".contains(c)) || base.is_empty()
+                {
+                    return None;
+                }
+                match MADE.iter().find(|(name, _)| *name == base) {
+                    Some((_, parts)) => {
+                        for (name, halves) in *parts {
+                            dimension.times(name, halves * exponent);
+                        }
+                    }
+                    None => dimension.times(base, 2 * exponent),
+                }
+            }
+        }
+        Some(dimension)
+    }
+
+    fn times(&mut self, base: &str, halves: i64) {
+        let sum = self.0.entry(base.to_owned()).or_insert(0);
+        *sum += halves;
+        if *sum == 0 {
+            self.0.remove(base);
+        }
+    }
+
+    /// The product with another one raised to `n / d`, if all exponents stay halves.
+    fn product(mut self, other: &Self, (n, d): (i64, i64)) -> Option<Self> {
+        for (base, halves) in &other.0 {
+            if (halves * n) % d != 0 {
+                return None;
+            }
+            self.times(base, halves * n / d);
+        }
+        Some(self)
+    }
+
+    /// As it is written: `kg m²/s`; nothing where an exponent is no whole number.
+    fn written(&self) -> String {
+        if self.0.values().any(|halves| halves % 2 != 0) {
+            return String::new();
+        }
+        let rank = |base: &str| match (
+            ORDER.iter().position(|b| *b == base),
+            TIMES.iter().position(|b| *b == base),
+        ) {
+            (Some(place), _) => place,
+            (None, None) => ORDER.len(),
+            (None, Some(_)) => ORDER.len() + 1,
+        };
+        let mut bases: Vec<(&str, i64)> =
+            self.0.iter().map(|(base, halves)| (base.as_str(), halves / 2)).collect();
+        bases.sort_by_key(|(base, _)| rank(base));
+        let side = |positive: bool| -> Vec<String> {
+            let these = bases.iter().filter(|(_, n)| (*n > 0) == positive);
+            these.map(|(base, n)| format!("{base}{}", raised(n.abs()))).collect()
+        };
+        let (above, below) = (side(true), side(false));
+        let above = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+        match below.as_slice() {
+            [] => above,
+            [one] => format!("{above}/{one}"),
+            several => format!("{above}/({})", several.join(" ")),
+        }
+    }
+}
+
+/// The value of a raised digit.
+fn power(c: char) -> Option<i64> {
+    "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|digit| digit == c).map(|digit| digit as i64)
+}
+
+/// An exponent, raised; 1 is not written.
+fn raised(n: i64) -> String {
+    let digits = if n == 1 { String::new() } else { n.to_string() };
+    digits.chars().filter_map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize)).collect()
+}
+
+impl Equations {
+    /// The units of the energy and of each momentum, empty where they do not follow from those of the file.
+    pub fn units(&self, model: &Model) -> (String, Vec<String>) {
+        let unknown = || (String::new(), vec![String::new(); model.coordinates.len()]);
+        let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty());
+        let Some((energy, time)) = self.dimension(model, self.energy).zip(time) else {
+            return unknown();
+        };
+        if energy == Dimension::default() {
+            return unknown();
+        }
+        let of_momentum = |unit: &str| {
+            let coordinate = if unit.is_empty() { None } else { Dimension::read(unit) };
+            let action = energy.clone().product(&time, (1, 1))?;
+            Some(action.product(&coordinate?, (-1, 1))?.written())
+        };
+        let momenta = model.coordinates.iter().map(|c| of_momentum(&c.unit).unwrap_or_default());
+        let joule = Dimension::read("J");
+        let written =
+            if Some(&energy) == joule.as_ref() { "J".to_owned() } else { energy.written() };
+        (written, momenta.collect())
+    }
+
+    /// The dimension of an expression, where it follows from the units of the symbols.
+    fn dimension(&self, model: &Model, e: Expr) -> Option<Dimension> {
+        let mut known: BTreeMap<usize, Option<Dimension>> = BTreeMap::new();
+        let mut parts = self.pool.reachable(&[e]);
+        parts.sort_unstable();
+        for part in parts {
+            let of = |e: &Expr| known.get(&e.index()).cloned().flatten();
+            let dimension = match self.pool.node(part) {
+                Node::Number(_) | Node::Pi => Some(Dimension::default()),
+                Node::Symbol(symbol) => of_symbol(model, *symbol),
+                Node::Sum(_, terms) => agreed(terms.iter().map(|(_, e)| of(e))),
+                Node::Product(_, factors) => {
+                    factors.iter().try_fold(Dimension::default(), |product, (base, exponent)| {
+                        let Number::Rational(n, d) = exponent else { return None };
+                        product.product(&of(base)?, (*n, *d))
+                    })
+                }
+                Node::Power(..) => None,
+                Node::Call(id, arguments) => match (id.row().name, &**arguments) {
+                    ("abs", [e]) => of(e),
+                    ("sqrt", [e]) => Dimension::default().product(&of(e)?, (1, 2)),
+                    ("min" | "max", all) => agreed(all.iter().map(of)),
+                    _ => Some(Dimension::default()),
+                },
+            };
+            known.insert(part.index(), dimension);
+        }
+        known.remove(&e.index()).flatten()
+    }
+}
+
+/// The dimension of a parameter, a coordinate or a velocity.
+fn of_symbol(model: &Model, symbol: Symbol) -> Option<Dimension> {
+    if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
+        return Dimension::read(&parameter.unit).filter(|_| !parameter.unit.is_empty());
+    }
+    let coordinate = |c: &&crate::model::Coordinate| !c.unit.is_empty();
+    let mut all = model.coordinates.iter().filter(coordinate);
+    if let Some(c) = all.clone().find(|c| c.position == symbol) {
+        return Dimension::read(&c.unit);
+    }
+    let c = all.find(|c| c.velocity == symbol)?;
+    let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty())?;
+    Dimension::read(&c.unit)?.product(&time, (-1, 1))
+}
+
+/// What all agree on that are known.
+fn agreed(all: impl Iterator<Item = Option<Dimension>>) -> Option<Dimension> {
+    let mut known = all.flatten();
+    let first = known.next()?;
+    known.all(|other| other == first).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_read_and_written() {
+        for (unit, written) in [
+            ("kg m²/s", "kg m²/s"),
+            ("N s", "kg m/s"),
+            ("N m s", "kg m²/s"),
+            ("au³/(M☉ yr²)", "au³/(M☉ yr²)"),
+            ("rad/s", "1/s"),
+            ("rad", "1"),
+            ("esu statV", "g cm²/s²"),
+            ("G", ""),
+            ("M⊕ au³/yr²", "M⊕ au³/yr²"),
+        ] {
+            assert_eq!(
+                Dimension::read(unit).map(|d| d.written()).as_deref(),
+                Some(written),
+                "{unit}"
+            );
+        }
+        assert_eq!(Dimension::read("°"), None);
+        assert_eq!(Dimension::read("m^2"), None);
+    }
+}

@@ -1,0 +1,143 @@
+//! The plain reading: everything the screen says, in order, as lines of text without pictures, columns or bars.
+//!
+//! In: the lab and the snapshot that is read. Out: a page of text. Never here: anything that changes by itself.
+
+use super::bars::status_words;
+use super::document::Document;
+use super::gauges::{sentence, word};
+use super::number::{brief, drift, readable};
+use super::quantity::Quantities;
+use crate::app::keymap::{KEYS, Place};
+use crate::app::{Facts, Lab, Pane, Target};
+use crate::experiment::Snapshot;
+
+/// Places whose keys are told of.
+const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
+
+/// The page.
+pub(super) fn document(q: &Quantities<'_>) -> Document {
+    let mut page = Document::default();
+    let mut say = |text: String| page.line(&q.look.glyphs.text(&text));
+    let (lab, snapshot) = (q.lab, q.snapshot);
+    let info = &lab.loaded.model.info;
+    say(format!("{}.", info.title));
+    if !info.summary.is_empty() {
+        say(info.summary.clone());
+    }
+    say(status_words(q));
+    let focus = lab.name_of(lab.focus);
+    let chosen = lab.selected().and_then(|target| lab.facts(target));
+    let selected = chosen.map_or_else(String::new, |f| format!(", {} selected", name(q, &f)));
+    say(format!("Focus: {focus}{selected}."));
+    for (title, kind) in [
+        ("Parameters", Target::Parameter as fn(usize) -> Target),
+        ("Initial values", Target::Initial),
+    ] {
+        let count = lab.count(kind);
+        say(format!("{title}, {count}:"));
+        for index in 0..count {
+            say(value(q, kind(index)));
+        }
+    }
+    say("State:".to_owned());
+    let channels = lab.loaded.system.channels();
+    for (index, channel) in channels.iter().enumerate() {
+        if channel.name.is_empty() || channels[..index].iter().any(|c| c.name == channel.name) {
+            continue;
+        }
+        let is = readable(q.value(index), 8, q.look.glyphs);
+        say(format!("{} is {is}{}", q.name(index), after(&channel.unit)));
+    }
+    say(format!("Gauges, {}:", snapshot.gauges.len()));
+    for gauge in snapshot.gauges.iter() {
+        let shown = q.look.glyphs.pick(&gauge.shown, &gauge.name);
+        let called =
+            if *shown == gauge.name { String::new() } else { format!(" ({})", gauge.name) };
+        let verdict = match word(&gauge.verdict).0 {
+            "…" => "open",
+            word => word,
+        };
+        say(format!(
+            "{shown}{called} is {}; drift {} since t = {}; {verdict}: {}. Why it is watched: {}.",
+            readable(gauge.value, 8, q.look.glyphs),
+            drift(gauge.drift),
+            brief(gauge.reference_time, 6, q.look.glyphs),
+            sentence(&gauge.verdict),
+            gauge.reason
+        ));
+    }
+    news(snapshot, q, &mut say);
+    say("Pictures:".to_owned());
+    for pane in lab.panes().filter(|pane| matches!(pane, Pane::Plot(_))) {
+        say(lab.name_of(pane));
+    }
+    say("Keys:".to_owned());
+    for row in PLACES.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place)) {
+        let keys: Vec<String> = row.keys.iter().map(spoken).collect();
+        say(format!("{}: {}", keys.join(" or "), row.help));
+    }
+    page
+}
+
+/// What happened and what was told, the newest first.
+fn news(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
+    let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
+    if !notices.is_empty() {
+        say("Told, the newest first:".to_owned());
+        notices.into_iter().for_each(&mut *say);
+    }
+    let happened = snapshot.happenings.len();
+    if happened > 0 {
+        say(format!("Happened, {happened}; the newest first:"));
+        for happening in snapshot.happenings.iter().rev().take(MOST) {
+            say(format!("{} at t = {}", happening.name, brief(happening.time, 6, q.look.glyphs)));
+        }
+    }
+}
+
+/// Of very many happenings the newest are read.
+const MOST: usize = 10;
+
+/// A value with its name, its meaning, its unit and its range.
+fn value(q: &Quantities<'_>, target: Target) -> String {
+    let lab: &Lab = q.lab;
+    let Some(facts) = lab.facts(target) else { return String::new() };
+    let number = match target {
+        Target::Parameter(index) => q.snapshot.parameters.get(index),
+        Target::Initial(index) => q.snapshot.initial.get(index),
+    };
+    let is = number.map_or_else(|| "not known".to_owned(), |v| brief(*v, 6, q.look.glyphs));
+    let about = if facts.about.is_empty() { String::new() } else { format!(", {}", facts.about) };
+    let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+        format!(", from {} to {}", brief(min, 4, q.look.glyphs), brief(max, 4, q.look.glyphs))
+    });
+    format!("{} is {is}{}{about}{range}", name(q, &facts), after(&facts.unit))
+}
+
+fn name(q: &Quantities<'_>, facts: &Facts) -> String {
+    q.look.glyphs.pick(&facts.shown, &facts.name).clone()
+}
+
+/// A unit behind its number.
+fn after(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
+/// A key as it is read out.
+fn spoken(key: &crate::app::Key) -> String {
+    let name = key.to_string();
+    let words = [
+        ("↑", "Up"),
+        ("↓", "Down"),
+        ("←", "Left"),
+        ("→", "Right"),
+        ("?", "question mark"),
+        (".", "full stop"),
+        (":", "colon"),
+        ("/", "slash"),
+        ("[", "left bracket"),
+        ("]", "right bracket"),
+        ("{", "left brace"),
+    ];
+    words.into_iter().find(|(sign, _)| *sign == name).map_or(name, |(_, word)| word.to_owned())
+}

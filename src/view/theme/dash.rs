@@ -1,0 +1,69 @@
+//! Dashes: the patterns by which lines are told apart where there is no colour.
+//!
+//! In: a place along an axis of the raster, in dots. Out: whether a dot is drawn there. Never here: which line has
+//! which pattern.
+
+/// A pattern along a line. It is fixed to the screen, so that a line that moves along does not flicker.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// Without gaps.
+    #[default]
+    Full,
+    /// Strokes.
+    Dashed,
+    /// Points.
+    Dotted,
+    /// A stroke, a point.
+    DashDot,
+    /// A stroke, two points.
+    DashDotDot,
+    /// Points far from each other.
+    Sparse,
+    /// Long strokes, small gaps.
+    Long,
+}
+
+impl Dash {
+    /// Every pattern, in the order in which lines get them.
+    pub const ALL: [Self; 7] = [
+        Self::Full,
+        Self::Dashed,
+        Self::Dotted,
+        Self::DashDot,
+        Self::DashDotDot,
+        Self::Sparse,
+        Self::Long,
+    ];
+
+    /// The pattern in dots; `#` is drawn.
+    fn dots(self) -> &'static [u8] {
+        match self {
+            Self::Full => b"#",
+            Self::Dashed => b"#####....",
+            Self::Dotted => b"#...",
+            Self::DashDot => b"######..#..",
+            Self::DashDotDot => b"######..#..#..",
+            Self::Sparse => b"#.......",
+            Self::Long => b"##############...",
+        }
+    }
+
+    /// Whether the dot at a place along the line is drawn.
+    pub fn covers(self, place: i32) -> bool {
+        let dots = self.dots();
+        dots[place.rem_euclid(dots.len() as i32) as usize] == b'#'
+    }
+
+    /// The pattern in three characters, for a heading: in Unicode, and in ASCII.
+    pub fn sample(self) -> [&'static str; 2] {
+        match self {
+            Self::Full => ["━━━", "---"],
+            Self::Dashed => ["━ ━", "- -"],
+            Self::Dotted => ["···", "..."],
+            Self::DashDot => ["━·━", "-.-"],
+            Self::DashDotDot => ["━··", "-.."],
+            Self::Sparse => ["· ·", ". ."],
+            Self::Long => ["━━ ", "-- "],
+        }
+    }
+}

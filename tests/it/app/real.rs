@@ -1,0 +1,291 @@
+//! The application on a real experiment: what a key asks for is done, and what then is seen is told.
+
+use std::sync::Arc;
+
+use phaselab::app::{App, Effect, Event, Key, Lab, Loaded, Target};
+use phaselab::experiment::{Experiment, Ready, Setup, Snapshot, Status};
+use phaselab::view::draw;
+use proptest::prelude::*;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::hand::{catalog, key};
+
+/// A frame, in seconds.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// A lab and the experiment it looks at.
+pub(crate) struct Real {
+    pub(crate) app: App,
+    pub(crate) experiment: Experiment,
+}
+
+impl Real {
+    pub(crate) fn of(name: &str) -> Self {
+        let ready = Ready::of(&catalog().find(name).unwrap()).unwrap();
+        let Ready { document, model, equations, system, mut experiment } = ready;
+        experiment.set_epoch(1);
+        let (mut app, _) = App::new(catalog(), Some(name));
+        let name = name.to_owned();
+        app.update(Event::Loaded(Ok(Loaded {
+            name,
+            epoch: 1,
+            document,
+            model,
+            equations,
+            system,
+        })));
+        let mut real = Self { app, experiment };
+        real.look();
+        real
+    }
+
+    /// The lab of a system with an experiment on it.
+    pub(crate) fn with(loaded: Loaded) -> Self {
+        let setup = Setup::of(&loaded.model);
+        let Loaded { model, equations, system, .. } = &loaded;
+        let mut experiment = Experiment::new(model, equations, system, setup).unwrap();
+        experiment.set_epoch(loaded.epoch);
+        let (mut app, _) = App::new(catalog(), Some(&loaded.name));
+        app.update(Event::Loaded(Ok(loaded)));
+        let mut real = Self { app, experiment };
+        real.look();
+        real
+    }
+
+    pub(crate) fn look(&mut self) {
+        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+    }
+
+    /// Does what was asked for.
+    pub(crate) fn obey(&mut self, effects: Vec<Effect>) {
+        for effect in effects {
+            if let Effect::Tell(command) = effect {
+                self.experiment.obey(command);
+            }
+        }
+    }
+
+    pub(crate) fn press(&mut self, keys: &str) {
+        for word in keys.split_whitespace() {
+            self.strike(key(word));
+        }
+    }
+
+    pub(crate) fn strike(&mut self, key: Key) {
+        let effects = self.app.update(Event::Key(key));
+        self.obey(effects);
+        self.look();
+    }
+
+    pub(crate) fn lab(&self) -> &Lab {
+        self.app.lab.as_ref().unwrap()
+    }
+
+    pub(crate) fn seen(&self) -> &Snapshot {
+        self.app.snapshot().unwrap()
+    }
+
+    /// Goes on by some frames.
+    pub(crate) fn run(&mut self, frames: u32) {
+        let time = self.experiment.time() + f64::from(frames) * FRAME * self.experiment.speed();
+        self.experiment.advance(time, u64::MAX);
+        self.look();
+    }
+
+    /// All that can be undone, as text.
+    fn state(&self) -> String {
+        let (lab, seen) = (self.lab(), self.seen());
+        let values: Vec<_> = (0..lab.count(Target::Parameter))
+            .map(Target::Parameter)
+            .chain((0..lab.count(Target::Initial)).map(Target::Initial))
+            .map(|target| lab.value(target))
+            .collect();
+        format!(
+            "{:?} {values:?} {:?} {:?} {:?} {:?} {:?}",
+            lab.plots,
+            seen.parameters,
+            seen.initial,
+            seen.setup.given,
+            seen.method.name,
+            seen.setup.settings
+        )
+    }
+
+    /// Everything that is seen of the motion from its beginning to a second later, as text.
+    fn motion(mut self) -> String {
+        self.press("r");
+        self.run(60);
+        // `auto` chose this method; it is the same one by its own name.
+        format!("{:?}", self.seen()).replace("method: \"auto\"", "method: \"taylor\"")
+    }
+}
+
+#[test]
+fn a_paused_motion_moves_by_exactly_one_frame() {
+    for (keys, speed) in [("", 1.0), ("]", 2.0), ("[ [", 0.2)] {
+        let mut real = Real::of("pendulum");
+        real.run(30);
+        real.press(keys);
+        real.press("Space");
+        assert_eq!(real.seen().status, Status::Paused);
+        for _ in 0..5 {
+            let before = real.seen().time;
+            real.press(".");
+            assert_eq!(real.seen().time, before + FRAME * speed, "at speed {speed}");
+            assert_eq!(real.seen().status, Status::Paused);
+        }
+        real.press("Space");
+        assert_eq!(real.seen().status, Status::Running);
+    }
+}
+
+#[test]
+fn a_reset_keeps_the_parameters_and_a_full_one_does_not() {
+    let mut real = Real::of("pendulum");
+    let file = (real.seen().parameters.clone(), real.seen().initial.clone());
+    real.press("Right Right Tab Right");
+    let chosen = (real.seen().parameters.clone(), real.seen().initial.clone());
+    assert_ne!((&file.0, &file.1), (&chosen.0, &chosen.1));
+    let begun: Vec<f64> = real.seen().values.to_vec();
+    real.run(50);
+    assert!(real.seen().time > 0.5 && *real.seen().values != *begun);
+    real.press("r");
+    assert_eq!(real.seen().time, 0.0);
+    assert_eq!((&real.seen().parameters, &real.seen().initial), (&chosen.0, &chosen.1));
+    assert_eq!(*real.seen().values, *begun, "q and p are those of the beginning, to the bit");
+    real.run(50);
+    real.press("R");
+    assert_eq!(real.seen().time, 0.0);
+    assert_eq!((&real.seen().parameters, &real.seen().initial), (&file.0, &file.1));
+}
+
+#[test]
+fn a_new_reference_measures_drift_from_here_and_says_so() {
+    // Its energy drifts at once, so that there is something to be taken back.
+    let mut real = Real::of("pendulum");
+    real.press("s Ctrl-u . 2 Enter : m e t h o d Space r k 4 Enter");
+    assert_eq!(real.seen().method.name, "rk4");
+    real.run(300);
+    assert!(real.seen().gauges[0].drift > 1e-12, "{}", real.seen().gauges[0].drift);
+    let time = real.seen().time;
+    real.press("e");
+    let gauge = &real.seen().gauges[0];
+    assert_eq!((gauge.drift, gauge.max_drift, gauge.reference_time), (0.0, 0.0, time));
+    // The notice goes by itself; what the gauges measure from stays to be read.
+    real.app.notice = None;
+    for size in [(80, 24), (120, 40)] {
+        let area = Rect::new(0, 0, size.0, size.1);
+        let mut buffer = Buffer::empty(area);
+        draw(&real.app, &crate::screen::rich(), area, &mut buffer);
+        let text = crate::screen::rows(&buffer).join("\n");
+        assert!(text.contains("since t = 5"), "{text}");
+    }
+}
+
+#[test]
+fn the_method_its_step_and_its_tolerance_are_taken_back() {
+    let mut real = Real::of("pendulum");
+    let start = real.state();
+    real.press(": m e t h o d Space r k 4 Enter s Ctrl-u . 0 1 Enter a Ctrl-u 1 e - 9 Enter");
+    let end = real.state();
+    assert_eq!(real.seen().method.name, "rk4");
+    assert_eq!(
+        (real.seen().setup.settings.step, real.seen().setup.settings.tolerance),
+        (Some(0.01), Some(1e-9))
+    );
+    real.press("u u u");
+    assert_eq!(real.state(), start);
+    real.press("U U U");
+    assert_eq!(real.state(), end);
+}
+
+#[test]
+fn a_value_given_back_follows_the_parameters_again() {
+    // What the file gives may depend on parameters; once a change is taken back it does so again.
+    let mut real = Real::of("pendulum");
+    real.press("Tab Right u");
+    assert!(real.seen().setup.given.is_empty(), "{:?}", real.seen().setup.given);
+    real.press("Tab Tab Tab Tab Tab Right");
+    real.press("u R u u");
+    assert!(real.seen().setup.given.is_empty());
+}
+
+#[test]
+fn what_is_taken_back_is_shown() {
+    let mut real = Real::of("pendulum");
+    real.press("Right Tab Tab Tab Tab + Tab");
+    let zoom = |real: &Real| format!("{:?}", real.lab().plots[1]);
+    let closer = zoom(&real);
+    real.press("u");
+    assert_ne!(zoom(&real), closer);
+    assert_eq!(real.lab().focus, phaselab::app::Pane::Plot(1));
+    real.press("u");
+    assert_eq!(real.lab().focus, phaselab::app::Pane::Parameters);
+}
+
+/// Edits of every kind, and the keys between them that lead there.
+const EDITS: [&str; 24] = [
+    "Right",
+    "Left",
+    "L",
+    "H",
+    "Down",
+    "Up",
+    "Tab",
+    "Tab",
+    "Tab",
+    "Shift-Tab",
+    "Backspace",
+    "R",
+    "+",
+    "-",
+    "x",
+    "Y",
+    "g",
+    "c",
+    "0",
+    "f",
+    "v Down Enter Down Enter",
+    "m Down Enter",
+    "s Ctrl-u . 0 2 Enter",
+    "a Ctrl-u 1 e - 8 Enter",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn a_hundred_edits_taken_back_are_the_beginning_to_the_bit(
+        edits in prop::collection::vec((0..EDITS.len(), any::<bool>()), 100),
+        name in prop::sample::select(vec!["pendulum", "merry-go-round", "planet"]),
+    ) {
+        let mut real = Real::of(name);
+        real.press("Space");
+        let start = real.state();
+        for (edit, wait) in edits {
+            real.press(EDITS[edit]);
+            if real.app.over.is_some() {
+                real.press("Esc");
+            }
+            if wait {
+                real.app.update(Event::Tick(std::time::Duration::from_secs(1)));
+            }
+        }
+        let end = real.state();
+        for _ in 0..100 {
+            real.press("u");
+        }
+        prop_assert_eq!(real.state(), start);
+        for _ in 0..100 {
+            real.press("U");
+        }
+        prop_assert_eq!(real.state(), end);
+        for _ in 0..100 {
+            real.press("u");
+        }
+        let mut fresh = Real::of(name);
+        fresh.press("Space");
+        prop_assert!(real.motion() == fresh.motion(), "the motions differ");
+    }
+}

@@ -1,0 +1,196 @@
+//! The plain reading, and where the terminal's cursor belongs.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use phaselab::app::keymap::{KEYS, Place};
+use phaselab::app::{App, Event, Target};
+use phaselab::experiment::Verdict;
+use phaselab::view::Look;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+
+use super::{drawn, find, rich, rows};
+use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
+
+/// The page on a screen so long that all of it is there, as one text without line breaks.
+fn text(app: &App) -> String {
+    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    let buffer = drawn(app, &plain, (114, 240)).0;
+    let lines: Vec<String> =
+        rows(&buffer).iter().map(|row| row.trim_matches(['│', ' ']).into()).collect();
+    lines.join(" ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn sees(app: &mut App, time: f64) {
+    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), time))));
+}
+
+#[test]
+fn everything_on_the_screen_can_be_read() {
+    for name in ["pendulum", "heavy-top", "merry-go-round", "disc-knife-edge"] {
+        let Some(_) = catalog().find(name).ok() else { continue };
+        let system = loaded(name, 1);
+        let mut seen = snapshot(&system, 1.0);
+        seen.notices = ["first news".to_owned(), "latest news".to_owned()].into();
+        let broken = Verdict::Broken("−2F along the whole way that it went".to_owned());
+        seen.gauges = [gauge("energy", "E", 0.25, broken)].into();
+        let (mut app, _) = App::new(catalog(), Some(name));
+        app.update(Event::Loaded(Ok(system.clone())));
+        app.update(Event::Snapshot(Arc::new(seen)));
+        press(&mut app, "1 9");
+        let text = text(&app);
+        let told = |what: &str| {
+            let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(text.contains(&what), "{name}: {what} in {text}");
+        };
+        told(&system.model.info.title);
+        told(&system.model.info.summary);
+        told("Time 1");
+        told("running, speed ×1, method taylor");
+        for parameter in &system.model.parameters {
+            told(&format!("{} is ", parameter.shown));
+            told(&parameter.about);
+            told(&parameter.unit);
+        }
+        let lab = app.lab.as_ref().unwrap();
+        for index in 0..lab.count(Target::Initial) {
+            told(&format!("{} is ", lab.facts(Target::Initial(index)).unwrap().shown));
+        }
+        let channels = system.system.channels();
+        for (index, channel) in channels.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
+            // What a file expects of a quantity is watched under the quantity's own name.
+            if channels[..index].iter().all(|before| before.name != channel.name) {
+                told(&format!("{} is ", channel.shown));
+            }
+        }
+        told(
+            "E (energy) is 0.25000000; drift 2.5e-16 since t = 0; broken: not conserved, by the physics",
+        );
+        told("−2F along the whole way that it went. Why it is watched: ∂L/∂t = 0.");
+        told("latest news first news");
+        for row in KEYS.iter().filter(|row| row.place == Place::Experiment) {
+            told(row.help);
+        }
+        assert!(!text.contains(['⣿', '●', '━']), "no pictures");
+    }
+}
+
+#[test]
+fn it_keeps_still_until_it_is_asked() {
+    let mut app = in_lab();
+    press(&mut app, "9");
+    let read = |app: &App| drawn(app, &rich(), (80, 24)).0;
+    let first = read(&app);
+    for frame in 0..90 {
+        app.update(Event::Tick(Duration::from_millis(33)));
+        sees(&mut app, 2.0 + f64::from(frame) / 30.0);
+        assert!(read(&app) == first, "it moved by itself");
+    }
+    press(&mut app, "Enter");
+    assert!(text(&app).contains("Time 4.96667"), "{}", text(&app));
+    // By itself, every two seconds and not oftener.
+    press(&mut app, "A");
+    app.notice = None;
+    let mut pictures = vec![read(&app)];
+    for frame in 0..150 {
+        app.update(Event::Tick(Duration::from_millis(100)));
+        sees(&mut app, 10.0 + f64::from(frame));
+        let now = read(&app);
+        if pictures.last() != Some(&now) {
+            pictures.push(now);
+        }
+    }
+    assert!((6..=9).contains(&pictures.len()), "{} in 15 s", pictures.len());
+    press(&mut app, "A");
+    app.notice = None;
+    let still = read(&app);
+    app.update(Event::Tick(Duration::from_secs(5)));
+    sees(&mut app, 99.0);
+    assert!(read(&app) == still);
+    // What a command given here has done is read at once.
+    press(&mut app, "Space");
+    sees(&mut app, 123.0);
+    assert!(text(&app).contains("Time 123"));
+}
+
+#[test]
+fn the_cursor_stands_at_the_line_that_is_read() {
+    for size in [(40, 12), (80, 24), (120, 40)] {
+        let mut app = in_lab();
+        press(&mut app, "9");
+        let mut lines = Vec::new();
+        for _ in 0..400 {
+            let (buffer, seen) = drawn(&app, &rich(), size);
+            app.update(Event::Drawn(seen));
+            let (x, y) = seen.cursor.expect("a cursor");
+            let line: String = (x..size.0).map(|x| buffer[(x, y)].symbol()).collect();
+            lines.push((app.reading.line, line.trim_matches(['│', ' ']).to_owned()));
+            press(&mut app, "Down");
+        }
+        lines.dedup();
+        assert!(lines[0].1.starts_with("Simple pendulum"), "{lines:?}");
+        assert!(lines.iter().enumerate().all(|(i, (line, _))| i == *line), "each in its turn");
+        let all: Vec<&str> = lines.iter().map(|(_, line)| line.as_str()).collect();
+        let all = all.join(" ");
+        for word in ["Parameters, 4:", "mass of the bob", "Gauges, 1:", "hold time, or let it run"]
+        {
+            assert!(all.contains(word), "{word} at {size:?} in {all}");
+        }
+        press(&mut app, "Home");
+        assert_eq!(app.reading.line, 0);
+        press(&mut app, "End");
+        assert_eq!(app.reading.line, lines.len() - 1);
+    }
+}
+
+#[test]
+fn the_cursor_stands_in_the_text_being_typed() {
+    let at = |app: &App| {
+        let (buffer, seen) = drawn(app, &rich(), (80, 24));
+        (seen.cursor, buffer)
+    };
+    assert_eq!(at(&in_lab()).0, None, "nothing is typed");
+    for (keys, text) in [
+        ("Enter Ctrl-u 4 2", "m = 42"),
+        (": z o o", "/ zoo"),
+        ("{ t h", "? th"),
+        ("Tab Tab Tab v t", "/ t"),
+    ] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        let (cursor, buffer) = at(&app);
+        let (x, y) = find(&buffer, text).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
+        assert_eq!(cursor, Some((x + text.chars().count() as u16, y)), "{keys}");
+    }
+    let mut app = at_picker();
+    press(&mut app, "/ p e n");
+    let (cursor, buffer) = at(&app);
+    let (x, y) = find(&buffer, "/ pen").unwrap();
+    assert_eq!(cursor, Some((x + 5, y)));
+}
+
+#[test]
+fn every_parameter_of_every_preset_says_what_it_means() {
+    for entry in catalog().entries() {
+        let model = catalog().find(&entry.name).unwrap().read().unwrap().model;
+        for parameter in &model.parameters {
+            let name = (&entry.name, &parameter.name);
+            assert!(!parameter.about.trim().is_empty(), "{name:?} has no meaning");
+            assert!(parameter.min < parameter.max, "{name:?} has no range");
+        }
+    }
+}
+
+#[test]
+fn the_footer_tells_meaning_unit_and_range_of_what_is_focused() {
+    let mut app = in_lab();
+    press(&mut app, "Down");
+    let buffer = drawn(&app, &rich(), (120, 40)).0;
+    let parameter = &pendulum().model.parameters[1];
+    let footer = rows(&buffer)[39].clone();
+    for part in [&parameter.about, &parameter.unit, &"0.2 to 3".to_owned()] {
+        assert!(footer.contains(part.as_str()), "{part} in {footer}");
+    }
+}

@@ -1,0 +1,407 @@
+//! The mouse: what lies at a place is what is drawn there, and what is done to it happens.
+
+use std::sync::Arc;
+
+use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
+use phaselab::experiment::Command;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::{spot, spots};
+use ratatui::layout::Rect;
+
+use super::{find, rich, rows, screen};
+use crate::app::real::Real;
+use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
+
+const SIZES: [(u16, u16); 5] = [(40, 18), (66, 16), (80, 24), (120, 40), (200, 60)];
+
+fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<Spot> {
+    spot(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
+}
+
+/// Every place with what lies there.
+fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), Spot)> {
+    let spots = spots(app, &rich(), Rect::new(0, 0, width, height));
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
+}
+
+/// The places of a spot.
+fn places(app: &App, size: (u16, u16), is: impl Fn(&Spot) -> bool) -> Vec<(u16, u16)> {
+    all(app, size).into_iter().filter(|(_, spot)| is(spot)).map(|(place, _)| place).collect()
+}
+
+fn act(real: &mut Real, size: (u16, u16), act: Act, place: (u16, u16)) {
+    let Some(spot) = at(&real.app, size, place) else { return };
+    let effects = real.app.update(Event::Mouse(act, spot));
+    real.obey(effects);
+    real.look();
+}
+
+fn click(real: &mut Real, size: (u16, u16), place: (u16, u16)) {
+    act(real, size, Act::Press, place);
+    act(real, size, Act::Release, place);
+}
+
+/// The lab with two gauges more.
+fn with_gauges() -> App {
+    let mut app = in_lab();
+    let mut seen = snapshot(&pendulum(), 2.0);
+    let exact = phaselab::experiment::Verdict::Bounded;
+    seen.gauges = ["energy", "second", "third"].map(|n| gauge(n, n, 1.0, exact.clone())).into();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    app
+}
+
+#[test]
+fn every_line_of_a_list_is_where_it_is_drawn() {
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let app = with_gauges();
+        let buffer = screen(&app, &rich(), size);
+        let text = rows(&buffer);
+        let mut seen = Vec::new();
+        for (place, spot) in all(&app, size) {
+            let row = &text[usize::from(place.1)];
+            let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
+            match spot {
+                Spot::Value(target) | Spot::Bar { target, .. } => {
+                    named(&app.lab.as_ref().unwrap().facts(target).unwrap().shown);
+                }
+                // Every second row of a gauge holds its numbers.
+                Spot::Gauge(_) => assert!(!row.contains("verdict"), "{row}"),
+                Spot::Page(page) => named(&format!("{page:?}")),
+                Spot::Hint(action) => {
+                    let hint = phaselab::app::keymap::KEYS.iter().find(|row| row.action == action);
+                    named(hint.unwrap().hint);
+                }
+                _ => {}
+            }
+            let kind = format!("{spot:?}").split([' ', '(']).next().unwrap().to_owned();
+            if !seen.contains(&kind) {
+                seen.push(kind);
+            }
+        }
+        seen.sort();
+        let wanted =
+            ["Bar", "Gauge", "Hint", "Page", "Pane", "Plot", "Space", "Value"].map(str::to_owned);
+        assert_eq!(seen, wanted, "{size:?}");
+    }
+}
+
+#[test]
+fn every_pane_answers_in_its_own_frame() {
+    for size in SIZES {
+        let mut app = in_lab();
+        let panes: Vec<Pane> = app.lab.as_ref().unwrap().panes().collect();
+        for _ in &panes {
+            press(&mut app, "Tab");
+            let focus = app.lab.as_ref().unwrap().focus;
+            let belongs = |spot: &Spot| match *spot {
+                Spot::Pane(pane) => pane == focus,
+                Spot::Plot { index, .. } | Spot::Space { index, .. } => focus == Pane::Plot(index),
+                Spot::Value(Target::Parameter(_)) => focus == Pane::Parameters,
+                Spot::Bar { target: Target::Parameter(_), .. } => focus == Pane::Parameters,
+                Spot::Value(Target::Initial(_)) => focus == Pane::Initial,
+                Spot::Gauge(_) => focus == Pane::Gauges,
+                _ => false,
+            };
+            let found = all(&app, size);
+            let cells = found.iter().filter(|(_, spot)| belongs(spot)).count();
+            assert!(cells >= 6, "{focus:?} at {size:?}: {cells} of {}", found.len());
+        }
+    }
+}
+
+#[test]
+fn the_coordinates_of_a_place_are_those_of_the_axes() {
+    // The cursor reads the cell it stands on; the mouse reads the same there, to half a dot of eight.
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let app = in_lab();
+        for (place, spot) in all(&app, size) {
+            let Spot::Plot { index, place: [x, y], at: coordinates } = spot else { continue };
+            if place.0 % 7 != 0 || place.1 % 3 != 0 {
+                continue;
+            }
+            assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{spot:?}");
+            let mut marked = app.clone();
+            let lab = marked.lab.as_mut().unwrap();
+            let lens = match &mut lab.plots[index] {
+                Plot::Phase { lens, .. } | Plot::Time { lens, .. } => lens,
+                other => panic!("{other:?} has no axes"),
+            };
+            lens.cursor = Some([x, y]);
+            let buffer = screen(&marked, &rich(), size);
+            assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
+            // The reading in the corner, to the digits it has, is what the mouse says of the place.
+            let reading: String = rows(&buffer).concat();
+            let [x, y] =
+                coordinates.map(|v| phaselab::view::number::readable(v, 4, Glyphs::Braille));
+            assert!(reading.contains(&format!(" {x}, {y} ")), "{x}, {y} in {:#?}", rows(&buffer));
+        }
+    }
+}
+
+#[test]
+fn a_click_throws_the_pendulum_to_another_beginning() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    real.run(100);
+    let start = real.seen().initial.clone();
+    let spots = all(&real.app, size);
+    let pick = |want: [f64; 2]| {
+        let far = |spot: &Spot| match spot {
+            Spot::Plot { index: 1, at, .. } => (at[0] - want[0]).abs() + (at[1] - want[1]).abs(),
+            _ => f64::INFINITY,
+        };
+        spots.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
+    };
+    let (place, spot) = pick([-1.0, 2.0]);
+    let Spot::Plot { at: [theta, momentum], .. } = spot else { panic!("{spot:?}") };
+    click(&mut real, size, place);
+    assert_eq!(real.seen().time, 0.0, "it begins anew");
+    assert_eq!(real.seen().initial[0].to_bits(), theta.to_bits());
+    // p = m l² θ̇ with m = l = 1
+    assert!((real.seen().initial[1] - momentum).abs() < 1e-12);
+    // And it is drawn where the mouse was.
+    let buffer = screen(&real.app, &rich(), size);
+    assert_eq!(buffer[place].symbol(), "●", "{:#?}", rows(&buffer));
+    real.press("u");
+    assert_eq!(real.seen().initial, start, "one step back");
+}
+
+#[test]
+fn a_click_in_another_plot_reads_the_coordinates() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    real.run(100);
+    let spots = all(&real.app, size);
+    let time = |spot: &Spot| matches!(spot, Spot::Plot { index: 2, .. });
+    let inside: Vec<_> = spots.iter().filter(|(_, spot)| time(spot)).collect();
+    let (place, _) = *inside[inside.len() / 2];
+    click(&mut real, size, place);
+    let buffer = screen(&real.app, &rich(), size);
+    assert_eq!(buffer[place].symbol(), "┼");
+    assert!(real.seen().time > 1.0, "the motion goes on");
+}
+
+#[test]
+fn a_bar_is_dragged_and_taken_back_in_one_step() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    let before = real.seen().parameters.clone();
+    let bar = places(&real.app, size, |spot| {
+        matches!(spot, Spot::Bar { target: Target::Parameter(1), .. })
+    });
+    assert!(bar.len() > 8, "{bar:?}");
+    act(&mut real, size, Act::Press, bar[2]);
+    assert_eq!(real.app.hold, Some(Hold::Bar(Target::Parameter(1))));
+    for place in &bar {
+        act(&mut real, size, Act::Drag, *place);
+        real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
+        let buffer = screen(&real.app, &rich(), size);
+        assert_eq!(buffer[*place].symbol(), "●", "the knob is under the mouse");
+    }
+    // Beside the bar the knob stops at its end.
+    act(&mut real, size, Act::Drag, (119, 0));
+    let (_, max, _) = real.lab().facts(Target::Parameter(1)).unwrap().range.unwrap();
+    assert_eq!(real.seen().parameters[1], max);
+    act(&mut real, size, Act::Release, (119, 0));
+    assert_eq!(real.app.hold, None);
+    real.press("u");
+    assert_eq!(real.seen().parameters, before);
+    real.press("U");
+    assert_eq!(real.seen().parameters[1], max);
+}
+
+/// Somewhere in the middle of a picture.
+fn inside(app: &App, size: (u16, u16), picture: usize) -> (u16, u16) {
+    let here = |spot: &Spot| match *spot {
+        Spot::Plot { index, .. } | Spot::Space { index, .. } => index == picture,
+        _ => false,
+    };
+    let places: Vec<_> = all(app, size).into_iter().filter(|(_, spot)| here(spot)).collect();
+    places[places.len() / 2].0
+}
+
+#[test]
+fn the_wheel_zooms_about_the_place_under_it() {
+    for size in [(80, 24), (120, 40)] {
+        for picture in [1, 2] {
+            let mut real = Real::of("pendulum");
+            real.run(900);
+            if size.0 == 80 && picture == 2 {
+                real.press("Shift-Tab");
+            }
+            let (x, y) = inside(&real.app, size, picture);
+            let place = (x + 6, y - 2);
+            let coordinates = |real: &Real| match at(&real.app, size, place) {
+                Some(Spot::Plot { at, .. }) => at,
+                other => panic!("{other:?}"),
+            };
+            let (before, plot) = (coordinates(&real), real.lab().plots[picture].clone());
+            for _ in 0..3 {
+                act(&mut real, size, Act::WheelUp, place);
+            }
+            assert_ne!(real.lab().plots[picture], plot);
+            // What ticks are shown moves the axes by a cell or so; the place stays to a part of it.
+            let after = coordinates(&real);
+            let wide = if picture == 1 { 6.3 } else { 20.0 };
+            assert!((after[0] - before[0]).abs() < 0.05 * wide, "{before:?} {after:?}");
+            for _ in 0..3 {
+                act(&mut real, size, Act::WheelDown, place);
+            }
+            let after = coordinates(&real);
+            assert!((after[0] - before[0]).abs() < 0.03 * wide, "{before:?} {after:?}");
+        }
+    }
+}
+
+#[test]
+fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    real.run(60);
+    for picture in [0, 1] {
+        let (x, y) = inside(&real.app, size, picture);
+        let before = real.lab().plots.clone();
+        let grabbed = at(&real.app, size, (x, y)).unwrap();
+        act(&mut real, size, Act::Press, (x, y));
+        act(&mut real, size, Act::Drag, (x + 3, y));
+        act(&mut real, size, Act::Drag, (x + 6, y - 1));
+        act(&mut real, size, Act::Release, (x + 6, y - 1));
+        assert_eq!(real.lab().focus, Pane::Plot(picture));
+        let after = real.lab().plots.clone();
+        match (&before[picture], &after[picture], grabbed) {
+            (Plot::Space(a), Plot::Space(b), _) => assert!(a.yaw != b.yaw && a.pitch != b.pitch),
+            (_, Plot::Phase { .. }, Spot::Plot { at: from, .. }) => {
+                let Some(Spot::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1)) else {
+                    panic!("nothing there")
+                };
+                assert!((from[0] - to[0]).abs() < 0.2, "{from:?} {to:?}");
+                assert_eq!(real.seen().time, 1.0, "a drag is no click");
+            }
+            other => panic!("{other:?}"),
+        }
+        real.press("u");
+        assert_eq!(real.lab().plots, before, "one step back");
+    }
+}
+
+#[test]
+fn clicks_do_what_stands_there() {
+    let size = (80, 24);
+    let mut real = Real::of("pendulum");
+    let on = |real: &Real, text: &str| {
+        let buffer = screen(&real.app, &rich(), size);
+        find(&buffer, text).unwrap_or_else(|| panic!("{text} in {:#?}", rows(&buffer)))
+    };
+    let place = on(&real, "2 Equations");
+    click(&mut real, size, place);
+    assert_eq!(real.app.page, Page::Equations);
+    let place = on(&real, "1 Lab");
+    click(&mut real, size, place);
+    let place = on(&real, "Initial values");
+    click(&mut real, size, place);
+    assert_eq!(real.lab().focus, Pane::Initial);
+    let place = on(&real, "Gauges");
+    click(&mut real, size, place);
+    assert_eq!(real.lab().focus, Pane::Gauges);
+    let place = on(&real, "? help");
+    click(&mut real, size, place);
+    assert!(matches!(real.app.over, Some(Over::Help(_))));
+    act(&mut real, size, Act::WheelDown, (10, 10));
+    real.press("Esc m");
+    let place = on(&real, "leapfrog");
+    click(&mut real, size, place);
+    assert_eq!(real.seen().method.name, "leapfrog");
+    real.press(":");
+    click(&mut real, size, (0, 5));
+    assert!(real.app.over.is_none(), "beside a list it closes");
+    real.press("Tab");
+    let place = on(&real, "Parameters");
+    click(&mut real, size, place);
+    assert_eq!(real.lab().focus, Pane::Parameters);
+}
+
+#[test]
+fn a_value_is_selected_by_one_click_and_typed_by_two() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    let value = Spot::Value(Target::Parameter(2));
+    let place = places(&real.app, size, |spot| *spot == value)[0];
+    click(&mut real, size, place);
+    assert_eq!(real.lab().selected(), Some(Target::Parameter(2)));
+    assert!(real.app.over.is_none());
+    click(&mut real, size, place);
+    assert!(matches!(&real.app.over, Some(Over::Field(_))));
+}
+
+#[test]
+fn the_wheel_scrolls_text_and_lists() {
+    let mut app = in_lab();
+    press(&mut app, "2");
+    let (_, drawn) = super::drawn(&app, &rich(), (80, 16));
+    app.update(Event::Drawn(drawn));
+    let spot = at(&app, (80, 16), (20, 8)).unwrap();
+    assert_eq!(spot, Spot::Text);
+    app.update(Event::Mouse(Act::WheelDown, spot));
+    assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
+    app.update(Event::Mouse(Act::WheelUp, spot));
+    assert_eq!(app.scroll, 0);
+
+    let mut app = at_picker();
+    let before = app.picker.selected;
+    let spot = at(&app, (80, 24), (6, 12)).unwrap();
+    app.update(Event::Mouse(Act::WheelUp, spot));
+    assert_eq!(app.picker.selected, before - 1);
+    let systems: Vec<usize> = all(&app, (80, 24))
+        .into_iter()
+        .filter_map(|(_, spot)| if let Spot::System(place) = spot { Some(place) } else { None })
+        .collect();
+    let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
+    app.update(Event::Mouse(Act::Press, Spot::System(other)));
+    assert_eq!(app.picker.selected, other);
+
+    let mut app = in_lab();
+    press(&mut app, ":");
+    let spot = at(&app, (80, 24), (20, 8)).unwrap();
+    assert!(matches!(spot, Spot::Line(_)), "{spot:?}");
+    app.update(Event::Mouse(Act::WheelDown, spot));
+    let Some(Over::Menu(menu)) = &app.over else { panic!("the palette is gone") };
+    assert_eq!(menu.selected, 1);
+}
+
+#[test]
+fn nothing_is_under_a_place_that_shows_nothing() {
+    let mut app = in_lab();
+    for size in [(0, 0), (1, 1), (39, 9), (80, 24)] {
+        for place in [(0, 0), (200, 3), (3, 200), (u16::MAX, u16::MAX)] {
+            let found = at(&app, size, place);
+            assert!(found.is_none(), "{found:?} at {place:?} of {size:?}");
+        }
+    }
+    // A knob that is held but not shown any more, and a command that cannot be meant.
+    app.hold = Some(Hold::Bar(Target::Parameter(99)));
+    assert_eq!(at(&app, (80, 24), (5, 5)), None);
+    let effects = app.update(Event::Mouse(Act::Drag, Spot::Text));
+    assert!(effects.is_empty());
+    let spot = Spot::Bar { target: Target::Parameter(99), value: f64::NAN };
+    for act in [Act::Press, Act::Drag, Act::Release, Act::WheelDown] {
+        let effects = app.update(Event::Mouse(act, spot));
+        let harmless = |e: &phaselab::app::Effect| {
+            !matches!(e, phaselab::app::Effect::Tell(Command::Parameter { .. }))
+        };
+        assert!(effects.iter().all(harmless), "{effects:?}");
+    }
+}
+
+#[test]
+fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    let bar = places(&real.app, size, |spot| matches!(spot, Spot::Bar { .. }));
+    act(&mut real, size, Act::Press, bar[0]);
+    assert!(real.app.hold.is_some());
+    real.press("2");
+    assert_eq!(real.app.hold, None);
+    assert_eq!(at(&real.app, size, (20, 20)), Some(Spot::Text));
+}
