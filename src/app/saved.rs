@@ -204,12 +204,15 @@ impl App {
         let Some(old) = self.lab.take() else { return self.loaded(loaded) };
         let saved = Saved::of(&old, self.page);
         let mut lab = Lab::new(loaded);
-        let names = |lab: &Lab| {
-            let model = &lab.loaded.model;
-            let parameters = model.parameters.iter().map(|p| p.name.clone());
-            parameters.chain(model.coordinates.iter().map(|c| c.name.clone())).collect::<Vec<_>>()
+        // A history speaks of values, channels, views and frames by their places.
+        let places = |lab: &Lab| {
+            let Loaded { model, system, .. } = &lab.loaded;
+            let names = model.parameters.iter().map(|p| p.name.clone());
+            let channels = system.channels().iter().map(|c| c.name.clone());
+            let names: Vec<String> = names.chain(channels).collect();
+            (names, model.views.len(), model.frames.len())
         };
-        if names(&old) == names(&lab) {
+        if places(&old) == places(&lab) {
             lab.history = old.history;
         }
         self.meter.forget();

@@ -52,7 +52,11 @@ impl Queue {
 
 #[cfg(test)]
 mod tests {
+    use ratatui::layout::Size;
+    use ratatui::style::Style;
+
     use super::*;
+    use crate::view::frame::Frames;
 
     /// A terminal that takes at most so many bytes at a time, and between them answers as told.
     fn sent(
@@ -92,5 +96,31 @@ mod tests {
             assert_eq!(sent(&mut queue, &[Ok(2), answer]), (b"fr".to_vec(), false));
             assert!(!queue.is_busy());
         }
+    }
+
+    #[test]
+    fn the_frame_after_a_failed_write_paints_every_cell() {
+        let (mut queue, mut frames) = (Queue::default(), Frames::new(true));
+        let mut terminal = vt100::Parser::new(4, 20, 0);
+        let mut paint = |text: &str, queue: &mut Queue, answers: &[_], forget: bool| {
+            if forget {
+                frames.forget();
+            }
+            queue.push(&frames.next(Size::new(20, 4), |area, buffer| {
+                for y in area.rows() {
+                    buffer.set_string(0, y.y, text, Style::new());
+                }
+            }));
+            let (shown, whole) = sent(queue, answers);
+            terminal.process(&shown);
+            (whole, terminal.screen().contents())
+        };
+        let all = [Ok(9999)];
+        let (whole, _) = paint("first", &mut queue, &[Ok(30), Err(ErrorKind::Other)], false);
+        assert!(!whole);
+        // as the stage does after an error
+        let (whole, contents) = paint("second", &mut queue, &all, true);
+        assert!(whole);
+        assert_eq!(contents, ["second"; 4].join("\n"));
     }
 }
