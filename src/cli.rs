@@ -144,7 +144,7 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
 /// a preset's name.
 fn misspelt(words: &[OsString]) -> Option<String> {
     let [_, first, _, ..] = words else { return None };
-    let first = first.to_str()?;
+    let first = first.to_str().filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
     let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let near = nearest(first, names.iter().copied()).filter(|near| *near != first)?;

@@ -29,7 +29,11 @@ pub(super) struct Queue(VecDeque<Notice>);
 impl Queue {
     /// Shows a sentence now, or after those before it.
     pub(super) fn tell(&mut self, now: &mut Option<Notice>, notice: Notice) {
-        if now.is_none() {
+        // The newer word on the same thing takes the place of the older.
+        let told = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
+        if let Some(told) = told {
+            *told = Notice { shown: told.shown, ..notice };
+        } else if now.is_none() {
             *now = Some(notice);
         } else if self.0.len() < WAITING {
             self.0.push_back(notice);
@@ -51,6 +55,12 @@ impl Queue {
 }
 
 impl Notice {
+    /// Whether both begin with the same words before a colon: `m: energy jumped by …`.
+    fn says_more_of(&self, other: &Self) -> bool {
+        let lead = |text: &str| text.split_once(": ").map(|(lead, _)| lead.to_owned());
+        lead(&self.text).is_some_and(|of| lead(&other.text) == Some(of))
+    }
+
     /// For what went well.
     pub fn info(text: impl Into<String>) -> Self {
         Self {
@@ -77,5 +87,20 @@ impl Notice {
         let left = self.left.saturating_sub(elapsed);
         let shown = self.shown.saturating_add(elapsed);
         (!left.is_zero()).then_some(Self { left, shown, ..self })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newer_word_on_a_thing_takes_the_place_of_the_older() {
+        let (mut queue, mut now) = (Queue::default(), None);
+        for text in ["m: energy jumped by +1", "lift-off at t = 2", "m: energy jumped by +3"] {
+            queue.tell(&mut now, Notice::info(text));
+        }
+        assert_eq!(now.map(|n| n.text).as_deref(), Some("m: energy jumped by +3"));
+        assert_eq!(queue.0.len(), 1);
     }
 }

@@ -12,7 +12,7 @@ impl App {
     /// Carries out an action; where it means nothing it does nothing.
     pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
         match action {
-            Action::Quit => vec![Effect::Quit],
+            Action::Quit => self.quit(),
             Action::Suspend => vec![Effect::Suspend],
             Action::Repaint => vec![Effect::Repaint],
             Action::Help => self.help(),

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{App, Effect, Eye, Lab, Lens, Loaded, Page, Pane, Plot, Selection};
+use super::{App, Effect, Eye, Lab, Lens, Loaded, Over, Page, Pane, Plot, Selection};
 use crate::experiment::{Command, Moment};
 
 /// A session.
@@ -29,6 +29,9 @@ pub struct Saved {
     /// The text of the file being edited, where that was not saved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub draft: Option<String>,
+    /// The file's text that it was made from.
+    #[serde(default)]
+    pub draft_of: Option<String>,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
@@ -93,6 +96,7 @@ impl Saved {
             zoomed: lab.zoomed,
             selection: lab.selection,
             draft: None,
+            draft_of: None,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, &lab.loaded)).collect(),
             moment: Moment::of(model, system, snapshot),
         })
@@ -177,8 +181,12 @@ impl App {
         }
         let lab = self.lab.as_ref()?;
         let draft = self.workbench.as_ref().filter(|bench| bench.name == lab.loaded.name);
-        let draft = draft.filter(|bench| bench.is_modified()).map(|bench| bench.editor.text());
-        Some(Saved { draft, ..Saved::of(lab, self.page)? })
+        let draft = draft.filter(|bench| bench.is_modified());
+        Some(Saved {
+            draft: draft.map(|bench| bench.editor.text()),
+            draft_of: draft.map(|bench| bench.on_disk().to_owned()),
+            ..Saved::of(lab, self.page)?
+        })
     }
 
     /// Goes on with a session as soon as its system is loaded.
@@ -194,7 +202,7 @@ impl App {
         lab.look_as(&saved);
         self.page = saved.page;
         if let Some(text) = &saved.draft {
-            self.take_draft(text);
+            self.take_draft(text, saved.draft_of.as_deref());
         }
         vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
     }
@@ -214,6 +222,10 @@ impl App {
         };
         if places(&old) == places(&lab) {
             lab.history = old.history;
+        }
+        // What is open speaks of the old system's places.
+        if matches!(self.over, Some(Over::Menu(_) | Over::Field(_))) {
+            self.over = None;
         }
         self.meter.forget();
         let Some(saved) = saved else {

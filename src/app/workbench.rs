@@ -13,7 +13,7 @@ use tui_input::Input;
 
 use super::editor::{Caret, Editor};
 use super::field::{edit, paste};
-use super::{App, Effect, Key, Lab, Loaded, Notice, Over};
+use super::{App, Effect, Key, Lab, Loaded, Notice, Over, Page};
 use crate::preset::{Mistake, Origin, Severity, TEXT_LIMIT, is_path};
 
 /// For how long typing rests before the text is checked.
@@ -139,6 +139,11 @@ impl Workbench {
     /// Whether the text is not the file's.
     pub fn is_modified(&self) -> bool {
         self.editor.text() != self.on_disk
+    }
+
+    /// The file's text as it was last read or written.
+    pub(super) fn on_disk(&self) -> &str {
+        &self.on_disk
     }
 
     /// The mistake that the cursor stands on or before, else the first.
@@ -300,9 +305,31 @@ impl App {
         Some(bench)
     }
 
+    /// The title of a text that is not saved and that no session would keep.
+    fn unkept(&self) -> Option<&str> {
+        let here = self.lab.as_ref().filter(|_| self.page != Page::Picker);
+        let kept = |bench: &&Workbench| here.is_some_and(|lab| lab.loaded.name == bench.name);
+        let benches = self.workbench.as_deref().into_iter().chain(&self.drafts);
+        benches.filter(|b| !kept(b)).find(|b| b.is_modified()).map(|bench| bench.title.as_str())
+    }
+
+    /// Ends the program; where a text would be lost only when asked twice.
+    pub(super) fn quit(&mut self) -> Vec<Effect> {
+        let Some(title) = self.unkept() else { return vec![Effect::Quit] };
+        let told = format!("{title} has changes that are not saved; quit again to lose them.");
+        if self.notice.as_ref().is_some_and(|notice| notice.text == told) {
+            return vec![Effect::Quit];
+        }
+        self.say(told)
+    }
+
     /// A text that was not saved when the last session ended.
-    pub(super) fn take_draft(&mut self, text: &str) {
+    pub(super) fn take_draft(&mut self, text: &str, of: Option<&str>) {
         if let Some(bench) = self.ready_bench() {
+            if let Some(of) = of {
+                // what the file became since is noticed before it is written over
+                of.clone_into(&mut bench.on_disk);
+            }
             bench.editor.become_text(text);
             bench.touch();
             let told = format!("{} has changes that are not saved; E goes to them.", bench.title);

@@ -106,10 +106,12 @@ pub(super) fn request(name: Option<String>, asked: Options) -> Result<Request, F
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let mut request = request(arguments.name.clone(), arguments.options.clone())?;
     let mut ended = shell::run(&request);
-    if let Err(Refusal::NoSession(NoSession::NoHome | NoSession::Unread { .. })) = ended
-        && !arguments.options.is_on("resume")
-    {
-        // a session is gone on with wherever there is one; here there is none yet
+    let gone = matches!(
+        ended,
+        Err(Refusal::NoSession(NoSession::NoHome | NoSession::Unread { .. }) | Refusal::NotFound(_))
+    );
+    if gone && request.resume && !arguments.options.is_on("resume") {
+        // a session is gone on with wherever there is one; here there is none yet, or its system is gone
         request.resume = false;
         ended = shell::run(&request);
     }

@@ -64,12 +64,12 @@ enum Format {
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
         Some(path) => Document::open(path).map_err(|why| Failure::reading(path, &why))?,
         None => own_demo(&arguments.name)?,
     };
     let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
-    let system = open::find(&arguments.name)?;
     let recording = recorded(&script, &source, &system, &arguments.name, arguments.size)?;
     if arguments.format != Format::Account {
         hold(&source, &recording)?;

@@ -229,7 +229,9 @@ impl Experiment {
     pub fn take_up(&mut self, moment: &Moment) {
         let mut lost = self.take_setup(moment);
         self.running = moment.running;
+        let told = std::mem::take(&mut self.notices);
         self.restart();
+        self.notices = told;
         if let Some(present) = &moment.present {
             lost.extend(
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),

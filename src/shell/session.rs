@@ -27,7 +27,7 @@ use crate::preset::{Catalog, Document, is_path};
 use crate::record::{data, plain, still};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
-use crate::view::theme::{PALETTES, Theme};
+use crate::view::theme::{PALETTES, Palette, Theme};
 use crate::view::{self, Detail, Look};
 use crate::worker::Worker;
 
@@ -272,7 +272,7 @@ impl Session {
 
     /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
     fn still(&mut self) -> io::Result<String> {
-        let palette = self.look.theme.palette();
+        let palette = self.palette();
         let look = Look { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
         let area = Rect::from(self.size);
         let mut screen = Buffer::empty(area);
@@ -294,7 +294,7 @@ impl Session {
 
     /// Begins to record; where that cannot be it is told, and nothing is recorded.
     fn record(&mut self) {
-        let palette = self.look.theme.palette();
+        let palette = self.palette();
         match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
             Ok(recorder) => self.recorder = Some(recorder),
             Err(why) => self.give_up_recording(&why),
@@ -316,6 +316,12 @@ impl Session {
     /// Ends a recording on the way out, if there is one.
     pub(super) fn finish_recording(&mut self) -> io::Result<()> {
         self.recorder.take().map_or(Ok(()), |recorder| recorder.end().map(|_| ()))
+    }
+
+    /// The colours that are shown.
+    fn palette(&self) -> &'static Palette {
+        let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
+        PALETTES.iter().find(named).unwrap_or_else(|| self.look.theme.palette())
     }
 
     /// Sets a loaded system in motion.

@@ -102,4 +102,9 @@ impl Signals {
         }
         Ok(())
     }
+
+    /// Whether the program was asked to end.
+    pub(super) fn is_fatal(&self) -> bool {
+        self.posted.lock().unwrap_or_else(PoisonError::into_inner).fatal.is_some()
+    }
 }

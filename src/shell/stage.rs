@@ -224,7 +224,8 @@ impl Stage<'_> {
     fn suspend(&mut self) -> io::Result<()> {
         self.terminal.leave();
         self.signals.stop()?;
-        self.enter()
+        // What ends in the background must not touch the terminal, or it is stopped again.
+        if self.signals.is_fatal() { Ok(()) } else { self.enter() }
     }
 
     /// Tells the page of a new size. It is asked for every time, which many resizes at once cannot outrun.

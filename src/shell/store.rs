@@ -152,6 +152,7 @@ mod tests {
             zoomed: true,
             selection: Selection::default(),
             draft: Some("title = \"a \\\"text\\\"\"\n".to_owned()),
+            draft_of: Some(String::new()),
             plots: Vec::new(),
             moment: Moment { parameters: vec![g], speed: Some(f64::INFINITY), ..Moment::default() },
         }

@@ -17,7 +17,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     let width = area.width.saturating_sub(2).min(78);
     let shown = menu.found();
     let search = u16::from(menu.filter.is_some());
-    let about = 4;
+    let about = if area.height > 14 { 4 } else { 2 };
     // As high as for all its lines, so that it does not jump while they are searched.
     let wanted = (menu.items.len() as u16).clamp(1, 24) + 2 + search + about;
     let height = wanted.min(area.height.saturating_sub(u16::from(area.height > 12) * 2));
@@ -39,7 +39,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         let cursor = used + input.visual_cursor() as u16;
         canvas.point(columns(field, cursor, 1).as_position());
     }
-    let (list, below) = split_rows(rest, rest.height.saturating_sub(about));
+    let (list, below) = split_rows(rest, rest.height.saturating_sub(about).max(1));
     let rows = usize::from(list.height);
     let columns_of = Columns::of(canvas, menu, list.width);
     let first = window(menu.selected, shown.len(), rows);
@@ -69,7 +69,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             None => (Role::Text, item.about.clone()),
         };
         let text = canvas.text(&text);
-        for (index, line) in words(&text, inner.width.into()).iter().enumerate() {
+        let room = usize::from(below.height.saturating_sub(1));
+        for (index, line) in words(&text, inner.width.into()).iter().take(room).enumerate() {
             canvas.left(row(below, index + 1), role, line);
         }
     }

@@ -302,3 +302,17 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
     assert!(bench(&app).editor.text().starts_with("xyq"));
     assert!(matches!(app.over, Some(Over::Workbench)));
 }
+
+#[test]
+fn a_text_that_no_session_would_keep_is_not_lost_at_the_first_q() {
+    let mut app = in_lab();
+    press(&mut app, "E x Esc");
+    // in the lab the session keeps it
+    assert_eq!(press(&mut app.clone(), "q"), [Effect::Quit]);
+    assert!(app.saved().unwrap().draft.is_some());
+    press(&mut app, "Esc");
+    assert_eq!(press(&mut app, "q"), []);
+    let told = app.notice.clone().unwrap().text;
+    assert!(told.ends_with("has changes that are not saved; quit again to lose them."), "{told}");
+    assert_eq!(press(&mut app, "q"), [Effect::Quit]);
+}
