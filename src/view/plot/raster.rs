@@ -167,11 +167,13 @@ impl Raster {
         if ramp.is_empty() {
             return;
         }
+        let pens: Vec<Pen> =
+            ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
         let mut hand = Hand::new(self, frame);
         for (index, point) in points.iter().enumerate() {
             let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
             hand.fade(age, ramp.len());
-            hand.to(*point, &Pen::aged(ramp[age], layer, age));
+            hand.to(*point, &pens[age]);
         }
         hand.rest();
     }

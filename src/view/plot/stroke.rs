@@ -10,6 +10,11 @@ pub(super) fn clip(
     b: [f64; 2],
     [wide, high]: [f64; 2],
 ) -> Option<([f64; 2], [f64; 2])> {
+    let within = |[x, y]: [f64; 2]| x >= 0.0 && x <= wide && y >= 0.0 && y <= high;
+    // Nearly every segment of a trail.
+    if within(a) && within(b) {
+        return Some((a, b));
+    }
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for (delta, room) in [(-dx, a[0]), (dx, wide - a[0]), (-dy, a[1]), (dy, high - a[1])] {
@@ -54,13 +59,19 @@ impl<Ink: Copy> Tip<Ink> {
         mut dot: impl FnMut([i32; 2], Ink),
     ) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let steps = dx.abs().max(dy.abs()).ceil().max(1.0) as u32;
         // Sampled in the middle of each step, where a line through the corners of dots is clear of them.
-        for step in 0..steps {
-            let t = (f64::from(step) + 0.5) / f64::from(steps);
+        let mut sample = |t: f64| {
             let place = [a[0] + t * dx, a[1] + t * dy];
             let next = std::array::from_fn(|i| (place[i] as i32).clamp(0, last[i]));
             self.touch(next, ink, &mut dot);
+        };
+        let length = dx.abs().max(dy.abs());
+        if length <= 1.0 {
+            return sample(0.5);
+        }
+        let steps = length.ceil() as u32;
+        for step in 0..steps {
+            sample((f64::from(step) + 0.5) / f64::from(steps));
         }
     }
 

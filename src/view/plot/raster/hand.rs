@@ -5,28 +5,35 @@
 
 use super::{Pen, Raster, spot_of};
 use crate::view::glyphs::Glyphs;
-use crate::view::plot::scale::Frame;
+use crate::view::plot::scale::{Frame, Scale};
 use crate::view::plot::stroke::{Tip, clip};
 
+/// What a dot of a line is drawn with: the pen, the character in place of the dot, the axis along which the line runs.
+type Ink<'p> = (&'p Pen, Option<char>, usize);
+
 /// Draws through points in data coordinates; [`Hand::rest`] ends the line.
-pub(super) struct Hand<'a> {
+pub(super) struct Hand<'a, 'p> {
     raster: &'a mut Raster,
     frame: Frame,
     size: [i32; 2],
-    tip: Tip<(Pen, Option<char>, usize)>,
+    /// How many dots one turn of each axis takes, where it is periodic.
+    turns: [Option<f64>; 2],
+    tip: Tip<Ink<'p>>,
     at: Option<[f64; 2]>,
     /// The first point of a line, until there is a second.
-    lone: Option<([f64; 2], Pen)>,
+    lone: Option<([f64; 2], &'p Pen)>,
     /// Age and number of ages of a trail, which in ASCII choose the character.
     fading: Option<(usize, usize)>,
 }
 
-impl<'a> Hand<'a> {
+impl<'a, 'p> Hand<'a, 'p> {
     /// A hand that has not begun.
     pub(super) fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
         let size = raster.size();
+        let turn = |scale: &Scale, dots: i32| Some(scale.turn_length()? * f64::from(dots));
+        let turns = [turn(&frame.x, size[0]), turn(&frame.y, size[1])];
         let tip = Tip::lifted();
-        Self { raster, frame: *frame, size, tip, at: None, lone: None, fading: None }
+        Self { raster, frame: *frame, size, turns, tip, at: None, lone: None, fading: None }
     }
 
     /// From here on the line is `age` of `ages` steps old.
@@ -35,13 +42,13 @@ impl<'a> Hand<'a> {
     }
 
     /// Draws on to a point.
-    pub(super) fn to(&mut self, point: [f64; 2], pen: &Pen) {
+    pub(super) fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
         let next = spot_of(&self.frame, point, self.size);
         if !next.iter().all(|v| v.is_finite()) {
             return self.rest();
         }
         let Some(from) = self.at.replace(next) else {
-            self.lone = Some((next, *pen));
+            self.lone = Some((next, pen));
             return;
         };
         self.lone = None;
@@ -59,7 +66,7 @@ impl<'a> Hand<'a> {
     /// Ends the line; a line of one point is a dot.
     pub(super) fn rest(&mut self) {
         if let Some((point, pen)) = self.lone.take() {
-            self.stroke(point, point, &pen);
+            self.stroke(point, point, pen);
         }
         self.lift();
         self.at = None;
@@ -68,17 +75,14 @@ impl<'a> Hand<'a> {
     /// By how much `next` was moved when it wrapped, in dots; more than half a turn at once is taken for a wrap.
     fn wrapped(&self, from: [f64; 2], next: [f64; 2]) -> [f64; 2] {
         let turn = |axis: usize| {
-            let scale = [&self.frame.x, &self.frame.y][axis];
-            let Some(turn) = scale.turn_length().map(|t| t * f64::from(self.size[axis])) else {
-                return 0.0;
-            };
+            let Some(turn) = self.turns[axis] else { return 0.0 };
             let jump = next[axis] - from[axis];
             if jump.abs() > turn / 2.0 { turn.copysign(jump) } else { 0.0 }
         };
         [turn(0), turn(1)]
     }
 
-    fn stroke(&mut self, from: [f64; 2], next: [f64; 2], pen: &Pen) {
+    fn stroke(&mut self, from: [f64; 2], next: [f64; 2], pen: &'p Pen) {
         let last = self.size.map(|n| n - 1);
         let inside = clip(from, next, self.size.map(f64::from));
         let Some((a, b)) = inside.filter(|_| !last.contains(&-1)) else { return self.lift() };
@@ -89,7 +93,7 @@ impl<'a> Hand<'a> {
         // The axis along which the line runs, and its pattern with it.
         let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
         let raster = &mut *self.raster;
-        self.tip.follow((a, b), last, (*pen, sign, along), |dot, ink| put(raster, dot, &ink));
+        self.tip.follow((a, b), last, (pen, sign, along), |dot, ink| put(raster, dot, ink));
         if b != next {
             self.lift();
         }
@@ -97,14 +101,14 @@ impl<'a> Hand<'a> {
 
     fn lift(&mut self) {
         let raster = &mut *self.raster;
-        self.tip.lift(|dot, ink| put(raster, dot, &ink));
+        self.tip.lift(|dot, ink| put(raster, dot, ink));
     }
 }
 
 /// Inks a dot of a line unless it falls in a gap of the pattern.
-fn put(raster: &mut Raster, dot: [i32; 2], (pen, sign, along): &(Pen, Option<char>, usize)) {
-    if pen.dash.covers(dot[*along]) {
-        raster.ink(dot, pen, *sign);
+fn put(raster: &mut Raster, dot: [i32; 2], (pen, sign, along): Ink<'_>) {
+    if pen.dash.covers(dot[along]) {
+        raster.ink(dot, pen, sign);
     }
 }
 
