@@ -4,6 +4,7 @@
 //! Never here: threads, clocks, terminals.
 
 mod attitude;
+mod chronicle;
 mod command;
 mod deviation;
 mod export;
@@ -28,6 +29,7 @@ use crate::model::Model;
 use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
+pub use chronicle::{Chronicle, Tally};
 pub use command::Command;
 pub use export::Export;
 pub use moment::{Changed, Moment, Named, Reference, Whereabouts};
@@ -57,7 +59,7 @@ pub struct Experiment {
     epoch: u64,
     notices: Vec<String>,
     /// What happened since the last restart.
-    happenings: Arc<Vec<Happening>>,
+    happenings: Chronicle,
     /// The names of those that were told of.
     told: Vec<String>,
     /// The event that ended the motion.
@@ -101,7 +103,7 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
-            happenings: Arc::default(),
+            happenings: Chronicle::default(),
             told: Vec::new(),
             ended: None,
             setup,
@@ -182,7 +184,7 @@ impl Experiment {
     }
 
     /// What happened since the last restart, in time.
-    pub fn happenings(&self) -> &[Happening] {
+    pub fn happenings(&self) -> &Chronicle {
         &self.happenings
     }
 
@@ -203,7 +205,7 @@ impl Experiment {
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
-            happenings: Arc::clone(&self.happenings),
+            happenings: self.happenings.clone(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -217,7 +219,7 @@ impl Experiment {
     fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
-        self.happenings = Arc::default();
+        self.happenings = Chronicle::default();
         self.told.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -303,10 +305,7 @@ impl Experiment {
             }
         };
         self.recorder.insert(happening.time, self.motion.values());
-        let happenings = Arc::make_mut(&mut self.happenings);
-        if happenings.len() < MOST_HAPPENINGS {
-            happenings.push(happening);
-        }
+        self.happenings.push(happening);
         Ok(sentence)
     }
 
@@ -365,9 +364,6 @@ impl Experiment {
         }
     }
 }
-
-/// How many happenings are kept.
-const MOST_HAPPENINGS: usize = 1_000_000;
 
 /// How many of the closest rows a step may reach ahead.
 const HORIZON: f64 = 4096.0;

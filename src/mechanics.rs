@@ -30,8 +30,8 @@ pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracke
 pub use class::{Class, Classed, classes};
 pub use constrain::with_reactions;
 pub use equations::{
-    Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow, Reason,
-    Separable, Twin, WhyNot,
+    Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
+    Reason, Separable, Twin, WhyNot,
 };
 pub use frames::Apparent;
 pub use invariants::casimir_rate;
@@ -62,14 +62,14 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
     };
-    equations.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.beside.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
-    equations.frames = frames::find(model, &mut equations);
+    equations.beside.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
-        equations.twin = Some(comparison::twin(&mut equations, model, comparison));
+        equations.beside.twin = Some(comparison::twin(&mut equations, model, comparison));
     }
-    if !equations.carried.is_empty() {
+    if !equations.beside.carried.is_empty() {
         let why = "numbers are carried along that do not follow from H";
         equations.separable = Err(WhyNot(why.to_owned()));
     }

@@ -161,6 +161,11 @@ impl Run {
         });
         let end = ended.map_err(|error| out.failed(&error))?;
         out.finish()?;
+        let chronicle = self.experiment.happenings();
+        if chronicle.forgotten() > 0 && format != Format::Csv {
+            let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
+            stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
+        }
         match end {
             Err(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
             Err(End::Signal(signal)) => Err(Failure::Signal(signal)),

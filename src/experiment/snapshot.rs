@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Setup, Trail};
+use super::{Chronicle, Setup, Trail};
 use crate::analysis::Verdict;
-use crate::integrate::Happening;
 use crate::system::{Form, State};
 
 /// The state of an experiment as the screen and the reports see it.
@@ -40,7 +39,7 @@ pub struct Snapshot {
     /// What the user is told in passing: "energy reference taken anew: …". The newest last.
     pub notices: Arc<[String]>,
     /// What happened since the last restart, in time.
-    pub happenings: Arc<Vec<Happening>>,
+    pub happenings: Chronicle,
     /// The constraints that were let go, by index.
     pub released: Vec<usize>,
 }
@@ -63,7 +62,7 @@ impl Snapshot {
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
-            happenings: Arc::default(),
+            happenings: Chronicle::default(),
             released: Vec::new(),
         }
     }

@@ -32,10 +32,25 @@ pub(super) trait Style {
     fn parenthesise(&self, inner: &str) -> String;
     /// Pieces side by side as one product.
     fn join(&self, factors: &[String]) -> String;
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece;
+    /// One piece over another; on one line unless the style has another form.
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+        let wrap = |piece: &Piece, level| {
+            if piece.level < level { self.parenthesise(&piece.text) } else { piece.text.clone() }
+        };
+        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
+        Piece { text, level: Level::Product }
+    }
     /// `base ^ exponent` for a positive numeric exponent other than one.
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece;
-    fn power(&self, base: &str, exponent: &Piece) -> Piece;
+    /// `base` to any power; on one line unless the style has another form.
+    fn power(&self, base: &str, exponent: &Piece) -> Piece {
+        let text = if exponent.level == Level::Atom {
+            format!("{base}^{}", exponent.text)
+        } else {
+            format!("{base}^{}", self.parenthesise(&exponent.text))
+        };
+        Piece { text, level: Level::Power }
+    }
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece;
     /// Whether a fractional coefficient is written in front (`½ m`) and not in the fraction.
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;

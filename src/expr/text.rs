@@ -43,14 +43,6 @@ impl Style for Text {
         factors.join("*")
     }
 
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
-        let wrap = |piece: &Piece, level| {
-            if piece.level < level { format!("({})", piece.text) } else { piece.text.clone() }
-        };
-        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
-        Piece { text, level: Level::Product }
-    }
-
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
         if exponent == Number::HALF {
             let inner = printer.piece(base).text;
@@ -58,15 +50,6 @@ impl Style for Text {
         }
         let exponent = self.number(exponent);
         self.power(&printer.at_least(base, Level::Atom), &exponent)
-    }
-
-    fn power(&self, base: &str, exponent: &Piece) -> Piece {
-        let text = if exponent.level == Level::Atom {
-            format!("{base}^{}", exponent.text)
-        } else {
-            format!("{base}^({})", exponent.text)
-        };
-        Piece { text, level: Level::Power }
     }
 
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {

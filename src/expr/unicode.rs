@@ -73,14 +73,6 @@ impl Style for Unicode {
         factors.join(" ")
     }
 
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
-        let wrap = |piece: &Piece, level| {
-            if piece.level < level { format!("({})", piece.text) } else { piece.text.clone() }
-        };
-        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
-        Piece { text, level: Level::Product }
-    }
-
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
         if exponent == Number::HALF {
             let text = format!("√{}", printer.at_least(base, Level::Atom));
@@ -98,15 +90,6 @@ impl Style for Unicode {
             return applied(printer, &name, arguments[0]);
         }
         let text = format!("{}{}", printer.at_least(base, Level::Atom), superscript(n));
-        Piece { text, level: Level::Power }
-    }
-
-    fn power(&self, base: &str, exponent: &Piece) -> Piece {
-        let text = if exponent.level == Level::Atom {
-            format!("{base}^{}", exponent.text)
-        } else {
-            format!("{base}^({})", exponent.text)
-        };
         Piece { text, level: Level::Power }
     }
 

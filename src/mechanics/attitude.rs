@@ -16,7 +16,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let Some(attitude) = &model.attitude else { return };
     match &attitude.source {
         AttitudeSource::Euler(angles) => {
-            equations.attitude = Some(rigid_body::attitude(&mut equations.pool, *angles));
+            equations.beside.attitude = Some(rigid_body::attitude(&mut equations.pool, *angles));
         }
         AttitudeSource::Rate { omega, start } => {
             let omega = omega.map(|e| equations.open(e));
@@ -36,7 +36,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             let symbols: Vec<Symbol> = attitude.matrix.concat();
             let plain = |plain| CarriedRates { plain, matrix: Vec::new(), right: Vec::new() };
             let (rates, initial) = (plain(rates), plain(initial));
-            equations.carried.push(Carried { symbols, rates, initial });
+            equations.beside.carried.push(Carried { symbols, rates, initial });
         }
     }
 }

@@ -57,7 +57,7 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot
         return Err(WhyNot(why.to_owned()));
     }
     let carried: Vec<Symbol> =
-        equations.carried.iter().flat_map(|carried| carried.symbols.clone()).collect();
+        equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()).collect();
     if equations.pool.depends_on_any(e, &carried) {
         let why = "what is carried along beside the motion is no function of its state";
         return Err(WhyNot(why.to_owned()));
@@ -185,7 +185,7 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot> {
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
     others.push(equations.symbols.action);
-    others.extend(equations.carried.iter().flat_map(|carried| carried.symbols.clone()));
+    others.extend(equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()));
     if equations.pool.depends_on_any(e, &others) {
         return Err(WhyNot("it is not known as a function of q, q̇ and t".to_owned()));
     }

@@ -114,7 +114,7 @@ fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Cla
     let opened = equations.open(observable);
     let accelerations = equations.coordinates.iter().map(|c| c.acceleration);
     let multipliers = equations.constraints.iter().map(|c| c.multiplier);
-    let carried = equations.carried.iter().flat_map(|carried| carried.symbols.clone());
+    let carried = equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone());
     let unknown: Vec<Symbol> = accelerations.chain(multipliers).chain(carried).collect();
     if !equations.is_lagrangian() || equations.pool.depends_on_any(opened, &unknown) {
         return (Class::Unknown, why);

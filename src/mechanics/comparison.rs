@@ -93,7 +93,7 @@ pub(super) fn twin(equations: &mut Equations, model: &Model, comparison: &Compar
     let mut initial: Vec<Expr> = state.into_iter().map(|s| pool.variable(s)).collect();
     initial.truncate(2 * n);
     let rates = velocities.map(|v| pool.variable(v)).collect();
-    equations.carried.push(Carried {
+    equations.beside.carried.push(Carried {
         symbols,
         rates: CarriedRates { plain: rates, matrix, right },
         initial: CarriedRates { plain: initial, matrix: start_matrix, right: start_right },

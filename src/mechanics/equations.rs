@@ -40,24 +40,39 @@ pub struct Equations {
     pub constraints: Vec<ConstraintRow>,
     /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
     pub multipliers: Result<Vec<Expr>, WhyNot>,
-    /// Numbers that are integrated beside the motion and do not act on it.
-    pub carried: Vec<Carried>,
-    /// The wrong mechanics beside the right, where the file asks for it.
-    pub twin: Option<Twin>,
-    /// The particles of each frame, as seen from it.
-    pub frames: Vec<Vec<Apparent>>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// What is conserved, and why.
     pub conserved: Vec<Conserved>,
     /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
     pub separable: Result<Separable, WhyNot>,
+    /// What goes beside the motion.
+    pub beside: Beside,
+}
+
+/// What is integrated, seen or known beside the equations of motion, and has no part in them.
+#[derive(Clone, Debug, Default)]
+pub struct Beside {
+    /// Numbers that are integrated beside the motion and do not act on it.
+    pub carried: Vec<Carried>,
+    /// The wrong mechanics beside the right, where the file asks for it.
+    pub twin: Option<Twin>,
+    /// The particles of each frame, as seen from it.
+    pub frames: Vec<Vec<Apparent>>,
     /// The body of the file, put together.
     pub body: Option<RigidBody>,
     /// The matrix of its attitude, where that follows from Euler's angles.
     pub attitude: Option<Tensor>,
     /// The symbols of the matrix, by rows.
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
+}
+
+impl Beside {
+    /// Nothing yet, but for the symbols that the model's attitude has.
+    pub(super) fn of(model: &Model) -> Beside {
+        let attitude_symbols = model.attitude.as_ref().map(|a| a.matrix);
+        Beside { attitude_symbols, ..Beside::default() }
+    }
 }
 
 /// The symbols of one coordinate.

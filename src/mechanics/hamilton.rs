@@ -1,7 +1,7 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{CoordinateSymbols, Equations, Flow, Separable, WhyNot};
+use super::equations::{Beside, CoordinateSymbols, Equations, Flow, Separable, WhyNot};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
 use crate::expr::{Expr, Number, Pool, Symbol, Zero};
@@ -59,15 +59,10 @@ pub(super) fn equations(
         solved: Ok(solved),
         constraints: Vec::new(),
         multipliers: Ok(Vec::new()),
-        carried: Vec::new(),
-        twin: None,
-        frames: Vec::new(),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
-        body: None,
-        attitude: None,
-        attitude_symbols: model.attitude.as_ref().map(|a| a.matrix),
+        beside: Beside::of(model),
     }
 }
 

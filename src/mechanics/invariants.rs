@@ -155,7 +155,7 @@ impl Equations {
             return None;
         }
         let mut seeds = self.along_the_flow();
-        for carried in &self.carried {
+        for carried in &self.beside.carried {
             if carried.rates.plain.len() == carried.symbols.len() {
                 seeds.extend(carried.symbols.iter().copied().zip(carried.rates.plain.clone()));
             } else if self.pool.depends_on_any(g, &carried.symbols) {

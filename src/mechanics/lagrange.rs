@@ -2,7 +2,7 @@
 //! M q̈ = f + Aᵀλ.
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
-use super::equations::{CoordinateSymbols, Equations, Flow};
+use super::equations::{Beside, CoordinateSymbols, Equations, Flow};
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Number, Pool, Symbol, Zero};
 use crate::model::Model;
@@ -105,15 +105,10 @@ pub(super) fn equations(
         solved,
         constraints,
         multipliers,
-        carried: Vec::new(),
-        twin: None,
-        frames: Vec::new(),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
-        body: None,
-        attitude: None,
-        attitude_symbols: model.attitude.as_ref().map(|a| a.matrix),
+        beside: Beside::of(model),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Motion by brackets of variables that are no coordinates and momenta: ẋ = {x, H} + force.
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
-use super::equations::{CoordinateSymbols, Equations, Flow, WhyNot};
+use super::equations::{Beside, CoordinateSymbols, Equations, Flow, WhyNot};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;
@@ -49,14 +49,9 @@ pub(super) fn equations(
         solved: Ok(rates),
         constraints: Vec::new(),
         multipliers: Ok(Vec::new()),
-        carried: Vec::new(),
-        twin: None,
-        frames: Vec::new(),
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),
-        body: None,
-        attitude: None,
-        attitude_symbols: model.attitude.as_ref().map(|a| a.matrix),
+        beside: Beside::of(model),
     }
 }

@@ -147,14 +147,14 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
             missing("column", of, channels.iter().map(|c| c.name.as_str()), &lab.loaded.name)
         })
     };
-    let happenings = || {
+    let tally = || {
         let model = &lab.loaded.model;
         let names = || {
             let events = model.events.iter().map(|event| event.name.as_str());
             events.chain(model.impulses.iter().map(|impulse| impulse.name.as_str()))
         };
         if names().any(|name| name == of.text) {
-            return Ok(snapshot.happenings.iter().filter(|h| h.name == of.text));
+            return Ok(snapshot.happenings.tallies().iter().find(|t| t.name == of.text));
         }
         Err(missing("event or blow", of, names(), &lab.loaded.name))
     };
@@ -163,8 +163,8 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
         Measure::Drift => gauge(lab, snapshot, of)?.max_drift,
         Measure::Least => snapshot.bounds[channel()?].0,
         Measure::Greatest => snapshot.bounds[channel()?].1,
-        Measure::Count => happenings()?.count() as f64,
-        Measure::Time => happenings()?.next_back().map(|h| h.time).ok_or_else(|| {
+        Measure::Count => tally()?.map_or(0.0, |tally| tally.count as f64),
+        Measure::Time => tally()?.map(|tally| tally.last).ok_or_else(|| {
             Mistake::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
         })?,
     })

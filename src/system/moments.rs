@@ -24,7 +24,7 @@ impl Moments {
     /// Those of a model's body, if it has one. To be called while the writer knows the parameters
     /// only.
     pub(super) fn of(model: &Model, writer: &mut Writer<'_>) -> Result<Option<Moments>, Symbol> {
-        let (Some(body), Some(whole)) = (&model.body, &writer.equations.body) else {
+        let (Some(body), Some(whole)) = (&model.body, &writer.equations.beside.body) else {
             return Ok(None);
         };
         let mut lowering = writer.lowering();

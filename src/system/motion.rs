@@ -86,8 +86,8 @@ impl Writer<'_> {
 
     /// Where among the numbers carried along an attitude begins.
     pub(super) fn attitude(&self) -> Option<usize> {
-        let first = self.equations.attitude_symbols?[0][0];
-        let mut carried = self.equations.carried.iter().flat_map(|carried| &carried.symbols);
+        let first = self.equations.beside.attitude_symbols?[0][0];
+        let mut carried = self.equations.beside.carried.iter().flat_map(|carried| &carried.symbols);
         carried.position(|&symbol| symbol == first)
     }
 
@@ -96,7 +96,7 @@ impl Writer<'_> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
         let mut outputs = Vec::new();
-        for carried in &equations.carried {
+        for carried in &equations.beside.carried {
             outputs.extend(lower_carried(&mut lowering, &carried.initial));
         }
         lowering.finish(outputs)
@@ -255,14 +255,14 @@ fn bind_state(
 
 /// Makes the numbers carried along the next inputs.
 fn bind_carried(lowering: &mut Lowering<'_>, equations: &Equations) {
-    for &symbol in equations.carried.iter().flat_map(|carried| &carried.symbols) {
+    for &symbol in equations.beside.carried.iter().flat_map(|carried| &carried.symbols) {
         let register = lowering.input();
         lowering.bind(symbol, register);
     }
 }
 
 fn carried_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
-    let all = equations.carried.iter();
+    let all = equations.beside.carried.iter();
     all.flat_map(|carried| lower_carried(lowering, &carried.rates)).collect()
 }
 

@@ -9,6 +9,7 @@ use super::gauges::word;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::theme::Role;
+use crate::experiment::Tally;
 use crate::system::{Channel, ChannelKind};
 
 /// Columns of a name, and of a number.
@@ -69,20 +70,14 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
 
 /// Each event and blow: how often it has happened, and when last.
 fn happenings(page: &mut Document, q: &Quantities<'_>) {
-    let mut seen: Vec<(&str, usize, f64)> = Vec::new();
-    for happening in q.snapshot.happenings.iter() {
-        match seen.iter_mut().find(|(name, ..)| *name == happening.name) {
-            Some((_, count, last)) => (*count, *last) = (*count + 1, happening.time),
-            None => seen.push((&happening.name, 1, happening.time)),
-        }
-    }
-    if seen.is_empty() {
+    let chronicle = &q.snapshot.happenings;
+    if chronicle.is_empty() {
         return;
     }
     page.heading("What happened");
-    for (name, count, last) in seen {
-        let mut row = line(name, &count.to_string(), if count == 1 { "time" } else { "times" });
-        let last = readable(last, 10, q.look.glyphs);
+    for Tally { name, count, last } in chronicle.tallies() {
+        let mut row = line(name, &count.to_string(), if *count == 1 { "time" } else { "times" });
+        let last = readable(*last, 10, q.look.glyphs);
         row.push((Role::Dim, format!(", last at t = {last}")));
         page.row(row);
     }

@@ -86,7 +86,7 @@ fn news(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
         say("Told, the newest first:".to_owned());
         notices.into_iter().for_each(&mut *say);
     }
-    let happened = snapshot.happenings.len();
+    let happened = snapshot.happenings.count();
     if happened > 0 {
         say(format!("Happened, {happened}; the newest first:"));
         for happening in snapshot.happenings.iter().rev().take(MOST) {

@@ -174,7 +174,7 @@ fn happenings(
         }
     }
     let model = Arc::clone(experiment.model());
-    let mut found: Vec<Happening> = experiment.happenings().to_vec();
+    let mut found: Vec<Happening> = experiment.happenings().iter().cloned().collect();
     if found.len() != events.len() {
         let names: Vec<String> = found.iter().map(|h| format!("{} {}", h.name, h.time)).collect();
         return Err(format!("{} events, not {}: {names:?}", found.len(), events.len()));

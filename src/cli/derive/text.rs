@@ -167,7 +167,8 @@ impl Page<'_> {
 
     /// The Lagrangian that has the constraints put into it, and what it is not.
     fn twin(&mut self, model: &Model) {
-        let (Some(twin), Some(comparison)) = (&self.equations.twin, &model.comparison) else {
+        let (Some(twin), Some(comparison)) = (&self.equations.beside.twin, &model.comparison)
+        else {
             return;
         };
         let title =

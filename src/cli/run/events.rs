@@ -2,12 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::experiment::Chronicle;
 use crate::integrate::{Happening, Kind};
 use crate::model::Model;
 
 /// One object for each event and each blow, in time: name, time, and of a blow the jump of each
 /// momentum (or variable) and the reaction of each constraint.
-pub(super) fn of(model: &Model, happenings: &[Happening]) -> Vec<Value> {
+pub(super) fn of(model: &Model, happenings: &Chronicle) -> Vec<Value> {
     let moved = |i: usize| {
         let c = &model.coordinates[i];
         if model.is_poisson() { c.name.clone() } else { format!("p_{}", c.name) }

@@ -73,8 +73,9 @@ impl Check<'_> {
             return None;
         }
         let (at, start) = (self.at_start(e), self.model.run.start);
-        if at < start {
-            let message = format!("this is before the start, t = {start}; it does not strike");
+        if at <= start {
+            let place = if at < start { "before the start" } else { "the start itself" };
+            let message = format!("this is {place}, t = {start}; it does not strike");
             self.mistakes.push(Mistake::warning(formula.span(), message));
         }
         Some(e)

@@ -192,13 +192,18 @@ action = "stop"
     assert_eq!(&file[model.events[1].place.clone()], "\"lambda_no_slip\"");
 }
 
-/// A blow before the start is allowed, and probably not meant.
+/// A blow before the start, or at it, is allowed, and probably not meant.
 #[test]
-fn a_blow_before_the_start_is_a_warning() {
-    let file = with("[[impulses]]\nname = \"b\"\nat = [-1]\nchange = { p_x = 1 }");
-    let warnings = checked(&file).warnings;
-    assert_eq!(warnings.len(), 1);
-    assert_eq!(warnings[0].message, "this is before the start, t = 0; it does not strike");
+fn a_blow_that_is_not_after_the_start_is_a_warning() {
+    for (at, place) in [("-1", "before the start"), ("0", "the start itself")] {
+        let file =
+            with(&format!("[[impulses]]\nname = \"b\"\nat = [{at}]\nchange = {{ p_x = 1 }}"));
+        let warnings = checked(&file).warnings;
+        assert_eq!(warnings.len(), 1);
+        assert_eq!(warnings[0].message, format!("this is {place}, t = 0; it does not strike"));
+    }
+    let file = with("[[impulses]]\nname = \"b\"\nat = [0.5]\nchange = { p_x = 1 }");
+    assert!(checked(&file).warnings.is_empty());
 }
 
 /// A free rigid body.

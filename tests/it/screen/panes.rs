@@ -212,7 +212,7 @@ fn the_equations_are_written_in_mathematics() {
 fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
     let blow = |time: f64| Happening { name: "push".to_owned(), time, kind: Kind::Mark };
-    seen.happenings = Arc::new(vec![blow(0.5), blow(1.0), blow(1.0005)]);
+    seen.happenings = [0.5, 1.0, 1.0005].map(blow).into_iter().collect();
     let mut app = in_lab();
     let look = rich();
     let signs = |buffer: &ratatui::buffer::Buffer| {

@@ -1,0 +1,124 @@
+//! What has happened: every event and blow, in time, sealed in shared chunks, so that a snapshot
+//! copies only the open one.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::integrate::Happening;
+
+/// Happenings in a sealed chunk.
+const CHUNK: usize = 256;
+
+/// The most chunks kept; of more the oldest are forgotten: a million happenings.
+const CHUNKS: usize = 4096;
+
+/// Happenings, the oldest first, and how often each has come.
+#[derive(Clone, Debug, Default)]
+pub struct Chronicle {
+    sealed: VecDeque<Arc<Vec<Happening>>>,
+    open: Arc<Vec<Happening>>,
+    tallies: Arc<Vec<Tally>>,
+}
+
+/// How often something has happened, and when last.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Tally {
+    /// The event's or the impulse's name.
+    pub name: String,
+    /// How often, those counted in that are forgotten.
+    pub count: u64,
+    /// When last.
+    pub last: f64,
+}
+
+impl Chronicle {
+    /// Adds what has happened now.
+    pub(super) fn push(&mut self, happening: Happening) {
+        let tallies = Arc::make_mut(&mut self.tallies);
+        match tallies.iter_mut().find(|tally| tally.name == happening.name) {
+            Some(tally) => (tally.count, tally.last) = (tally.count + 1, happening.time),
+            None => {
+                let (name, last) = (happening.name.clone(), happening.time);
+                tallies.push(Tally { name, count: 1, last });
+            }
+        }
+        let open = Arc::make_mut(&mut self.open);
+        open.push(happening);
+        if open.len() == CHUNK {
+            self.sealed.push_back(std::mem::take(&mut self.open));
+            if self.sealed.len() > CHUNKS {
+                self.sealed.pop_front();
+            }
+        }
+    }
+
+    /// Those that are kept, the oldest first.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Happening> {
+        self.sealed.iter().chain(std::iter::once(&self.open)).flat_map(|chunk| chunk.iter())
+    }
+
+    /// How often each has come, in the order of the first time.
+    pub fn tallies(&self) -> &[Tally] {
+        &self.tallies
+    }
+
+    /// How many there were in all.
+    pub fn count(&self) -> u64 {
+        self.tallies.iter().map(|tally| tally.count).sum()
+    }
+
+    /// How many of them are kept no longer, the oldest.
+    pub fn forgotten(&self) -> u64 {
+        self.count() - (self.sealed.len() * CHUNK + self.open.len()) as u64
+    }
+
+    /// Whether nothing has happened.
+    pub fn is_empty(&self) -> bool {
+        self.tallies.is_empty()
+    }
+}
+
+impl FromIterator<Happening> for Chronicle {
+    fn from_iter<I: IntoIterator<Item = Happening>>(happenings: I) -> Chronicle {
+        let mut chronicle = Chronicle::default();
+        happenings.into_iter().for_each(|happening| chronicle.push(happening));
+        chronicle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrate::Kind;
+
+    fn ticks(count: usize) -> impl Iterator<Item = Happening> {
+        let name = |k: usize| ["tick", "tock"][k % 2].to_owned();
+        (0..count).map(move |k| Happening { name: name(k), time: k as f64, kind: Kind::Mark })
+    }
+
+    #[test]
+    fn the_newest_are_kept_in_order_and_all_are_counted() {
+        let most = CHUNK * CHUNKS;
+        let count = most + 1000;
+        let chronicle: Chronicle = ticks(count).collect();
+        let times: Vec<f64> = chronicle.iter().map(|happening| happening.time).collect();
+        assert!((most..most + CHUNK).contains(&times.len()), "{}", times.len());
+        assert!(times.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
+        assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
+        assert_eq!(chronicle.forgotten() as usize, count - times.len());
+        let half = count as u64 / 2;
+        let tally = |name: &str, last| Tally { name: name.to_owned(), count: half, last };
+        let last = count as f64;
+        assert_eq!(chronicle.tallies(), [tally("tick", last - 2.0), tally("tock", last - 1.0)]);
+    }
+
+    #[test]
+    fn a_copy_keeps_what_it_saw() {
+        let mut chronicle: Chronicle = ticks(CHUNK - 1).collect();
+        let before = chronicle.clone();
+        ticks(3 * CHUNK).for_each(|happening| chronicle.push(happening));
+        assert_eq!((before.count(), before.iter().count()), (CHUNK as u64 - 1, CHUNK - 1));
+        assert_eq!((chronicle.forgotten(), chronicle.iter().count()), (0, 4 * CHUNK - 1));
+        assert!(Chronicle::default().is_empty() && !before.is_empty());
+    }
+}
