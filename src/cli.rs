@@ -64,6 +64,7 @@ Examples:
   phaselab double-pendulum             open a preset
   phaselab my/system.toml              open a file
   phaselab derive heavy-top            what follows from its Lagrangian
+  phaselab --demo                      a tour of ten seconds that ends by itself
   phaselab run pendulum > swing.csv    the same motion without a screen
   phaselab man | man -l -              the manual, with all keys";
 

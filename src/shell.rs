@@ -12,6 +12,7 @@
 mod bandwidth;
 mod checker;
 pub mod config;
+mod demo;
 mod diagnosis;
 mod files;
 mod fresh;
@@ -46,8 +47,9 @@ pub use terminal::NoTerminal;
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-use crate::preset::Catalog;
-use crate::record::Tape;
+use crate::preset::{Catalog, Mistake};
+use crate::record::{Performance, Tape, still};
+use demo::Demo;
 use log::Log;
 use session::Session;
 use store::Store;
@@ -109,4 +111,23 @@ pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
     NoTerminal::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     perform(&mut Projector::new(tape, request.look(&variable)), request.pace(&variable))
+}
+
+/// Performs a demo on the terminal until it ends or is left. What it ends with: its last picture as text with colours, where
+/// it was not left before; or what is wrong with its script.
+///
+/// # Errors
+/// Where there is no terminal, before the screen is touched.
+pub fn perform_demo(
+    performance: Performance,
+    request: &Request,
+) -> Result<(Ending, Result<Option<String>, Mistake>), Refusal> {
+    NoTerminal::check()?;
+    let variable = |name: &str| std::env::var(name).ok();
+    let look = request.look(&variable);
+    let palette = look.theme.palette();
+    let mut demo = Demo::new(performance, look);
+    let ending = perform(&mut demo, request.pace(&variable))?;
+    let text = |picture| still::write(&picture, palette, still::Form::Ansi, "");
+    Ok((ending, demo.outcome().map(|last| last.map(text))))
 }

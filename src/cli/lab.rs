@@ -1,10 +1,14 @@
-//! `phaselab [PRESET|FILE]`: the laboratory on the screen.
+//! `phaselab [PRESET|FILE]`: the laboratory on the screen, and `--demo`: a demo in it.
+
+use std::io::Write;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Arg, ArgMatches, Command, FromArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use super::config;
 use super::failure::Failure;
+use super::output::Output;
+use super::{config, play, record};
+use crate::record::Performance;
 use crate::shell::options::{Choice, Kind, OPTIONS};
 use crate::shell::{self, Ending, NoSession, Options, Refusal, Request};
 
@@ -12,13 +16,26 @@ use crate::shell::{self, Ending, NoSession, Options, Refusal, Request};
 #[derive(Debug)]
 pub(super) struct Arguments {
     name: Option<String>,
+    demo: bool,
     options: Options,
 }
+
+/// The flag that has a demo performed.
+const DEMO: &str = "demo";
 
 impl clap::Args for Arguments {
     fn augment_args(command: Command) -> Command {
         let name = Arg::new("name").value_name("PRESET|FILE").help("A preset's name, or a file");
-        OPTIONS.iter().fold(command.arg(name), |command, choice| command.arg(argument(choice)))
+        let demo = Arg::new(DEMO)
+            .long(DEMO)
+            .action(ArgAction::SetTrue)
+            .conflicts_with_all(["resume", "watch", "log"])
+            .help(
+                "Perform a demo, then end: a preset's own, a script, or a tour where none is named",
+            );
+        OPTIONS
+            .iter()
+            .fold(command.arg(name).arg(demo), |command, choice| command.arg(argument(choice)))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -34,7 +51,8 @@ impl FromArgMatches for Arguments {
                 options.ask(choice.name, word);
             }
         }
-        Ok(Self { name: matches.get_one("name").cloned(), options })
+        let demo = matches.get_flag(DEMO);
+        Ok(Self { name: matches.get_one("name").cloned(), demo, options })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -104,6 +122,9 @@ pub(super) fn request(name: Option<String>, asked: Options) -> Result<Request, F
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.demo {
+        return perform_demo(arguments);
+    }
     let mut request = request(arguments.name.clone(), arguments.options.clone())?;
     let mut ended = shell::run(&request);
     let gone = matches!(
@@ -116,6 +137,26 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         ended = shell::run(&request);
     }
     how_it_ended(ended)
+}
+
+/// A demo on the terminal. Its last picture stays, and what is wrong with its script is told, once the terminal is given
+/// back.
+fn perform_demo(arguments: &Arguments) -> Result<(), Failure> {
+    let request = request(None, arguments.options.clone())?;
+    let source = play::source(arguments.name.as_deref())?;
+    let (script, system, name) = play::scripted(&source)?;
+    let wrong = |mistake| record::told(&source, &[mistake]);
+    let performance = Performance::watched(script, &system, &name).map_err(wrong)?;
+    let (ending, outcome) = match shell::perform_demo(performance, &request) {
+        Ok(done) => done,
+        Err(refusal) => return how_it_ended(Err(refusal)),
+    };
+    if let (Ending::Quit, Some(picture)) = (ending, outcome.map_err(wrong)?) {
+        let mut out = Output::open(None)?;
+        out.write_all(picture.as_bytes()).map_err(|error| out.failed(&error))?;
+        out.finish()?;
+    }
+    how_it_ended(Ok(ending))
 }
 
 /// What an ending on the terminal means for the exit code.

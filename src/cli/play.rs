@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::{lab, open, record};
-use crate::preset::{Document, demo};
+use crate::preset::{Document, demo, is_path};
 use crate::record::{Script, Tape};
 use crate::shell::{self, Options};
 
@@ -38,7 +38,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
 
 fn tape(path: &Path) -> Result<Tape, Failure> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
-        return scripted(&own);
+        return recorded(&own);
     }
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|file| file.take(LIMIT + 1).read_to_end(&mut bytes));
@@ -52,18 +52,56 @@ fn tape(path: &Path) -> Result<Tape, Failure> {
         let wrong = |why| Failure::WrongFile(format!("{}: {why}", path.display()));
         return Tape::read(&text).map_err(wrong);
     }
-    scripted(&Document::open(path).map_err(|why| Failure::reading(path, &why))?)
+    recorded(&Document::open(path).map_err(|why| Failure::reading(path, &why))?)
 }
 
 /// What a script comes to.
-fn scripted(source: &Document) -> Result<Tape, Failure> {
+fn recorded(source: &Document) -> Result<Tape, Failure> {
+    let (script, system, name) = scripted(source)?;
+    let recording = record::recorded(&script, source, &system, &name, None)?;
+    record::hold(source, &recording)?;
+    Ok(recording.into())
+}
+
+/// The tour, for those who name no demo.
+const TOUR: &str = include_str!("tour.demo");
+
+/// The text of a script: a file's, a preset's own, or that of the tour.
+pub(super) fn source(name: Option<&str>) -> Result<Document, Failure> {
+    let Some(name) = name else { return Ok(Document::new("tour.demo", TOUR)) };
+    let path = Path::new(name);
+    let is_script = path.extension().is_some_and(|ending| ending == "demo");
+    if is_script || (is_path(name) && path.extension().is_none_or(|ending| ending != "toml")) {
+        return Document::open(path).map_err(|why| Failure::reading(path, &why));
+    }
+    record::own_demo(name)
+}
+
+/// A script, its system, and how that is called on the screen.
+pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), Failure> {
     let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
     let Some(system) = &script.head.open else {
         let what = format!("{} does not say which system it is about: Open NAME", source.path);
         return Err(Failure::WrongFile(what));
     };
     let document = open::find(&system.text)?;
-    let recording = record::recorded(&script, source, &document, &system.text, None)?;
-    record::hold(source, &recording)?;
-    Ok(recording.into())
+    // the mistakes of the system are told as its own
+    open::read(&document)?;
+    let name = record::called(&system.text).to_owned();
+    Ok((script, document, name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::play;
+
+    #[test]
+    fn the_tour_is_short_and_true() {
+        let source = source(None).expect("there is one");
+        let (script, system, name) = scripted(&source).expect("without mistakes");
+        let recording = play(&script, &system, &name, (80, 24)).expect("it can be played");
+        assert_eq!(recording.false_claims, []);
+        assert!((8..=15).contains(&(recording.end / 1_000_000)), "{}", recording.end);
+    }
 }

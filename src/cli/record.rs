@@ -119,7 +119,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
 }
 
 /// The demo that is shipped with a preset.
-fn own_demo(name: &str) -> Result<Document, Failure> {
+pub(super) fn own_demo(name: &str) -> Result<Document, Failure> {
     demo(name).ok_or_else(|| {
         let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
         Failure::WrongUse(format!("`{name}` has no demo of its own: give one with --script{near}"))
@@ -141,7 +141,7 @@ pub(super) fn recorded(
 }
 
 /// How a system is called on the screen: a file without the folders it stands in, which are nobody's business.
-fn called(name: &str) -> &str {
+pub(super) fn called(name: &str) -> &str {
     let file = name.rsplit(['/', std::path::MAIN_SEPARATOR]).next().unwrap_or(name);
     file.strip_suffix(".toml").unwrap_or(file)
 }

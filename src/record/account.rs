@@ -3,7 +3,7 @@
 //! In: a [`Recording`]. Out: text of lines no wider than the screen needs. Never here: files.
 
 use super::clock::Micros;
-use super::player::{Entry, Recording, rows, seconds};
+use super::recording::{Entry, Recording, rows, seconds};
 
 /// The account.
 pub fn write(recording: &Recording) -> String {

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use super::clock::{Micros, SECOND};
-use super::player::{Event, Recording};
+use super::recording::{Event, Recording};
 use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 

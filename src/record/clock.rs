@@ -41,6 +41,11 @@ impl Clock {
         frame.saturating_mul(SECOND) / u64::from(self.fps)
     }
 
+    /// When the frame after it comes.
+    pub(super) fn next(&self) -> Micros {
+        self.time_of(self.frame + 1)
+    }
+
     /// Lets time pass; [`Clock::tick`] brings the frames that fall into it. Parts of a frame are kept for the next time.
     pub(super) fn pass(&mut self, time: Micros) {
         self.until = self.until.saturating_add(time);

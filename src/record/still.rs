@@ -10,7 +10,7 @@ use std::str::FromStr;
 
 use ratatui::buffer::Buffer;
 
-use super::player::rows;
+use super::recording::rows;
 use crate::view::theme::Palette;
 
 /// The form of a still.

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::clock::{Micros, SECOND};
-use super::player::{Event, Recording};
+use super::recording::{Event, Recording};
 
 /// A cast in memory.
 #[derive(Clone, Debug)]

@@ -38,6 +38,11 @@ pub trait Page {
     /// Whether text is being typed, so that a paste should come as one.
     fn is_typing(&self) -> bool;
 
+    /// Whether nothing more will come; the last picture is then shown and the page ends.
+    fn is_over(&self) -> bool {
+        false
+    }
+
     /// The line to the terminal carries only so much: the next pictures should be that much poorer.
     fn reduce(&mut self, _detail: Detail) {}
 }
@@ -181,6 +186,9 @@ impl Stage<'_> {
                 (last, due) = (now, self.governor.due());
             }
             self.send()?;
+            if page.is_over() && !changed && !self.queue.is_busy() {
+                return Ok(Ending::Quit);
+            }
 
             let ready = self.wait(due)?;
             if ready.gone || ready.input && !self.read()? {

@@ -1,6 +1,7 @@
-//! The line below the screen of a demo: what is to be seen, and the keys just pressed.
+//! What stands below the screen of a demo: what is to be seen, and the keys just pressed.
 //!
-//! In: a sentence and the names of keys. Out: one row of cells. Never here: when it says what.
+//! In: a sentence and the names of keys. Out: a row of cells, more where the sentence is too long for one. Never here:
+//! when it says what.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,7 +12,7 @@ use super::Look;
 use super::canvas::{Canvas, columns};
 use super::theme::Role;
 
-/// What the line says.
+/// What it says.
 #[derive(Clone, Copy, Debug)]
 pub struct Caption<'a> {
     /// The sentence; empty for none.
@@ -20,17 +21,47 @@ pub struct Caption<'a> {
     pub keys: &'a [String],
 }
 
-/// Draws the line over a blank row: the sentence at the left, keys as caps at the right. Keys give way to the sentence.
-pub fn draw(look: &Look, caption: &Caption<'_>, row: Rect, buffer: &mut Buffer) {
-    let mut canvas = Canvas::over(buffer, look);
-    let mut used = 0;
-    if !caption.text.is_empty() {
-        used = canvas.left(columns(row, 1, 2), Role::Accent, look.glyphs.pick("▌", "|"));
-        used += 2 + canvas.left(columns(row, used + 2, row.width), Role::Title, caption.text);
+/// What stands before the sentence, and is left free behind it.
+const MARGINS: u16 = 4;
+
+/// How many rows a sentence takes on a screen of this width.
+pub fn rows(text: &str, width: u16) -> u16 {
+    lines(text, width).len() as u16
+}
+
+/// The sentence in lines, broken between words; one line where there is no sentence.
+fn lines(text: &str, width: u16) -> Vec<String> {
+    let room = usize::from(width.saturating_sub(MARGINS)).max(1);
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let line = lines.last_mut().map_or(0, |line| line.width());
+        if line > 0 && line + 1 + word.width() > room {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            let gap = if line.is_empty() { "" } else { " " };
+            *line = format!("{line}{gap}{word}");
+        }
     }
+    lines
+}
+
+/// Draws the sentence over blank rows: the sentence at the left, keys as caps at the right of the last. Keys give way to
+/// the sentence.
+pub fn draw(look: &Look, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
+    let mut canvas = Canvas::over(buffer, look);
+    let (mut used, mut last) = (0, Rect { height: 1, ..area });
+    if !caption.text.is_empty() {
+        for (row, line) in area.rows().zip(lines(caption.text, area.width)) {
+            used = canvas.left(columns(row, 1, 2), Role::Accent, look.glyphs.pick("▌", "|"));
+            used += 2 + canvas.left(columns(row, used + 2, row.width), Role::Title, &line);
+            last = row;
+        }
+    }
+    let row = last;
     let mut right = row.width.saturating_sub(1);
     for key in caption.keys.iter().rev() {
-        let cap = format!(" {key} ");
+        let cap = format!(" {} ", look.glyphs.text(key));
         let width = cap.width() as u16;
         if used + 2 + width > right {
             break;
@@ -38,5 +69,18 @@ pub fn draw(look: &Look, caption: &Caption<'_>, row: Rect, buffer: &mut Buffer) 
         let style = canvas.style(Role::Accent).add_modifier(Modifier::REVERSED);
         canvas.spans(columns(row, right - width, width), &[(cap, style)]);
         right -= width + 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_are_broken_between_words() {
+        assert_eq!(lines("from one degree", 80), ["from one degree"]);
+        assert_eq!(lines("from one degree", 14), ["from one", "degree"]);
+        assert_eq!(rows("", 80), 1);
+        assert_eq!(rows("unbreakable", 6), 1);
     }
 }

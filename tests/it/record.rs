@@ -1,8 +1,10 @@
 //! Recordings: played on the virtual clock, written as casts, replayed by terminals that know nothing of them.
 
 mod demos;
+mod performance;
 mod projector;
 mod replay;
+mod schema;
 mod scripts;
 mod stills;
 

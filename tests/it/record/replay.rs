@@ -6,7 +6,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use serde_json::Value;
 
-use super::played;
+use super::{played, schema};
 
 /// A cast as its format has it, read without the program's own reader.
 pub(super) struct Read {
@@ -18,6 +18,7 @@ pub(super) struct Read {
 pub(super) fn read(recording: &Recording, version: Version) -> Read {
     let text = cast::write(recording, version, Vec::new()).expect("written to memory");
     let text = String::from_utf8(text).expect("UTF-8");
+    assert_eq!(schema::fault(&text, version), None);
     let mut lines = text.lines();
     let head = serde_json::from_str(lines.next().expect("a head")).expect("JSON");
     let event = |line: &str| {

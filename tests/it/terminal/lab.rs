@@ -416,3 +416,49 @@ fn a_cast_is_played_on_the_terminal() {
     assert_eq!(player.ends().0, 0);
     player.assert_restored();
 }
+
+#[test]
+fn a_demo_ends_by_itself_and_its_last_picture_stays() {
+    let mut demo = Setup::new(PROGRAM, &["--demo"]).start();
+    demo.shows("nothing but a Lagrangian is given");
+    demo.until("it has the screen for itself", |demo| demo.screen().alternate_screen());
+    demo.shows("Equations of motion");
+    demo.shows("the energy is kept to the last digits");
+    assert_eq!(demo.ends().0, 0);
+    demo.assert_restored();
+    let left = demo.text();
+    for part in ["Motion", "Gauges", "20 m/s²", "the energy is kept to the last digits"] {
+        assert!(left.contains(part), "{left}");
+    }
+    assert!(demo.sent().contains("\x1b[?2026h"));
+}
+
+#[test]
+fn a_demo_can_be_held_and_left() {
+    let mut demo = Setup::new(PROGRAM, &["pendulum", "--demo"]).start();
+    demo.shows("Let go from one degree");
+    demo.press(" ");
+    demo.quiet(Duration::from_millis(500));
+    demo.press(" ");
+    demo.shows("From 170 degrees");
+    demo.press("q");
+    assert_eq!(demo.ends().0, 0);
+    demo.assert_restored();
+    assert!(!demo.text().contains("Gauges"), "{}", demo.text());
+}
+
+#[test]
+fn what_is_wrong_with_a_demo_is_told_on_the_restored_terminal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let check = |name: &str, text: &str, code: u32, part: &str| {
+        fs::write(folder.path().join("my.demo"), text).expect("a file");
+        let mut demo = Setup::new(PROGRAM, &["--demo", name]).folder(folder.path()).start();
+        assert_eq!(demo.ends().0, code);
+        demo.assert_restored();
+        assert!(demo.text().contains(part), "{}", demo.text());
+    };
+    check("my.demo", "Open pendulum\nWait 1s\nSet thta = 1\nWait 1s", 65, "did you mean `theta`?");
+    check("my.demo", "Open pendulum\nWiat 1s", 65, "did you mean `Wait`?");
+    check("my.demo", "Wait 1s", 65, "does not say which system");
+    check("duffing", "", 2, "has no demo of its own");
+}

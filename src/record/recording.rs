@@ -1,0 +1,210 @@
+//! Recordings: a performance taken down from its beginning to its end.
+//!
+//! In: a [`Script`], a document. Out: a [`Recording`], or every mistake that only playing shows. Never here: what a line
+//! of a script does, or the form of a cast.
+
+use std::time::Duration;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Size;
+
+use super::clock::Micros;
+use super::laboratory::Budget;
+use super::performance::{Beat, Performance};
+use super::script::{Script, Step};
+use crate::preset::{Document, Mistake};
+use crate::view::Look;
+use crate::view::frame::Frames;
+
+/// What came of a script.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// Its title.
+    pub title: String,
+    /// Columns and rows.
+    pub size: (u16, u16),
+    /// Frames in a second.
+    pub fps: u32,
+    /// How many frames time has passed: the whole lasts `frames / fps`.
+    pub frames: u64,
+    /// When it ends.
+    pub end: Micros,
+    /// How it looks.
+    pub look: Look,
+    /// What is to be shown when: bytes for a terminal, and the names of chapters.
+    pub events: Vec<(Micros, Event)>,
+    /// The chapters.
+    pub markers: Vec<Marker>,
+    /// The screen at the end.
+    pub last: Buffer,
+    /// What was done and found.
+    pub log: Vec<(Micros, Entry)>,
+    /// The claims that turned out false.
+    pub false_claims: Vec<Mistake>,
+}
+
+/// Something in a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Text for the terminal.
+    Output(String),
+    /// A chapter begins.
+    Marker(String),
+}
+
+/// A chapter.
+#[derive(Clone, Debug)]
+pub struct Marker {
+    /// Its name.
+    pub name: String,
+    /// When it begins.
+    pub time: Micros,
+    /// What was on the screen then.
+    pub screen: Buffer,
+}
+
+/// A line of the account.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// Something was done.
+    Done(&'static str, String),
+    /// Something was claimed: whether it held, and what was found.
+    Claimed(bool, String),
+    /// A chapter began; its place among the markers.
+    Marker(usize),
+}
+
+/// Plays a script.
+///
+/// `called` is how the system is called on the screen, `size` the screen where the script gives none.
+///
+/// # Errors
+/// The mistakes of the script that only its system and its screen show.
+pub fn play(
+    script: &Script,
+    document: &Document,
+    called: &str,
+    size: (u16, u16),
+) -> Result<Recording, Vec<Mistake>> {
+    let size = script.head.size.unwrap_or(size);
+    let mistakes = too_long(script, size.0);
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    let area = Size::from(size);
+    let (fps, title) = (script.head.fps, script.head.title.clone());
+    let alone = |mistake| vec![mistake];
+    let performance = Performance::new(script.clone(), document, called, area, Budget::RECORDED);
+    let mut take = Take {
+        performance: performance.map_err(alone)?,
+        screen: Frames::new(false),
+        look: script.head.look(),
+        area,
+        events: Vec::new(),
+        markers: Vec::new(),
+        log: Vec::new(),
+        false_claims: Vec::new(),
+    };
+    while take.goes_on().map_err(alone)? {}
+    let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
+    let lab = performance.lab;
+    let of_system = || {
+        let opened = lab.app.lab.as_ref();
+        opened.map_or_else(|| called.to_owned(), |opened| opened.loaded.model.info.title.clone())
+    };
+    Ok(Recording {
+        title: title.unwrap_or_else(of_system),
+        size,
+        fps,
+        frames: lab.clock.frame(),
+        end: lab.now(),
+        look,
+        last: screen.shown().cloned().unwrap_or_default(),
+        events,
+        markers,
+        log,
+        false_claims,
+    })
+}
+
+/// Captions that have no room on a screen of this width.
+fn too_long(script: &Script, width: u16) -> Vec<Mistake> {
+    let room = Script::caption_room(width);
+    let long = script.steps.iter().filter(|(_, step)| match step {
+        Step::Caption(text) => text.chars().count() > room,
+        _ => false,
+    });
+    let message = format!("a caption may have {room} characters at this size");
+    long.map(|(place, _)| Mistake::error(place.clone(), message.clone())).collect()
+}
+
+/// A performance being taken down.
+struct Take {
+    performance: Performance,
+    screen: Frames,
+    look: Look,
+    area: Size,
+    events: Vec<(Micros, Event)>,
+    markers: Vec<Marker>,
+    log: Vec<(Micros, Entry)>,
+    false_claims: Vec<Mistake>,
+}
+
+impl Take {
+    /// Takes the next beat down; whether there are more to come.
+    fn goes_on(&mut self) -> Result<bool, Mistake> {
+        let beat = self.performance.beat()?;
+        let now = self.performance.now();
+        match beat {
+            Beat::Frame => self.draw(now),
+            Beat::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
+            Beat::Claim(place, claim) => {
+                let screen = rows(&self.performance.picture(&self.look));
+                let finding = self.performance.find(&claim, &screen)?;
+                if !finding.holds {
+                    let message = format!("this is false: {}", finding.sentence);
+                    self.false_claims.push(Mistake::error(place, message));
+                }
+                self.log.push((now, Entry::Claimed(finding.holds, finding.sentence)));
+            }
+            Beat::Marker(name) => {
+                let screen = self.performance.picture(&self.look);
+                self.events.push((now, Event::Marker(name.clone())));
+                self.log.push((now, Entry::Marker(self.markers.len())));
+                self.markers.push(Marker { name, time: now, screen });
+            }
+            Beat::Over => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Shows the present as a frame.
+    fn draw(&mut self, now: Micros) {
+        let Self { performance, screen, look, .. } = self;
+        if performance.lab.takes_repaint() {
+            screen.forget();
+        }
+        let bytes = screen.next(self.area, |area, buffer| {
+            performance.draw(look, area, buffer);
+        });
+        if !bytes.is_empty() {
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            self.events.push((now, Event::Output(text)));
+        }
+    }
+}
+
+/// The screen's rows as text.
+pub(super) fn rows(screen: &Buffer) -> Vec<String> {
+    let row = |y: u16| -> String {
+        let area = screen.area;
+        let cells = (area.left()..area.right()).map(|x| screen[(x, y)].symbol());
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    (screen.area.top()..screen.area.bottom()).map(row).collect()
+}
+
+/// Time in an account: seconds with hundredths.
+pub(super) fn seconds(time: Micros) -> String {
+    format!("{:.2}", Duration::from_micros(time).as_secs_f64())
+}

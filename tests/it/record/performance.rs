@@ -1,0 +1,73 @@
+//! Performances: the same as recordings, at the pace of whoever watches.
+
+use phaselab::preset::Catalog;
+use phaselab::record::Performance;
+use phaselab::view::Look;
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
+
+use super::{played, script};
+
+const SCRIPT: &str = "Size 90x28\nCaption \"It swings\"\nPress Down x2\nSweep g to 20 in 1s\n\
+                      Marker \"Middle\"\nWait 1s\nAssert g = 1 within 0\nPress 2\nWait 0.5s";
+
+fn performance(text: &str) -> (Performance, Look) {
+    let system = Catalog::with_folder(None).find("pendulum").expect("a preset");
+    let script = script(text);
+    let look = script.head.look();
+    (Performance::watched(script, &system, "pendulum").expect("it can be opened"), look)
+}
+
+/// Goes on to a time in frames that come when they come; the screen then, if there is more to come.
+fn watched(it: &mut Performance, look: &Look, times: impl Iterator<Item = u64>) -> (Buffer, bool) {
+    let mut screen = Buffer::empty(Rect::new(0, 0, 90, 28));
+    let mut more = true;
+    for time in times {
+        more = it.go_on(time).expect("no mistakes");
+        screen.reset();
+        it.draw(look, screen.area, &mut screen);
+    }
+    (screen, more)
+}
+
+#[test]
+fn what_is_watched_is_what_is_recorded() {
+    let recording = played("pendulum", SCRIPT);
+    let (mut it, look) = performance(SCRIPT);
+    let middle = recording.markers[0].time;
+    let (screen, more) = watched(&mut it, &look, (0..=middle).step_by(10_000).chain([middle]));
+    assert!(more);
+    assert_eq!(screen, recording.markers[0].screen);
+    // the rest in one stride, and beyond the end
+    let (screen, more) =
+        watched(&mut it, &look, [recording.end, recording.end + 50_000].into_iter());
+    assert!(!more, "it ends by itself");
+    let text = |buffer: &Buffer| buffer.content.iter().map(Cell::symbol).collect::<String>();
+    assert_eq!(text(&screen), text(&recording.last));
+    assert_eq!(it.now(), recording.end);
+}
+
+#[test]
+fn captions_are_broken_where_the_screen_is_narrow() {
+    let long =
+        "The separatrix leads to the top and never arrives; a little faster, and it goes over";
+    let (mut it, look) = performance(&format!("Size 110x30\nCaption \"{long}\"\nWait 1s"));
+    it.go_on(0).expect("no mistakes");
+    let mut screen = Buffer::empty(Rect::new(0, 0, 60, 24));
+    it.draw(&look, screen.area, &mut screen);
+    let row = |y: u16| (0..60).map(|x| screen[(x, y)].symbol()).collect::<String>();
+    assert_eq!(row(22).trim(), "▌ The separatrix leads to the top and never arrives; a");
+    assert_eq!(row(23).trim(), "▌ little faster, and it goes over");
+}
+
+#[test]
+fn a_screen_of_no_size_is_none_of_its_business() {
+    for (width, height) in [(0, 0), (1, 1), (39, 9), (300, 2), (3, 100)] {
+        let (mut it, look) = performance(SCRIPT);
+        let mut screen = Buffer::empty(Rect::new(0, 0, width, height));
+        for time in [0, 300_000] {
+            it.go_on(time).expect("no mistakes");
+            it.draw(&look, screen.area, &mut screen);
+        }
+    }
+}
