@@ -13,6 +13,7 @@ pub mod frame;
 pub mod glyphs;
 pub mod number;
 pub mod plot;
+pub mod sgr;
 pub mod strip;
 pub mod theme;
 

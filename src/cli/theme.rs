@@ -7,6 +7,7 @@ use ratatui::style::{Color, Style};
 use super::failure::Failure;
 use super::output::Output;
 use crate::view::colour::ColourDepth;
+use crate::view::sgr;
 use crate::view::theme::{CURVES, PALETTES, Role, Theme};
 
 /// Show the themes of the laboratory.
@@ -64,37 +65,8 @@ fn swatches(theme: &Theme) -> String {
 
 /// Text in the colour of a style.
 fn painted(text: &str, style: Style) -> String {
-    let code = match style.fg {
-        Some(Color::Rgb(r, g, b)) => format!("38;2;{r};{g};{b}"),
-        Some(Color::Indexed(index)) => format!("38;5;{index}"),
-        Some(colour) => sixteen(colour).map_or_else(|| "39".to_owned(), |code| code.to_string()),
-        None => "39".to_owned(),
-    };
-    format!("\x1b[{code}m{text}\x1b[39m")
-}
-
-/// The code of one of the terminal's own sixteen.
-fn sixteen(colour: Color) -> Option<u8> {
-    const ORDER: [Color; 16] = [
-        Color::Black,
-        Color::Red,
-        Color::Green,
-        Color::Yellow,
-        Color::Blue,
-        Color::Magenta,
-        Color::Cyan,
-        Color::Gray,
-        Color::DarkGray,
-        Color::LightRed,
-        Color::LightGreen,
-        Color::LightYellow,
-        Color::LightBlue,
-        Color::LightMagenta,
-        Color::LightCyan,
-        Color::White,
-    ];
-    let place = ORDER.iter().position(|c| *c == colour)? as u8;
-    Some(if place < 8 { 30 + place } else { 82 + place })
+    let code = sgr::colour(style.fg.unwrap_or(Color::Reset), sgr::FOREGROUND);
+    format!("\x1b[{}m{text}\x1b[39m", sgr::written(&code))
 }
 
 #[cfg(test)]

@@ -10,22 +10,11 @@ use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
+use crate::view::sgr::{self, BACKGROUND, FOREGROUND, MODIFIERS};
+
 /// Modifiers that can be seen on a blank cell.
 const ON_BLANKS: Modifier =
     Modifier::REVERSED.union(Modifier::UNDERLINED).union(Modifier::CROSSED_OUT);
-
-/// Modifiers, what turns each on and what turns it off. Bold and dim end together.
-const MODIFIERS: [(Modifier, u16, u16); 9] = [
-    (Modifier::BOLD, 1, 22),
-    (Modifier::DIM, 2, 22),
-    (Modifier::ITALIC, 3, 23),
-    (Modifier::UNDERLINED, 4, 24),
-    (Modifier::SLOW_BLINK, 5, 25),
-    (Modifier::RAPID_BLINK, 6, 25),
-    (Modifier::REVERSED, 7, 27),
-    (Modifier::HIDDEN, 8, 28),
-    (Modifier::CROSSED_OUT, 9, 29),
-];
 
 /// How many lines down are worth as many line feeds.
 const FEEDS: u16 = 4;
@@ -104,7 +93,7 @@ impl Pen {
         if self.ink == Some(ink) {
             return;
         }
-        let afresh = sequence(&afresh(ink), 'm');
+        let afresh = sequence(&sgr::afresh(ink.modifier, ink.fg, ink.bg), 'm');
         let change = self.ink.map(|now| sequence(&change(now, ink), 'm'));
         out.extend(change.filter(|c| c.len() <= afresh.len()).unwrap_or(afresh));
         self.ink = Some(ink);
@@ -143,18 +132,6 @@ fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
     format!("\x1b[{}{last}", numbers.join(";")).into_bytes()
 }
 
-/// From no ink at all to this one.
-fn afresh(ink: Ink) -> Vec<u16> {
-    let mut numbers = vec![0];
-    numbers.extend(MODIFIERS.iter().filter(|m| ink.modifier.contains(m.0)).map(|m| m.1));
-    for (colour, base) in [(ink.fg, 30), (ink.bg, 40)] {
-        if colour != Color::Reset {
-            numbers.extend(colour_numbers(colour, base));
-        }
-    }
-    numbers
-}
-
 /// From one ink to another.
 fn change(from: Ink, to: Ink) -> Vec<u16> {
     let mut numbers = Vec::new();
@@ -165,37 +142,11 @@ fn change(from: Ink, to: Ink) -> Vec<u16> {
             MODIFIERS.iter().filter(|m| m.2 == off).for_each(|m| kept.remove(m.0));
         }
     }
-    numbers.extend(MODIFIERS.iter().filter(|m| (to.modifier - kept).contains(m.0)).map(|m| m.1));
-    for (old, new, base) in [(from.fg, to.fg, 30), (from.bg, to.bg, 40)] {
+    numbers.extend(sgr::weights(to.modifier - kept));
+    for (old, new, ground) in [(from.fg, to.fg, FOREGROUND), (from.bg, to.bg, BACKGROUND)] {
         if old != new {
-            numbers.extend(colour_numbers(new, base));
+            numbers.extend(sgr::colour(new, ground));
         }
     }
     numbers
-}
-
-/// What chooses a colour, for the foreground from 30 and for the background from 40.
-fn colour_numbers(colour: Color, base: u16) -> Vec<u16> {
-    let bright = base + 60;
-    match colour {
-        Color::Reset => vec![base + 9],
-        Color::Black => vec![base],
-        Color::Red => vec![base + 1],
-        Color::Green => vec![base + 2],
-        Color::Yellow => vec![base + 3],
-        Color::Blue => vec![base + 4],
-        Color::Magenta => vec![base + 5],
-        Color::Cyan => vec![base + 6],
-        Color::Gray => vec![base + 7],
-        Color::DarkGray => vec![bright],
-        Color::LightRed => vec![bright + 1],
-        Color::LightGreen => vec![bright + 2],
-        Color::LightYellow => vec![bright + 3],
-        Color::LightBlue => vec![bright + 4],
-        Color::LightMagenta => vec![bright + 5],
-        Color::LightCyan => vec![bright + 6],
-        Color::White => vec![bright + 7],
-        Color::Indexed(index) => vec![base + 8, 5, index.into()],
-        Color::Rgb(r, g, b) => vec![base + 8, 2, r.into(), g.into(), b.into()],
-    }
 }

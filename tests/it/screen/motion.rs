@@ -6,15 +6,15 @@ use std::path::Path;
 /// What moves although nothing happens: how code or text names it.
 const RESTLESS: [&str; 6] = ["SLOW_BLINK", "RAPID_BLINK", "spinner", "Throbber", "⠋", "◐"];
 
-/// Where these words may stand: the pen only knows how a terminal is told.
-const PEN: &str = "view/frame/pen.rs";
+/// Where these words may stand: there it is only known how a terminal is told.
+const SGR: &str = "view/sgr.rs";
 
 fn check(folder: &Path, wrong: &mut Vec<String>) {
     for entry in fs::read_dir(folder).expect("a folder of src") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             check(&path, wrong);
-        } else if !path.ends_with(PEN) {
+        } else if !path.ends_with(SGR) {
             let code = fs::read_to_string(&path).expect("a source file");
             let found = RESTLESS.iter().filter(|word| code.contains(**word));
             wrong.extend(found.map(|word| format!("{word} in {}", path.display())));
