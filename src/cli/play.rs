@@ -13,8 +13,10 @@ use crate::shell::{self, Options};
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
 ///
 /// Space holds it, `.` steps, `[` and `]` change the pace, the arrows go five seconds back and on,
-/// Tab goes to the next chapter, Home to the beginning, q leaves. Whatever a cast holds, only its
-/// characters and colours reach the terminal.
+/// Tab goes to the next chapter, Home to the beginning, End to the end, `c` shows or hides the line
+/// of controls, q leaves. Where no row is left below the cast that line stands over its last one,
+/// for a few seconds after each key. Whatever a cast holds, only its characters and colours reach
+/// the terminal.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

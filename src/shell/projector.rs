@@ -7,7 +7,7 @@
 use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 
 use super::input::Input;
@@ -30,9 +30,19 @@ pub struct Projector {
     /// Its place among [`SPEEDS`].
     speed: usize,
     held: bool,
-    /// What the line below says, as far as it changes by itself.
-    told: (u64, bool),
+    /// Whether the line of controls is wanted or not, where that was said.
+    wanted: Option<bool>,
+    /// For how long it is still shown otherwise.
+    awake: Duration,
+    /// The window.
+    size: Size,
+    /// What the line says, as far as it changes by itself: the second, whether the tape is over, whether it is shown.
+    told: (u64, bool, bool),
 }
+
+/// For how long the line of controls stands over the last row after a key; and at first, where it is to be read.
+const AWAKE: Duration = Duration::from_secs(3);
+const AT_FIRST: Duration = Duration::from_secs(5);
 
 /// Seconds of the tape in a second.
 const SPEEDS: [f64; 9] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0];
@@ -51,8 +61,43 @@ impl Projector {
     /// A tape at its beginning.
     pub fn new(tape: Tape, look: Look) -> Self {
         let screen = blank(tape.size);
-        let (time, speed) = (0.0, EVEN);
-        Self { tape, look, screen, next: (0, 0), time, speed, held: false, told: (0, false) }
+        Self {
+            tape,
+            look,
+            screen,
+            next: (0, 0),
+            time: 0.0,
+            speed: EVEN,
+            held: false,
+            wanted: None,
+            awake: AT_FIRST,
+            size: Size::default(),
+            told: (0, false, true),
+        }
+    }
+
+    /// Whether a row of the window is left below the tape's screen.
+    fn has_room(&self) -> bool {
+        usize::from(self.size.height) > self.screen.size().1
+    }
+
+    /// Whether the line of controls is shown.
+    fn is_told(&self) -> bool {
+        let by_itself = self.has_room() || self.held || self.is_over() || !self.awake.is_zero();
+        self.wanted.unwrap_or(by_itself)
+    }
+
+    /// What is to be said where the window does not show all.
+    fn cut_off(&self) -> Option<String> {
+        let (columns, rows) = self.screen.size();
+        let Size { width, height } = self.size;
+        let cut = columns > usize::from(width) || rows > usize::from(height);
+        cut.then(|| {
+            format!(
+                "the cast is {columns}×{rows}, the window {width}×{height}: \
+                 a larger window or a smaller font shows all"
+            )
+        })
     }
 
     /// Whether the tape is at its end.
@@ -87,6 +132,8 @@ impl Projector {
     }
 
     fn press(&mut self, key: Key) -> Wish {
+        let told = self.is_told();
+        self.awake = self.awake.max(AWAKE);
         match key {
             Key { ctrl: true, code: Code::Char(c), .. } => match c {
                 'c' => return Wish::Quit,
@@ -99,6 +146,7 @@ impl Projector {
                 Code::Char(' ' | 'p') if self.is_over() => self.go(0.0),
                 Code::Char(' ' | 'p') => self.held = !self.held,
                 Code::Char('.') => self.step(),
+                Code::Char('c') => self.wanted = Some(!told),
                 Code::Char('[') => self.speed = self.speed.saturating_sub(1),
                 Code::Char(']') => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
                 Code::Left | Code::Char('h') => self.go(self.time - LEAP),
@@ -151,7 +199,7 @@ impl Projector {
         written
     }
 
-    /// The line below: where on the tape it stands, and the keys.
+    /// The line of controls: where on the tape it stands, and the keys, the most needed first.
     fn tell(&self, row: Rect, buffer: &mut Buffer) {
         let glyphs = self.look.glyphs;
         let (sign, role) = match (self.is_over(), self.held) {
@@ -160,31 +208,57 @@ impl Projector {
             _ => (glyphs.pick("▶", ">"), Role::Good),
         };
         let chapter = self.chapters().rfind(|(time, _)| *time <= self.time);
-        let chapter = chapter.map_or(String::new(), |(_, name)| format!("{name}   "));
+        let chapter = chapter.map_or(String::new(), |(_, name)| format!("  {name}"));
         let pieces = [
             (role, format!("{sign} ")),
             (Role::Accent, clock(self.time)),
             (Role::Dim, format!(" of {}  ", clock(self.tape.end as f64))),
-            (Role::Text, format!("×{}   {chapter}", SPEEDS[self.speed])),
-            (
-                Role::Dim,
-                "space pause  . step  [ ] pace  ← → five seconds  Tab chapter  Home  q quit"
-                    .to_owned(),
-            ),
+            (Role::Text, format!("×{}{chapter}", SPEEDS[self.speed])),
         ];
-        buffer.set_style(row, Style::reset());
-        for x in row.left()..row.right() {
-            buffer[(x, row.y)].set_symbol(" ");
+        let (pause, rest) = if self.is_over() { ("again", "") } else { ("pause", "  . step") };
+        let keys = [
+            format!("space {pause}  q quit"),
+            "← → 5 s".to_owned(),
+            "[ ] pace".to_owned(),
+            "Tab chapter".to_owned(),
+            "c hide".to_owned(),
+            format!("Home{rest}"),
+        ];
+        let mut x = self.write_over(row, &pieces, buffer);
+        for key in keys {
+            let piece = [(Role::Dim, format!("   {key}"))];
+            let wide = piece[0].1.chars().count() as u16;
+            if x + wide > row.right() {
+                break;
+            }
+            x = self.write_on(x, row, &piece, buffer);
         }
-        let mut x = row.x + 1;
+    }
+
+    /// Writes pieces over a row, whatever was there; the column behind them.
+    fn write_over(&self, row: Rect, pieces: &[(Role, String)], buffer: &mut Buffer) -> u16 {
+        for x in row.left()..row.right() {
+            buffer[(x, row.y)].reset();
+        }
+        self.write_on(row.x + 1, row, pieces, buffer)
+    }
+
+    fn write_on(
+        &self,
+        mut x: u16,
+        row: Rect,
+        pieces: &[(Role, String)],
+        buffer: &mut Buffer,
+    ) -> u16 {
         for (role, text) in pieces {
             if x >= row.right() {
                 break;
             }
             let room = usize::from(row.right() - x);
-            let style = self.look.theme[role];
-            x = buffer.set_stringn(x, row.y, glyphs.text(&text), room, style).0;
+            let text = self.look.glyphs.text(text);
+            x = buffer.set_stringn(x, row.y, &text, room, self.look.theme[*role]).0;
         }
+        x
     }
 }
 
@@ -192,6 +266,11 @@ impl Page for Projector {
     fn input(&mut self, input: Input) -> Wish {
         match input {
             Input::Key(key) => self.press(key),
+            // it may not show all any more
+            Input::Resize(..) => {
+                self.awake = self.awake.max(AWAKE);
+                Wish::Nothing
+            }
             _ => Wish::Nothing,
         }
     }
@@ -205,13 +284,15 @@ impl Page for Projector {
             self.time = (self.time + passed).min(self.tape.end as f64);
         }
         let written = self.write();
-        let told = ((self.time / 1e6) as u64, self.is_over());
+        self.awake = self.awake.saturating_sub(elapsed);
+        let told = ((self.time / 1e6) as u64, self.is_over(), self.is_told());
         let changed = written || told != self.told;
         self.told = told;
         changed
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        self.size = area.as_size();
         let depth = self.look.theme.depth();
         for (y, line) in (area.top()..area.bottom()).zip(self.screen.view()) {
             let mut x = area.left();
@@ -230,11 +311,14 @@ impl Page for Projector {
                 x += cell.width() as u16;
             }
         }
-        let (_, rows) = self.screen.size();
-        let below = usize::from(area.height) > rows;
-        if area.height > 0 && (below || self.held || self.is_over()) {
-            let y = if below { area.y + rows as u16 } else { area.bottom() - 1 };
+        if area.height > 0 && self.is_told() {
+            let rows = self.screen.size().1;
+            let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };
             self.tell(Rect { y, height: 1, ..area }, buffer);
+            if let Some(sentence) = self.cut_off().filter(|_| y > area.y) {
+                let row = Rect { y: y - 1, height: 1, ..area };
+                self.write_over(row, &[(Role::Warn, sentence)], buffer);
+            }
         }
         None
     }

@@ -49,9 +49,9 @@ const CAST: &str = "{\"version\":3,\"term\":{\"cols\":30,\"rows\":3}}\n[0.0, \"o
 fn a_cast_runs_at_its_pace() {
     let mut it = projector(CAST);
     pass(&mut it, 500);
-    assert_eq!(shown(&mut it, (30, 3)), "one\n\n");
+    assert!(shown(&mut it, (30, 4)).starts_with("one\n\n"));
     pass(&mut it, 600);
-    assert_eq!(shown(&mut it, (30, 3)), "one two\n\n");
+    assert!(shown(&mut it, (30, 4)).starts_with("one two\n\n"));
     press(&mut it, Code::Char(' '));
     pass(&mut it, 5000);
     let held = shown(&mut it, (80, 4));
@@ -76,6 +76,50 @@ fn a_cast_runs_at_its_pace() {
     pass(&mut it, 300);
     assert!(shown(&mut it, (30, 4)).starts_with("one two\n"), "four times as fast");
     assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+}
+
+#[test]
+fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
+    let mut it = projector(CAST);
+    let last = |it: &mut Projector| shown(it, (30, 3)).lines().nth(2).unwrap_or("").to_owned();
+    assert!(last(&mut it).contains("▶ 0:00 of 0:02"), "{}", last(&mut it));
+    // the cast is over before they go away by themselves
+    for _ in 0..3 {
+        press(&mut it, Code::Char('['));
+    }
+    pass(&mut it, 4000);
+    assert!(last(&mut it).contains("0:00 of 0:02"));
+    pass(&mut it, 2000);
+    assert_eq!(last(&mut it), "");
+    // any key brings them back, for a shorter time
+    press(&mut it, Code::Char('x'));
+    assert!(last(&mut it).contains("0:00 of 0:02"));
+    pass(&mut it, 3500);
+    assert_eq!(last(&mut it), "");
+    // and by `c` they stay, or stay away
+    press(&mut it, Code::Char('c'));
+    pass(&mut it, 4000);
+    assert!(last(&mut it).contains("of 0:02"));
+    press(&mut it, Code::Char('c'));
+    press(&mut it, Code::Char(' '));
+    assert_eq!(last(&mut it), "");
+    // where there is a row below the cast they are always there
+    press(&mut it, Code::Char('c'));
+    assert!(shown(&mut it, (80, 4)).lines().nth(3).is_some_and(|row| row.contains("q quit")));
+}
+
+#[test]
+fn a_window_too_small_for_a_cast_is_told() {
+    let mut it = projector(CAST);
+    let whole = shown(&mut it, (100, 4));
+    assert!(!whole.contains("window"), "{whole}");
+    let text = shown(&mut it, (20, 2));
+    assert!(text.starts_with(" the cast is 30×3, "), "{text}");
+    assert!(text.lines().nth(1).is_some_and(|row| row.contains("0:00")), "{text}");
+    let mut large = projector(&CAST.replace("\"cols\":30", "\"cols\":200"));
+    let text = shown(&mut large, (100, 10));
+    let told = "the cast is 200×3, the window 100×10: a larger window or a smaller font shows all";
+    assert!(text.contains(told), "{text}");
 }
 
 #[test]
