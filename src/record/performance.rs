@@ -5,7 +5,7 @@
 //! on a terminal). Never here: a cast, a clock, a terminal.
 
 use std::ops::Range;
-use std::vec;
+use std::{mem, vec};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
@@ -14,7 +14,7 @@ use super::assertion::{self, Finding};
 use super::clock::Micros;
 use super::laboratory::{Budget, Laboratory};
 use super::plain::plain;
-use super::script::{Assert, PACE, Script, Step, Text};
+use super::script::{Assert, PACE, Script, Step, Text, Way};
 use crate::app::{Code, Drawn, Event, Key, Target};
 use crate::experiment::Command;
 use crate::preset::{Document, Mistake};
@@ -51,7 +51,15 @@ pub struct Performance {
 enum UnderWay {
     Nothing,
     Keys(vec::IntoIter<Key>),
-    Sweep { target: Target, from: f64, to: f64, frame: u64, count: u64 },
+    Sweep { courses: Vec<Course>, frame: u64, count: u64 },
+}
+
+/// A value on its way, from one number to another.
+#[derive(Clone, Copy)]
+struct Course {
+    target: Target,
+    from: f64,
+    to: f64,
 }
 
 /// A key beside the caption: its name, how often it was pressed (0 for typed text), until when it is shown.
@@ -153,9 +161,10 @@ impl Performance {
                     None => self.under_way = UnderWay::Nothing,
                 },
                 // no frame was left for it
-                &mut UnderWay::Sweep { target, to, .. } => {
+                UnderWay::Sweep { courses, .. } => {
+                    let courses = mem::take(courses);
                     self.under_way = UnderWay::Nothing;
-                    self.lab.set(target, to);
+                    self.carry(&courses, 1.0);
                 }
                 UnderWay::Nothing => {
                     if let Some(beat) = self.step()? {
@@ -211,19 +220,17 @@ impl Performance {
                 self.lab.set(target, value);
                 done("set", format!("{} = {value}", name.text))
             }
-            Step::Sweep { name, from, to, time } => {
-                let target = self.target(&name)?;
-                let of = |text: &Text| assertion::value(&self.lab.app, text);
-                let lab = self.lab.app.lab.as_ref();
-                let from = match &from {
-                    Some(from) => of(from)?,
-                    None => lab.and_then(|lab| lab.value(target)).unwrap_or(0.0),
-                };
-                let to = of(&to)?;
+            Step::Sweep { ways, time } => {
+                let courses =
+                    ways.iter().map(|way| self.course(way)).collect::<Result<Vec<_>, _>>()?;
+                let told = ways.iter().zip(&courses).map(|(way, Course { from, to, .. })| {
+                    format!("{} from {from} to {to}", way.name.text)
+                });
+                let told = told.collect::<Vec<_>>().join(", ");
                 self.pass(time);
                 let count = self.lab.clock.left();
-                self.under_way = UnderWay::Sweep { target, from, to, frame: 0, count };
-                done("sweep", format!("{} from {from} to {to}", name.text))
+                self.under_way = UnderWay::Sweep { courses, frame: 0, count };
+                done("sweep", told)
             }
             Step::Speed(written) => {
                 let speed = assertion::value(&self.lab.app, &written)?;
@@ -265,6 +272,25 @@ impl Performance {
         })
     }
 
+    /// What goes from where to where.
+    fn course(&self, way: &Way) -> Result<Course, Mistake> {
+        let target = self.target(&way.name)?;
+        let of = |text: &Text| assertion::value(&self.lab.app, text);
+        let present = || self.lab.app.lab.as_ref().and_then(|lab| lab.value(target));
+        let from = match &way.from {
+            Some(from) => of(from)?,
+            None => present().unwrap_or(0.0),
+        };
+        Ok(Course { target, from, to: of(&way.to)? })
+    }
+
+    /// Puts values at a part of their ways.
+    fn carry(&mut self, courses: &[Course], part: f64) {
+        for &Course { target, from, to } in courses {
+            self.lab.set(target, if part < 1.0 { from + (to - from) * part } else { to });
+        }
+    }
+
     /// Lets time pass; its frames are the next beats.
     fn pass(&mut self, time: Micros) {
         self.begins = true;
@@ -301,15 +327,13 @@ impl Performance {
 
     /// Goes on by one frame.
     fn frame(&mut self) {
-        if let UnderWay::Sweep { target, from, to, ref mut frame, count } = self.under_way {
+        if let UnderWay::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;
-            let part = *frame as f64 / count as f64;
-            let there = *frame == count;
-            let value = if there { to } else { from + (to - from) * part };
-            if there {
+            let (courses, part) = (courses.clone(), *frame as f64 / *count as f64);
+            if frame == count {
                 self.under_way = UnderWay::Nothing;
             }
-            self.lab.set(target, value);
+            self.carry(&courses, part);
         }
         self.lab.tick();
         let now = self.lab.now();

@@ -86,6 +86,17 @@ pub struct Text {
     pub place: Place,
 }
 
+/// How one value goes in a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Way {
+    /// Which.
+    pub name: Text,
+    /// From where; from its present value otherwise.
+    pub from: Option<Text>,
+    /// To where.
+    pub to: Text,
+}
+
 /// Something that happens.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
@@ -99,14 +110,10 @@ pub enum Step {
     Wait(Micros),
     /// A parameter or an initial value is set.
     Set(Text, Text),
-    /// A parameter or an initial value goes evenly to another while time passes.
+    /// Parameters and initial values go evenly to others while time passes.
     Sweep {
-        /// Which.
-        name: Text,
-        /// From where; from its present value otherwise.
-        from: Option<Text>,
-        /// To where.
-        to: Text,
+        /// Which, all at once.
+        ways: Vec<Way>,
         /// In what time.
         time: Micros,
     },

@@ -4,7 +4,7 @@
 
 use super::key;
 use super::line::Line;
-use super::{Assert, Measure, Relation, Said, Step, Text, Word};
+use super::{Assert, Measure, Relation, Said, Step, Text, Way, Word};
 use crate::preset::Mistake;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -45,7 +45,7 @@ pub const COMMANDS: &[Command] = &[
     row("Type", "Type \"TEXT\"", "type a text, key by key", typed),
     row("Wait", "Wait 2s", "let time pass: `2s`, `0.5s`, `150ms`", wait),
     row("Set", "Set NAME = EXPR", "set a parameter, or an initial value (which begins the motion again)", set),
-    row("Sweep", "Sweep NAME [from EXPR] to EXPR in 3s", "carry a parameter or an initial value evenly to another value while time passes", sweep),
+    row("Sweep", "Sweep NAME [from EXPR] to EXPR [and NAME …] in 3s", "carry parameters or initial values evenly to other values while time passes; together they are one change to be taken back", sweep),
     row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, take it away", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, stills be taken of it", marker),
@@ -168,12 +168,24 @@ fn set(line: &mut Line<'_>) -> Result<Said, Mistake> {
 }
 
 fn sweep(line: &mut Line<'_>) -> Result<Said, Mistake> {
-    let name = line.name("the name of a parameter or an initial value")?;
-    let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
-    expect(line, "to")?;
-    let to = line.until(&["in"], "a value")?;
+    let mut ways: Vec<Way> = Vec::new();
+    loop {
+        let name = line.name("the name of a parameter or an initial value")?;
+        if let Some(first) = ways.iter().find(|way| way.name.text == name.text) {
+            let message = format!("`{}` cannot go two ways at once", name.text);
+            let mistake = Mistake::error(name.place, message);
+            return Err(mistake.with_also(first.name.place.clone(), "it is carried here already"));
+        }
+        let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
+        expect(line, "to")?;
+        let to = line.until(&["and", "in"], "a value")?;
+        ways.push(Way { name, from, to });
+        if !line.take("and") {
+            break;
+        }
+    }
     expect(line, "in")?;
-    Ok(Said::Step(Step::Sweep { name, from, to, time: line.time()? }))
+    Ok(Said::Step(Step::Sweep { ways, time: line.time()? }))
 }
 
 fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Mistake> {

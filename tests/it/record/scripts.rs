@@ -75,6 +75,13 @@ fn mistakes_stand_in_their_places() {
     );
     check("Set l = 2*lx\nWait 1s", &["1:11 the name `lx` is not known here; did you mean `l`?"]);
     check("Sweep l 2 in 1s", &["1:9 here `to` is missing"]);
+    check("Sweep l to 2 and g to 3 in 1s", &[]);
+    check("Sweep l to 2 and in 1s", &["1:21 here `to` is missing"]);
+    check("Sweep l to 2 and l to 3 in 1s", &["1:18 `l` cannot go two ways at once"]);
+    check(
+        "Sweep l to 2 and gg to 3 in 1s",
+        &["1:18 pendulum has no parameter or initial value `gg`; did you mean `g`?"],
+    );
     check("Sweep l to 2", &["1:13 here `in` is missing"]);
     check("Speed -1\nWait 1s", &["1:7 a speed is above zero; this is -1"]);
     check("Press q\nWait 1s", &["2:1 the lab was left before this line"]);
@@ -137,6 +144,17 @@ fn a_sweep_is_even_and_arrives() {
     let recording = played("pendulum", text);
     assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
     assert_eq!((recording.frames, recording.end), (20, 2_000_000));
+}
+
+#[test]
+fn several_values_are_swept_at_once() {
+    let text = "Fps 10\nPace 0s\nSweep l from 1 to 3 and g to 2*9.81 in 1s\nAssert l = 3 within 0\n\
+                Assert g = 19.62 within 0\nWait 1s";
+    let recording = played("pendulum", text);
+    assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
+    assert_eq!(recording.frames, 20);
+    let account = account::write(&recording);
+    assert!(account.contains("  sweep     l from 1 to 3, g from 9.81 to 19.62"), "{account}");
 }
 
 #[test]
