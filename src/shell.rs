@@ -51,7 +51,7 @@ use crate::preset::{Catalog, Mistake};
 use crate::record::{Performance, Tape, still};
 use demo::Demo;
 use log::Log;
-use session::Session;
+use session::{Left, Session};
 use store::Store;
 
 /// Opens the laboratory on the terminal until it is left.
@@ -84,8 +84,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         session.resume(saved);
     }
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
-    let recorded = session.finish_recording();
-    let kept = session.keep();
+    let Left { recorded, kept } = session.left();
     match &ended {
         Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
         Ok(Err(refusal)) => session.log.error(refusal),

@@ -7,6 +7,7 @@ use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use super::stderr;
 
 /// A place for data.
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub(super) struct Output {
     name: String,
     /// The file under its final name, where the writer fills one beside it.
     replaces: Option<(PathBuf, PathBuf)>,
+    /// Whether a file with something in it stands there already.
+    over: bool,
 }
 
 #[derive(Debug)]
@@ -31,22 +34,25 @@ impl Output {
     pub(super) fn open(path: Option<&Path>) -> Result<Output, Failure> {
         let Some(path) = path else {
             let writer = BufWriter::new(Target::Stdout(io::stdout()));
-            return Ok(Output { writer, name: "standard output".to_owned(), replaces: None });
+            let name = "standard output".to_owned();
+            return Ok(Output { writer, name, replaces: None, over: false });
         };
         let name = path.display().to_string();
         // a link keeps pointing where it points
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let direct = fs::metadata(&path).is_ok_and(|about| !about.is_file());
+        let about = fs::metadata(&path);
+        let direct = about.as_ref().is_ok_and(|about| !about.is_file());
+        let over = about.is_ok_and(|about| about.is_file() && about.len() > 0);
         let partial = partial_name(&path);
         let place = if direct { &path } else { &partial };
         let file =
             if direct { File::options().write(true).open(place) } else { File::create(place) }
                 .map_err(|error| Failure::writing(&name, &error))?;
         let writer = BufWriter::new(Target::File(file));
-        Ok(Output { writer, name, replaces: (!direct).then_some((partial, path)) })
+        Ok(Output { writer, name, replaces: (!direct).then_some((partial, path)), over })
     }
 
-    /// Brings everything to its place.
+    /// Brings everything to its place, and tells where something else stood there.
     pub(super) fn finish(mut self) -> Result<(), Failure> {
         let done = self.writer.flush().and_then(|()| match self.replaces.take() {
             None => Ok(()),
@@ -55,7 +61,11 @@ impl Output {
                 let _ = fs::remove_file(&partial);
             }),
         });
-        done.map_err(|error| Failure::writing(&self.name, &error))
+        done.map_err(|error| Failure::writing(&self.name, &error))?;
+        if self.over {
+            stderr::tell(&format!("{} is replaced", self.name));
+        }
+        Ok(())
     }
 
     /// The failure that a write error means.

@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     /// The chapter the still is taken at; the end where it is left out.
     #[arg(long, value_name = "MARKER", requires = "still")]
     at: Option<String>,
-    /// Writes to a file, which appears when it is complete.
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -71,7 +71,7 @@ pub(super) struct Arguments {
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Writes to a file, which appears when it is complete.
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

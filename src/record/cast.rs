@@ -58,7 +58,7 @@ impl<W: Write> Cast<W> {
                 "version": 3, "term": { "cols": columns, "rows": rows, "theme": theme }, "title": title,
             }),
         };
-        writeln!(out, "{head}")?;
+        out.write_all(format!("{head}\n").as_bytes())?;
         let mut cast = Cast { out, version, last: 0 };
         cast.event(0, "o", HIDE)?;
         Ok(cast)
@@ -93,10 +93,14 @@ impl<W: Write> Cast<W> {
     ///
     /// # Errors
     /// Those of writing.
-    pub fn end(mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<W> {
+    pub fn end(&mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<()> {
         self.event(time, "o", &format!("\x1b[0m\x1b[{rows};{columns}H\x1b[?25h"))?;
-        self.out.flush()?;
-        Ok(self.out)
+        self.out.flush()
+    }
+
+    /// Where it was written to.
+    pub fn into_inner(self) -> W {
+        self.out
     }
 
     fn event(&mut self, time: Micros, code: &str, data: &str) -> io::Result<()> {
@@ -107,7 +111,9 @@ impl<W: Write> Cast<W> {
         };
         self.last = time;
         let (whole, rest) = (shown / SECOND, shown % SECOND);
-        writeln!(self.out, "[{whole}.{rest:06}, \"{code}\", {}]", Value::from(data))
+        // a line at a time, so that no file ends within one
+        let line = format!("[{whole}.{rest:06}, \"{code}\", {}]\n", Value::from(data));
+        self.out.write_all(line.as_bytes())
     }
 }
 
@@ -124,7 +130,8 @@ pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::R
             Event::Marker(name) => cast.marker(*time, name)?,
         }
     }
-    cast.end(recording.end, recording.size)
+    cast.end(recording.end, recording.size)?;
+    Ok(cast.into_inner())
 }
 
 /// The colours a terminal is to have: those of the palette, and for its sixteen the ones of the VGA text mode, softened.

@@ -84,7 +84,7 @@ impl Page for Demo {
         false
     }
 
-    fn is_over(&self) -> bool {
+    fn is_done(&self) -> bool {
         self.end.is_some()
     }
 

@@ -5,20 +5,31 @@
 //! Never here: what the bytes mean; files that are written at once (`product`).
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
 
-/// A file that is being written under another name.
+/// A file that is being written under another name, line by line.
 #[derive(Debug)]
 pub(super) struct Fresh {
-    writer: Option<BufWriter<File>>,
+    file: File,
+    /// What is not written yet.
+    pending: Vec<u8>,
+    /// How many bytes are in the file for good: whole lines, but at its end.
+    whole: u64,
     partial: PathBuf,
     stem: String,
     ending: &'static str,
 }
 
+/// What a file without a line is called.
+pub(super) const NOTHING: &str = "nothing";
+
 /// How many names are tried.
 const NAMES: u32 = 10_000;
+
+/// So many bytes are written at once.
+const CHUNK: usize = 32 * 1024;
 
 impl Fresh {
     /// Begins a file in the current folder; `stem` is what of its name stands before the ending.
@@ -29,17 +40,62 @@ impl Fresh {
     fn within(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Fresh> {
         let stem = plain(stem);
         let partial = folder.join(format!(".{stem}.{}.{ending}.partial", std::process::id()));
-        let file = File::create(&partial).map_err(|why| told(&partial, &why))?;
-        Ok(Fresh { writer: Some(BufWriter::new(file)), partial, stem, ending })
+        let file = File::create(&partial)
+            .map_err(|why| told(&folder.join(format!("{stem}.{ending}")), &why))?;
+        Ok(Fresh { file, pending: Vec::new(), whole: 0, partial, stem, ending })
     }
 
-    /// Gives it its name, which is returned.
+    /// Gives it its name, which is returned. Where not all of it can be written it holds the whole lines that were, and the
+    /// error says so; only a file without a line is none.
     pub(super) fn finish(mut self) -> io::Result<String> {
-        let written = match self.writer.take() {
-            Some(mut writer) => writer.flush(),
-            None => Ok(()),
+        let written = self.settle();
+        if self.whole == 0 {
+            return written.map(|()| NOTHING.to_owned());
+        }
+        match (written, self.name()) {
+            (Ok(()), Ok(name)) => Ok(name),
+            (Err(why), Ok(name)) => {
+                let what = format!("{why}; {name} holds what came before");
+                Err(io::Error::new(why.kind(), what))
+            }
+            (_, Err(why)) => {
+                let what = format!("{why}; it is in {}", self.partial.display());
+                // better under that name than not at all
+                self.partial = PathBuf::new();
+                Err(io::Error::new(why.kind(), what))
+            }
+        }
+    }
+
+    /// Writes what is pending. Where that fails what was written of the last line is taken away again, and what comes is
+    /// not to be written any more.
+    fn settle(&mut self) -> io::Result<()> {
+        let bytes = mem::take(&mut self.pending);
+        let (mut at, mut failed) = (0, None);
+        while at < bytes.len() {
+            match self.file.write(&bytes[at..]) {
+                Ok(0) => failed = Some(io::ErrorKind::WriteZero.into()),
+                Ok(count) => at += count,
+                Err(why) if why.kind() == io::ErrorKind::Interrupted => {}
+                Err(why) => failed = Some(why),
+            }
+            if failed.is_some() {
+                break;
+            }
+        }
+        let Some(why) = failed else {
+            self.whole += at as u64;
+            return Ok(());
         };
-        written.map_err(|why| told(&self.partial, &why))?;
+        let lines = bytes[..at].iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+        self.whole += lines as u64;
+        // the error that matters is the one on its way
+        let _ = self.file.set_len(self.whole);
+        Err(told(&PathBuf::from(format!("{}.{}", self.stem, self.ending)), &why))
+    }
+
+    /// Gives it the first name that is free.
+    fn name(&self) -> io::Result<String> {
         let folder = self.partial.parent().unwrap_or(Path::new(""));
         for number in 1..=NAMES {
             let name = match number {
@@ -66,16 +122,20 @@ impl Fresh {
 
 impl Write for Fresh {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.writer.as_mut().map_or(Ok(bytes.len()), |writer| writer.write(bytes))
+        self.pending.extend(bytes);
+        if self.pending.len() >= CHUNK && bytes.ends_with(b"\n") {
+            self.settle()?;
+        }
+        Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.as_mut().map_or(Ok(()), Write::flush)
+        self.settle()
     }
 }
 
 impl Drop for Fresh {
-    /// What is not finished leaves nothing behind, and neither does the name it was written under.
+    /// The name it was written under goes, and with it what was not finished.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.partial);
     }

@@ -9,7 +9,7 @@ use std::time::Instant;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::fresh::Fresh;
+use super::fresh::{Fresh, NOTHING};
 use crate::record::cast::{Cast, Version};
 use crate::record::plain;
 use crate::view::frame::Frames;
@@ -56,10 +56,27 @@ impl Recorder {
         self.cast.output(now, &String::from_utf8_lossy(&bytes))
     }
 
-    /// Ends the cast; its name.
-    pub(super) fn end(self) -> io::Result<String> {
+    /// Ends the cast; its name. What cannot be written ends it before, and the error says under which name it is kept.
+    pub(super) fn end(mut self) -> io::Result<String> {
         let (now, size) = (self.now(), (self.size.width, self.size.height));
-        self.cast.end(now, size)?.finish()
+        // what goes wrong here goes wrong again when the file is finished, if that is not all there is of it
+        let ended = self.cast.end(now, size);
+        let finished = self.cast.into_inner().finish();
+        match (ended, finished) {
+            (Err(why), Ok(name)) => {
+                Err(io::Error::new(why.kind(), format!("{why}; {name} holds what came before")))
+            }
+            (_, finished) => finished,
+        }
+    }
+
+    /// Ends a cast that cannot go on, for that reason; what is to be told.
+    pub(super) fn give_up(self, why: &io::Error) -> String {
+        match self.cast.into_inner().finish() {
+            Ok(name) if name == NOTHING => format!("nothing is recorded: {why}"),
+            Ok(name) => format!("{why}; {name} holds what came before"),
+            Err(why) => why.to_string(),
+        }
     }
 
     fn now(&self) -> u64 {

@@ -79,7 +79,7 @@ pub enum Refusal {
     #[error(transparent)]
     NoLog(#[from] NoLog),
     /// The laboratory was left, and what it recorded could not be saved.
-    #[error("the recording is not saved: {0}")]
+    #[error("the recording is not whole: {0}")]
     Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
     #[error("the laboratory cannot go on: {0}")]

@@ -55,6 +55,15 @@ pub(super) struct Session {
     recorder: Option<Recorder>,
     /// The screen's size when it was last drawn.
     size: Size,
+    /// What was written down at the end.
+    left: Option<Left>,
+}
+
+/// What was written down at the end.
+#[derive(Debug)]
+pub(super) struct Left {
+    pub(super) recorded: io::Result<()>,
+    pub(super) kept: io::Result<()>,
 }
 
 /// How often the session is saved while the laboratory is open.
@@ -94,6 +103,7 @@ impl Session {
             fault: None,
             recorder: None,
             size: Size::default(),
+            left: None,
         };
         session.perform(effects);
         Ok(session)
@@ -301,9 +311,13 @@ impl Session {
         }
     }
 
+    /// Records no longer, but keeps what was recorded; the next try begins another file.
     fn give_up_recording(&mut self, why: &io::Error) {
-        (self.recorder, self.app.recording) = (None, false);
-        self.app.notice = Some(Notice::error(why.to_string()));
+        let recorder = self.recorder.take();
+        let told = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
+        self.log.error(&told);
+        self.app.recording = false;
+        self.app.notice = Some(Notice::error(format!("{told}.")));
     }
 
     /// Ends a recording; its name.
@@ -314,8 +328,14 @@ impl Session {
     }
 
     /// Ends a recording on the way out, if there is one.
-    pub(super) fn finish_recording(&mut self) -> io::Result<()> {
+    fn finish_recording(&mut self) -> io::Result<()> {
         self.recorder.take().map_or(Ok(()), |recorder| recorder.end().map(|_| ()))
+    }
+
+    /// What became of the recording and of the session when it ended; writes both down if that was not done yet.
+    pub(super) fn left(&mut self) -> Left {
+        self.last_words();
+        self.left.take().unwrap_or(Left { recorded: Ok(()), kept: Ok(()) })
     }
 
     /// The colours that are shown.
@@ -399,6 +419,14 @@ impl Page for Session {
 
     fn is_typing(&self) -> bool {
         self.app.is_typing()
+    }
+
+    fn last_words(&mut self) {
+        if self.left.is_none() {
+            let recorded = self.finish_recording();
+            let kept = self.keep();
+            self.left = Some(Left { recorded, kept });
+        }
     }
 
     fn reduce(&mut self, detail: Detail) {

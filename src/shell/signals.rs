@@ -7,6 +7,7 @@
 use std::io::{self, Read, Write};
 use std::mem;
 use std::os::unix::net::UnixStream;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -18,14 +19,18 @@ use signal_hook::iterator::Signals as Caught;
 
 use super::terminal::Terminal;
 
-/// How long the frame loop has to save what there is and end, before the program is ended all the same.
+/// How long the frame loop has to save what there is and end, before the terminal is restored without it; and how long
+/// it has beyond that, if it has begun to end, before the program is ended all the same.
 const LAST_WORDS: Duration = Duration::from_millis(150);
+const SAVING: Duration = Duration::from_millis(1500);
 
 /// The way from the signal thread to the frame loop.
 #[derive(Debug)]
 pub(super) struct Signals {
     posted: Arc<Mutex<Notes>>,
     wake: UnixStream,
+    /// The frame loop has heard that it is to end.
+    answered: Arc<AtomicBool>,
 }
 
 /// What has happened since the last look.
@@ -49,6 +54,8 @@ impl Signals {
         bell.set_nonblocking(true)?;
         let posted = Arc::new(Mutex::new(Notes::default()));
         let board = Arc::clone(&posted);
+        let heard = Arc::new(AtomicBool::new(false));
+        let answered = Arc::clone(&heard);
         let signals = [SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH];
         let mut signals = Caught::new(signals)?;
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -68,11 +75,14 @@ impl Signals {
                     // The frame loop ends the program; one that is stuck is not waited for.
                     thread::sleep(LAST_WORDS);
                     terminal.leave();
+                    if answered.load(Ordering::Acquire) {
+                        thread::sleep(SAVING);
+                    }
                     signal_hook::low_level::exit(128 + fatal);
                 }
             }
         })?;
-        Ok(Self { posted, wake })
+        Ok(Self { posted, wake, answered: heard })
     }
 
     /// Can be read when there is a note.
@@ -84,6 +94,7 @@ impl Signals {
     pub(super) fn take(&self) -> Notes {
         while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
         let mut posted = self.posted.lock().unwrap_or_else(PoisonError::into_inner);
+        self.answered.fetch_or(posted.fatal.is_some(), Ordering::Release);
         let left = Notes { fatal: posted.fatal, ..Notes::default() };
         mem::replace(&mut *posted, left)
     }

@@ -39,9 +39,12 @@ pub trait Page {
     fn is_typing(&self) -> bool;
 
     /// Whether nothing more will come; the last picture is then shown and the page ends.
-    fn is_over(&self) -> bool {
+    fn is_done(&self) -> bool {
         false
     }
+
+    /// It ends: what must not be lost is written down now, before anybody waits for the terminal.
+    fn last_words(&mut self) {}
 
     /// The line to the terminal carries only so much: the next pictures should be that much poorer.
     fn reduce(&mut self, _detail: Detail) {}
@@ -116,8 +119,9 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         mouse: pace.mouse,
         failures: 0,
     };
-    stage.enter()?;
-    Ok(stage.run(page)?)
+    let ended = stage.enter().and_then(|()| stage.run(page));
+    page.last_words();
+    Ok(ended?)
 }
 
 /// Restores the terminal when it goes.
@@ -186,7 +190,7 @@ impl Stage<'_> {
                 (last, due) = (now, self.governor.due());
             }
             self.send()?;
-            if page.is_over() && !changed && !self.queue.is_busy() {
+            if page.is_done() && !changed && !self.queue.is_busy() {
                 return Ok(Ending::Quit);
             }
 

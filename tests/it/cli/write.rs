@@ -34,6 +34,19 @@ fn a_failure_leaves_the_old_file_alone() {
 }
 
 #[test]
+fn what_is_replaced_is_told() {
+    let home = folder();
+    let run = || done(program(home.path()).args(["run", "system.toml", "-o", "out.csv"]));
+    let told = |done: super::Done| (done.code, done.stdout, done.stderr);
+    assert_eq!(told(run()), (0, String::new(), String::new()));
+    let replaced = "phaselab: out.csv is replaced\n".to_owned();
+    assert_eq!(told(run()), (0, String::new(), replaced));
+    // a device is no file with something in it
+    let null = ["run", "system.toml", "-o", "/dev/null"];
+    assert_eq!(done(program(home.path()).args(null)).stderr, "");
+}
+
+#[test]
 fn a_fault_still_brings_its_rows_to_the_file() {
     let home = folder();
     let falling = PENDULUM.replace("m*cos(theta)", "1/(theta + 1)").replace("\"w\"", "-1.0");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rustix::process::Signal;
 
@@ -401,6 +401,78 @@ fn a_recording_survives_a_signal() {
     assert_eq!(lab.ends().0, 143);
     let casts = written(folder.path(), ".cast");
     assert!(casts.len() == 1 && phaselab::record::Tape::read(&casts[0].1).is_ok(), "{casts:?}");
+}
+
+/// The only cast of a folder, which must be one to its last line.
+#[track_caller]
+fn only_cast(folder: &Path) -> String {
+    let mut casts = written(folder, ".cast");
+    assert_eq!(casts.len(), 1, "{casts:?}");
+    let (_, text) = casts.remove(0);
+    phaselab::record::Tape::read(&text).unwrap_or_else(|why| panic!("{why}: {text}"));
+    assert!(written(folder, ".partial").is_empty());
+    text
+}
+
+#[test]
+fn a_recording_keeps_its_end_behind_a_stalled_terminal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut lab = pendulum_in(folder.path());
+    lab.press("O");
+    lab.shows("rec");
+    lab.stalled(|lab| {
+        // more than a terminal takes that nobody reads
+        for _ in 0..20 {
+            lab.press("2");
+            lab.bytes_in(Duration::from_millis(50));
+            lab.press("1");
+            lab.bytes_in(Duration::from_millis(50));
+        }
+        lab.signal(Signal::TERM);
+        assert_eq!(lab.ends().0, 143);
+    });
+    let text = only_cast(folder.path());
+    assert!(text.trim_end().ends_with("\\u001b[?25h\"]"), "its end is there: {text:.200}");
+}
+
+#[test]
+fn a_recording_keeps_its_end_when_the_line_is_lost() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut lab = pendulum_in(folder.path());
+    lab.press("O");
+    lab.shows("rec");
+    lab.hang_up().wait().expect("a child of ours");
+    let text = only_cast(folder.path());
+    assert!(text.trim_end().ends_with("\\u001b[?25h\"]"), "its end is there: {text:.200}");
+}
+
+#[test]
+fn a_full_disk_ends_a_recording_and_keeps_what_was_recorded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // no file beyond 40 KiB, and no signal because of that
+    let line = "trap '' XFSZ; ulimit -f 80; exec \"$0\" pendulum";
+    let lab = Setup::new("sh", &["-c", line, PROGRAM]).size(120, 40).folder(folder.path());
+    let mut lab = lab.start();
+    lab.shows("running");
+    lab.press("O");
+    lab.shows("rec");
+    let end = Instant::now() + Duration::from_secs(60);
+    while !lab.text().contains("pendulum.cast holds what came before") {
+        assert!(Instant::now() < end, "never full: {}", lab.text());
+        lab.press("2");
+        lab.bytes_in(Duration::from_millis(60));
+        lab.press("1");
+        lab.bytes_in(Duration::from_millis(60));
+    }
+    assert!(lab.text().contains("cannot write pendulum.cast: "), "{}", lab.text());
+    let text = only_cast(folder.path());
+    assert!(text.ends_with("]\n") && text.len() > 10_000, "{}", text.len());
+    // another try is another file
+    lab.press("O");
+    lab.until("it records again", |lab| lab.text().contains("rec"));
+    lab.press("O");
+    lab.shows("pendulum-2.cast is written");
+    quits(lab);
 }
 
 #[test]
