@@ -24,6 +24,7 @@ mod desk;
 mod detail;
 mod document;
 mod equations;
+mod found;
 mod gauges;
 mod help;
 mod layout;
@@ -94,6 +95,7 @@ fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let screen = Screen::of(area, status);
     bars::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
+    bars::notice(canvas, screen.body, app);
     bars::status(canvas, screen.status, app);
     bars::footer(canvas, screen.footer, app);
     drawn

@@ -30,8 +30,8 @@ pub type Curve = Vec<[f64; 2]>;
 pub struct Landscape {
     /// The least and greatest coordinate, and the least and greatest rate.
     pub window: [[f64; 2]; 2],
-    /// Curves of equal energy, about evenly apart.
-    pub levels: Vec<Curve>,
+    /// Curves of equal energy, about evenly apart; those of one energy together.
+    pub levels: Vec<Vec<Curve>>,
     /// Curves of the energies of saddles, which part kinds of motion.
     pub separatrices: Vec<Curve>,
     /// Where the saddles are.
@@ -74,11 +74,10 @@ impl Landscape {
         let window = window(&mut energy, motion, period, [x, y], &tops);
         let values = energy.grid(&spread(window[0], GRID[0]), &spread(window[1], GRID[1]));
         let grid = Grid { x: (GRID[0], window[0]), y: (GRID[1], window[1]), values: &values };
-        let curves = |energies: Vec<f64>| energies.iter().flat_map(|e| grid.curves(*e)).collect();
         Some(Self {
             window,
-            levels: curves(levels(&values)?),
-            separatrices: curves(tops),
+            levels: levels(&values)?.into_iter().map(|e| grid.curves(e)).collect(),
+            separatrices: tops.into_iter().flat_map(|e| grid.curves(e)).collect(),
             saddles: saddles.into_iter().map(|s| s.at).collect(),
         })
     }

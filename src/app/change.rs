@@ -130,16 +130,48 @@ impl Lab {
         self.survey();
     }
 
-    /// Takes the last change back; nothing if there is none.
-    pub(super) fn undo(&mut self) -> Option<Vec<Effect>> {
+    /// Takes the last change back, and says what it was; nothing if there is none.
+    pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.undo()?;
-        Some(self.carry_out(change, Side::Before))
+        let told = format!("undone: {}", self.words(&change, Side::Before));
+        Some((self.carry_out(change, Side::Before), told))
     }
 
-    /// Makes the change last taken back again; nothing if there is none.
-    pub(super) fn redo(&mut self) -> Option<Vec<Effect>> {
+    /// Makes the change last taken back again, and says what it is; nothing if there is none.
+    pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.redo()?;
-        Some(self.carry_out(change, Side::After))
+        let told = format!("redone: {}", self.words(&change, Side::After));
+        Some((self.carry_out(change, Side::After), told))
+    }
+
+    /// What goes where when one side of a change is made so: `g 9.81 → 3.2`.
+    fn words(&self, change: &Change, side: Side) -> String {
+        let named = |target| self.facts(target).map_or_else(String::new, |facts| facts.shown);
+        let went = |what: &str, [from, to]: [String; 2]| format!("{what} {from} → {to}");
+        match change {
+            Change::Parameter { index, numbers } => {
+                went(&named(Target::Parameter(*index)), side.way(*numbers).map(short))
+            }
+            Change::Initial { index, numbers, .. } => {
+                let name = format!("initial {}", named(Target::Initial(*index)));
+                went(&name, side.way(*numbers).map(short))
+            }
+            Change::Start(_) => "the initial values".to_owned(),
+            Change::FullReset { .. } => "the reset to the file's values".to_owned(),
+            Change::Plot { index, .. } => {
+                format!("what is shown of {}", self.name_of(Pane::Plot(*index)))
+            }
+            Change::Method(names) => went("method", side.way(*names).map(str::to_owned)),
+            Change::Settings(settings) => {
+                let [before, after] = side.way(*settings);
+                let number = |v: Option<f64>| v.map_or_else(|| "by itself".to_owned(), short);
+                if before.step == after.step {
+                    went("tolerance", [before.tolerance, after.tolerance].map(number))
+                } else {
+                    went("step", [before.step, after.step].map(number))
+                }
+            }
+        }
     }
 
     /// Makes one side of a change so, and shows the pane in which it is seen.
@@ -226,7 +258,24 @@ pub(super) fn place(given: &Given) -> (usize, bool) {
     }
 }
 
+/// A number in six digits at most.
+fn short(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+    match rounded.abs() {
+        size if size != 0.0 && !(1e-4..1e7).contains(&size) => format!("{rounded:e}"),
+        _ => rounded.to_string(),
+    }
+}
+
 impl Side {
+    /// From the other side to this one.
+    fn way<T>(self, [before, after]: [T; 2]) -> [T; 2] {
+        match self {
+            Self::Before => [after, before],
+            Self::After => [before, after],
+        }
+    }
+
     fn of<T>(self, [before, after]: [T; 2]) -> T {
         match self {
             Self::Before => before,

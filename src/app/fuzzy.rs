@@ -1,25 +1,50 @@
-//! Fuzzy search: whether what is typed stands in a text, if need be with gaps, and how well.
+//! Search by a few letters: how well what is typed fits the texts of a line.
 //!
 //! In: what is typed, the texts of a line. Out: a score and the letters to be marked. Never here: which lines there are.
 //!
-//! Each word is sought by itself in the line's label, and only whole in what is said about the line: in a long text
-//! almost any letters stand in order. The scores are those of nucleo, where letters that follow each other and begin
-//! words count most.
+//! Each word is sought by itself. It fits best where a text begins with it, then where a word does, then inside a word;
+//! initials (`dp`: Double pendulum) and gaps within one word (`zom`: zoom) come after these, and last what is only said
+//! about the line. Letters scattered over a text are chance: in a long one almost any stand in order.
 
-use nucleo_matcher::pattern::{Atom, AtomKind, CaseMatching, Normalization};
-use nucleo_matcher::{Config, Matcher, Utf32Str};
+use nucleo_matcher::chars::{normalize, to_lower_case};
 
-/// A word found in the label counts this much more than one found only in what is said about the line.
-const NAMED: u32 = 20;
+/// What a word is worth where it is found, the best place first.
+const BEGINS: u32 = 500;
+const STARTS_A_WORD: u32 = 400;
+const INSIDE: u32 = 200;
+const INITIALS: u32 = 150;
+const WITH_GAPS: u32 = 100;
+const SAID: u32 = 60;
+const SAID_INSIDE: u32 = 30;
 
-/// Each letter of a word found with gaps must have earned at least this much; less is chance.
-const LEAST: u32 = 16;
+/// More for a whole word, and for all of the text.
+const WHOLE: u32 = 20;
+const ALL: u32 = 80;
+
+/// More where all that is typed stands together.
+const TOGETHER: u32 = 50;
+
+/// Less for a name that is not shown first.
+const SECOND: u32 = 10;
+
+/// A word with gaps has at least so many letters, and is spread over at most twice as many.
+const LEAST: usize = 3;
 
 /// What is typed, ready to be sought.
-pub(super) struct Query {
-    words: Vec<[Atom; 2]>,
-    letters: Vec<u32>,
-    matcher: Matcher,
+pub(super) struct Query(Vec<Word>);
+
+/// A word in small letters without accents.
+struct Word(Vec<char>);
+
+/// The texts of a line.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Texts<'a> {
+    /// What the line is called; its letters are marked.
+    pub label: &'a str,
+    /// What else it is called.
+    pub names: &'a [&'a str],
+    /// What is said about it.
+    pub about: &'a [&'a str],
 }
 
 /// How a line fits what is typed.
@@ -33,60 +58,151 @@ pub struct Fit {
 
 impl Query {
     pub(super) fn new(text: &str) -> Self {
-        let atom = |word: &str, kind| {
-            Atom::new(word, CaseMatching::Ignore, Normalization::Smart, kind, false)
-        };
-        let words: Vec<&str> = text.split_whitespace().collect();
-        Self {
-            letters: words.iter().map(|word| word.chars().count() as u32).collect(),
-            words: words
-                .iter()
-                .map(|word| [AtomKind::Fuzzy, AtomKind::Substring].map(|kind| atom(word, kind)))
-                .collect(),
-            matcher: Matcher::new(Config::DEFAULT),
-        }
+        Self(text.split_whitespace().map(|word| Word(folded(word))).collect())
     }
 
-    /// How a line fits, if each word stands in its label or in what is said about it.
-    pub(super) fn fit(&mut self, label: &str, about: &str) -> Option<Fit> {
-        let (mut first, mut second) = (Vec::new(), Vec::new());
-        let label = Utf32Str::new(label, &mut first);
-        let about = Utf32Str::new(about, &mut second);
+    /// How a line fits, if each word stands somewhere in its texts.
+    pub(super) fn fit(&self, texts: Texts<'_>) -> Option<Fit> {
         let mut fit = Fit::default();
-        let mut letters = Vec::new();
-        for ([fuzzy, whole], count) in self.words.iter().zip(&self.letters) {
-            let before = letters.len();
-            let found = fuzzy.indices(label, &mut self.matcher, &mut letters).map(u32::from);
-            match found.filter(|score| *score >= LEAST * count) {
-                Some(score) => fit.score += score + NAMED,
-                None => {
-                    letters.truncate(before);
-                    fit.score += u32::from(whole.score(about, &mut self.matcher)?);
-                }
-            }
+        for word in &self.0 {
+            let (score, letters) = word.fit(texts)?;
+            fit.score += score;
+            fit.letters.extend(letters);
         }
-        letters.sort_unstable();
-        letters.dedup();
-        fit.letters = letters.into_iter().map(|letter| letter as usize).collect();
+        if self.0.len() > 1 {
+            let spaced: Vec<&[char]> = self.0.iter().map(|word| word.0.as_slice()).collect();
+            let all = Word(spaced.join(&' '));
+            let label = folded(texts.label);
+            let at = all.whole(&label).find_map(|place| all.worth(&label, place));
+            fit.score += at.map_or(0, |_| TOGETHER);
+        }
+        fit.letters.sort_unstable();
+        fit.letters.dedup();
         Some(fit)
     }
+}
+
+impl Word {
+    /// What it is worth in these texts, and its letters in the label.
+    fn fit(&self, texts: Texts<'_>) -> Option<(u32, Vec<usize>)> {
+        let second = texts.names.iter().filter_map(|name| {
+            let (score, _) = self.named(name)?;
+            Some((score.saturating_sub(SECOND), Vec::new()))
+        });
+        let second = second.max_by_key(|(score, _)| *score);
+        let both = [self.named(texts.label), second].into_iter().flatten();
+        both.reduce(|a, b| if b.0 > a.0 { b } else { a }).or_else(|| {
+            let said = texts.about.iter().filter_map(|text| self.said(text));
+            said.max().map(|score| (score, Vec::new()))
+        })
+    }
+
+    /// What it is worth in a name, and where its letters stand.
+    fn named(&self, text: &str) -> Option<(u32, Vec<usize>)> {
+        let letters = folded(text);
+        let inside = (self.0.len() >= 2).then_some(INSIDE);
+        let whole = self.whole(&letters).max_by_key(|place| self.worth(&letters, *place));
+        let whole = whole.and_then(|place| {
+            let score = self.worth(&letters, place).or(inside)?;
+            Some((score, (place..place + self.0.len()).collect()))
+        });
+        whole.or_else(|| self.initials(&letters)).or_else(|| self.with_gaps(&letters))
+    }
+
+    /// What it is worth in what is said about a line.
+    fn said(&self, text: &str) -> Option<u32> {
+        let letters = folded(text);
+        let inside = (self.0.len() >= LEAST).then_some(SAID_INSIDE);
+        let worth = |place| if self.worth(&letters, place).is_some() { Some(SAID) } else { inside };
+        self.whole(&letters).filter(|_| self.0.len() >= 2).filter_map(worth).max()
+    }
+
+    /// Where it stands without gaps.
+    fn whole<'a>(&'a self, letters: &'a [char]) -> impl Iterator<Item = usize> {
+        let windows = letters.windows(self.0.len()).enumerate();
+        windows.filter(|(_, window)| *window == self.0).map(|(place, _)| place)
+    }
+
+    /// What it is worth at the beginning of a word; nothing elsewhere.
+    fn worth(&self, letters: &[char], place: usize) -> Option<u32> {
+        let begins = place == 0 || !letters[place - 1].is_alphanumeric();
+        let next = letters.get(place + self.0.len());
+        let whole = next.is_none_or(|next| !next.is_alphanumeric());
+        let all = self.0.len() == letters.len();
+        let place = if place == 0 { BEGINS } else { STARTS_A_WORD };
+        let extra = u32::from(whole) * WHOLE + u32::from(all) * ALL;
+        begins.then_some(place + extra)
+    }
+
+    /// Its letters as the first ones of words that follow each other.
+    fn initials(&self, letters: &[char]) -> Option<(u32, Vec<usize>)> {
+        let starts: Vec<usize> = words(letters).map(|(start, _)| start).collect();
+        let firsts: Vec<char> = starts.iter().map(|start| letters[*start]).collect();
+        let place = self.whole(&firsts).next().filter(|_| self.0.len() >= 2)?;
+        Some((INITIALS, starts[place..place + self.0.len()].to_vec()))
+    }
+
+    /// Its letters within one word, from the first on.
+    fn with_gaps(&self, letters: &[char]) -> Option<(u32, Vec<usize>)> {
+        words(letters).filter(|_| self.0.len() >= LEAST).find_map(|(start, end)| {
+            let end = end.min(start + 2 * self.0.len());
+            let mut places = start..end;
+            let place = |letter: &char| places.find(|place| letters[*place] == *letter);
+            let found: Option<Vec<usize>> = self.0.iter().map(place).collect();
+            found.filter(|found| found[0] == start).map(|found| (WITH_GAPS, found))
+        })
+    }
+}
+
+/// The letters of a text, small and without accents, one for each.
+fn folded(text: &str) -> Vec<char> {
+    text.chars().map(|letter| to_lower_case(normalize(letter))).collect()
+}
+
+/// Where each word begins and ends.
+fn words(letters: &[char]) -> impl Iterator<Item = (usize, usize)> {
+    let within = |place: usize| letters.get(place).is_some_and(|c| c.is_alphanumeric());
+    let starts = (0..letters.len()).filter(move |p| within(*p) && !(*p > 0 && within(p - 1)));
+    let end = move |start| (start..letters.len()).find(|p| !within(*p)).unwrap_or(letters.len());
+    starts.map(move |start| (start, end(start)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn fit(query: &str, label: &str) -> Option<Fit> {
+        Query::new(query).fit(Texts { label, names: &["second"], about: &["about the line"] })
+    }
+
     #[test]
-    fn letters_in_order_are_found_and_together_they_count_most() {
-        let fit = |query: &str, label: &str| Query::new(query).fit(label, "about the line");
-        assert_eq!(fit("zom", "zoom").map(|f| f.letters), Some(vec![0, 1, 3]));
-        assert_eq!(fit("Henon", "Hénon").map(|f| f.letters), Some(vec![0, 1, 2, 3, 4]));
-        assert_eq!(fit("rp", "reset, then play").map(|f| f.letters), Some(vec![0, 12]));
-        assert_eq!(fit("ene", "let time run slower"), None, "chance is not meant");
-        assert_eq!(fit("abo", "zoom").map(|f| f.letters), Some(vec![]), "told of, not named");
-        assert_eq!(fit("zoom xyz", "zoom"), None);
-        let score = |label| fit("ene", label).map_or(0, |f| f.score);
-        assert!(score("drift of energy") > score("ten lines, even"));
+    fn letters_are_found_together_as_initials_or_within_a_word() {
+        let letters = |query, label| fit(query, label).map(|f| f.letters);
+        assert_eq!(letters("zom", "zoom"), Some(vec![0, 1, 3]));
+        assert_eq!(letters("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(letters("heiles", "Hénon–Heiles"), Some((6..12).collect()));
+        assert_eq!(letters("dp", "Driven damped pendulum"), Some(vec![7, 14]));
+        assert_eq!(letters("rp", "reset, then play"), None, "a word stands between");
+        assert_eq!(letters("ene", "let time run slower"), None, "chance is not meant");
+        assert_eq!(letters("ene", "everyone"), None, "nor in one long word");
+        assert_eq!(letters("m", "Sum"), None, "one letter begins a word");
+        assert_eq!(letters("abo", "zoom"), Some(vec![]), "told of, not named");
+        assert_eq!(letters("sec", "zoom"), Some(vec![]), "its second name");
+        assert_eq!(letters("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(Fit::default()));
+    }
+
+    #[test]
+    fn the_nearer_to_the_beginning_the_better() {
+        let score = |label| fit("ene", label).map_or(0, |f| f.score);
+        let order = ["ene", "ene in", "energy", "drift of energy", "scene", "engine", "nothing"];
+        for pair in order.windows(2) {
+            assert!(score(pair[0]) > score(pair[1]), "{pair:?}");
+        }
+        let score = |query, label| fit(query, label).map_or(0, |f| f.score);
+        assert!(score("type l", "type l, length") > score("type l", "type it, 2*l"));
+        let said = |query| fit(query, "zoom").map_or(0, |f| f.score);
+        assert!(said("second") > said("about"), "a name counts more than what is said");
+        assert!(said("line") > said("ine"));
     }
 }

@@ -5,7 +5,7 @@
 use tui_input::Input;
 
 use super::action::Action;
-use super::fuzzy::{Fit, Query};
+use super::fuzzy::{Fit, Query, Texts};
 use super::{Pane, Target};
 
 /// A list from which one line, or several, can be taken.
@@ -113,11 +113,13 @@ impl Menu {
         if text.trim().is_empty() {
             return (0..self.items.len()).map(|index| (index, Fit::default())).collect();
         }
-        let mut query = Query::new(text);
+        let query = Query::new(text);
         let lines = self.items.iter().enumerate();
-        let mut found: Vec<(usize, Fit)> = lines
-            .filter_map(|(index, item)| Some((index, query.fit(&item.label, &item.about)?)))
-            .collect();
+        let fit = |item: &Item| {
+            query.fit(Texts { label: &item.label, names: &[], about: &[&item.about] })
+        };
+        let mut found: Vec<(usize, Fit)> =
+            lines.filter_map(|(index, item)| Some((index, fit(item)?))).collect();
         // Of equals what can be done comes first, and then the order of the list.
         found.sort_by_key(|(index, fit)| {
             let item = &self.items[*index];

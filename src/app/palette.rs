@@ -16,17 +16,34 @@ impl App {
         }
         self.over = None;
         let places = self.places_below();
-        let here = places.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place));
+        let rows = |wanted: fn(&Binding) -> bool| {
+            // What can be done with the motion first, what holds everywhere last.
+            let outer = places.iter().filter(|place| OUTER.contains(place));
+            let inner = places.iter().filter(|place| !OUTER.contains(place)).rev();
+            let places = inner.chain(outer);
+            places.flat_map(move |place| {
+                KEYS.iter().filter(move |row| row.place == *place && wanted(row))
+            })
+        };
+        let often = rows(|row| !row.hint.is_empty() && !moves(row.action));
+        let seldom = rows(|row| row.hint.is_empty() && !moves(row.action));
         let elsewhere = KEYS.iter().filter(|row| !places.contains(&row.place));
-        let mut items: Vec<Item> = here.map(|row| self.line_of(row, None)).collect();
+        let line = |row: &Binding| self.line_of(row, None);
+        let (mut items, refused): (Vec<Item>, Vec<Item>) =
+            often.map(line).partition(|item| item.refusal.is_none());
         if let Some(lab) = &self.lab {
             items.extend(lab.blow_lines());
             items.extend(lab.value_lines());
+        }
+        items.extend(seldom.map(line));
+        if let Some(lab) = &self.lab {
             items.extend(lab.pane_lines());
             items.extend(method_lines(&lab.loaded.system));
         }
         items.extend(self.theme_lines());
         items.extend(self.system_lines());
+        items.extend(rows(|row| moves(row.action)).map(line));
+        items.extend(refused);
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
         self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
@@ -34,11 +51,13 @@ impl App {
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
         let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
-        let hint = if row.hint.is_empty() { String::new() } else { format!(" · {}", row.hint) };
         let refusal = elsewhere.or_else(|| self.lack(row.action));
+        // The word of the footer is what people look for.
+        let named = row.hint.is_empty() || moves(row.action) || row.help.contains(row.hint);
+        let name = if named { String::new() } else { format!("{}: ", row.hint) };
         Item {
-            label: row.help.to_owned(),
-            about: format!("{}{hint}", row.place.title()),
+            label: format!("{name}{}", row.help),
+            about: row.place.title().to_owned(),
             keys: keys.join(" "),
             refusal: refusal.map(str::to_owned),
             choice: Choice::Action(row.action),
@@ -118,6 +137,15 @@ impl App {
     }
 }
 
+/// Places whose keys hold wherever one is; their lines stand behind those of the page.
+const OUTER: [Place; 2] = [Place::Anywhere, Place::Always];
+
+/// Whether an action only moves a selection or a window: keys that nobody looks for by name.
+fn moves(action: Action) -> bool {
+    use Action::{Change, First, Last, Move, PageDown, PageUp};
+    matches!(action, Move(_) | First | Last | PageUp | PageDown | Change { .. })
+}
+
 /// Where the keys of a place hold, for one who looks for them elsewhere.
 fn where_it_holds(place: Place) -> &'static str {
     match place {
@@ -172,9 +200,17 @@ impl Lab {
                 Target::Parameter(_) => "type",
                 Target::Initial(_) => "type the initial",
             };
+            let unit =
+                if facts.unit.is_empty() { String::new() } else { format!(" in {}", facts.unit) };
+            let (meaning, about) = match target {
+                Target::Parameter(_) if !facts.about.is_empty() => {
+                    (format!(", {}", facts.about), format!("{}, a parameter{unit}", facts.name))
+                }
+                _ => (String::new(), format!("{}: {}", facts.name, facts.about)),
+            };
             Some(Item {
-                label: format!("{what} {}", facts.shown),
-                about: format!("{}: {}", facts.name, facts.about),
+                label: format!("{what} {}{meaning}", facts.shown),
+                about,
                 keys: String::new(),
                 refusal: None,
                 choice: Choice::Value(target),

@@ -77,10 +77,14 @@ impl App {
                 vec![Effect::Tell(Command::Reset)]
             }
             Action::Reference => vec![Effect::Tell(Command::Reference)],
-            Action::Undo => {
-                lab.undo().unwrap_or_else(|| self.say("There is nothing to take back."))
-            }
-            Action::Redo => lab.redo().unwrap_or_else(|| self.say("There is nothing to do again.")),
+            Action::Undo => match lab.undo() {
+                Some((effects, told)) => self.told(told, effects),
+                None => self.say("There is nothing to take back."),
+            },
+            Action::Redo => match lab.redo() {
+                Some((effects, told)) => self.told(told, effects),
+                None => self.say("There is nothing to do again."),
+            },
             Action::Strike => self.strike(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
@@ -133,6 +137,12 @@ impl App {
             Action::Home => self.with_plot(Plot::home),
             _ => Vec::new(),
         }
+    }
+
+    /// Does something and tells what it was.
+    fn told(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
+        self.notice = Some(Notice::info(sentence));
+        effects
     }
 
     /// Tells the user something.

@@ -2,11 +2,13 @@
 //!
 //! In: the catalog, moves and searches. Out: the name of the system wanted. Never here: loading.
 
+use std::cmp::Reverse;
 use std::time::Duration;
 
 use tui_input::Input;
 
 use super::LoadFailure;
+use super::fuzzy::{Fit, Query, Texts};
 use crate::preset::Entry;
 
 /// For how long a selection rests before its system is loaded.
@@ -32,26 +34,33 @@ impl Picker {
         Self { entries, ..Self::default() }
     }
 
-    /// The places of the systems that fit the search.
-    pub fn shown(&self) -> Vec<usize> {
-        let query = self.search.as_ref().map_or("", Input::value);
-        let fits = |e: &Entry| {
-            let mut texts = vec![e.name.as_str(), &e.info.title, &e.info.summary, &e.info.source];
-            texts.extend(e.info.topics.iter().map(String::as_str));
-            matches(query, &texts)
+    /// The places of the systems that fit what is sought, the best first, and how each fits.
+    pub fn found(&self) -> Vec<(usize, Fit)> {
+        let Some(sought) = self.sought() else {
+            return (0..self.entries.len()).map(|index| (index, Fit::default())).collect();
         };
-        let mut shown: Vec<usize> =
-            (0..self.entries.len()).filter(|&index| fits(&self.entries[index])).collect();
-        // while something is sought, what has it in its name stands first
-        if !query.is_empty() {
-            shown.sort_by_key(|&index| {
-                let e = &self.entries[index];
-                let begins = folded(&e.name).starts_with(&folded(query))
-                    || folded(&e.info.title).starts_with(&folded(query));
-                (!begins, !matches(query, &[&e.name, &e.info.title]))
-            });
-        }
-        shown
+        let query = Query::new(sought);
+        let fit = |entry: &Entry| {
+            let info = &entry.info;
+            let mut about = vec![info.summary.as_str(), &info.source];
+            about.extend(info.topics.iter().map(String::as_str));
+            query.fit(Texts { label: &info.title, names: &[&entry.name], about: &about })
+        };
+        let entries = self.entries.iter().enumerate();
+        let mut found: Vec<(usize, Fit)> =
+            entries.filter_map(|(index, entry)| Some((index, fit(entry)?))).collect();
+        found.sort_by_key(|(_, fit)| Reverse(fit.score));
+        found
+    }
+
+    /// What is sought, if anything is.
+    pub fn sought(&self) -> Option<&str> {
+        self.search.as_ref().map(|input| input.value().trim()).filter(|text| !text.is_empty())
+    }
+
+    /// The places of the systems that fit what is sought, the best first.
+    pub fn shown(&self) -> Vec<usize> {
+        self.found().into_iter().map(|(index, _)| index).collect()
     }
 
     /// The selected system.
@@ -119,28 +128,4 @@ impl Picker {
         self.waiting = None;
         self.current().map(|entry| entry.name.clone())
     }
-}
-
-/// Whether every word of the query stands in one of the texts; neither case nor accents matter.
-fn matches(query: &str, texts: &[&str]) -> bool {
-    let texts: Vec<String> = texts.iter().map(|text| folded(text)).collect();
-    folded(query).split_whitespace().all(|word| texts.iter().any(|text| text.contains(word)))
-}
-
-/// In small letters without accents, so that `henon` finds Hénon.
-fn folded(text: &str) -> String {
-    let plain = |c: char| match c {
-        'à' | 'á' | 'â' | 'ä' | 'å' => 'a',
-        'ç' | 'č' => 'c',
-        'é' | 'è' | 'ê' | 'ë' => 'e',
-        'í' | 'î' | 'ï' => 'i',
-        'ñ' => 'n',
-        'ó' | 'ô' | 'ö' | 'ø' => 'o',
-        'ú' | 'ü' => 'u',
-        'š' => 's',
-        '–' | '—' => '-',
-        '’' => '\'',
-        other => other,
-    };
-    text.to_lowercase().chars().map(plain).collect()
 }

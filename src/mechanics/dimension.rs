@@ -1,4 +1,4 @@
-//! Units of what follows from a law: of the energy and of the momenta, from those that the file gives.
+//! Units of what follows from a law: of the energy, of the momenta and of what is observed, from those that the file gives.
 //!
 //! The dimension of every part of an expression follows from its symbols; the energy's is that on which all terms agree
 //! whose units are known, and a momentum's is energy times time over its coordinate: pᵢq̇ᵢ is an energy.
@@ -81,6 +81,11 @@ impl Dimension {
         Some(self)
     }
 
+    /// As it is written, an energy in joule by that name.
+    fn named(&self) -> String {
+        if Self::read("J").as_ref() == Some(self) { "J".to_owned() } else { self.written() }
+    }
+
     /// As it is written: `kg m²/s`; nothing where an exponent is no whole number.
     fn written(&self) -> String {
         if self.0.values().any(|halves| halves % 2 != 0) {
@@ -139,10 +144,13 @@ impl Equations {
             Some(action.product(&coordinate?, (-1, 1))?.written())
         };
         let momenta = model.coordinates.iter().map(|c| of_momentum(&c.unit).unwrap_or_default());
-        let joule = Dimension::read("J");
-        let written =
-            if Some(&energy) == joule.as_ref() { "J".to_owned() } else { energy.written() };
-        (written, momenta.collect())
+        (energy.named(), momenta.collect())
+    }
+
+    /// The unit of any other quantity, empty where it does not follow from those of the file, or where it has none.
+    pub fn unit(&self, model: &Model, e: Expr) -> String {
+        let dimension = self.dimension(model, e).filter(|d| *d != Dimension::default());
+        dimension.map_or_else(String::new, |dimension| dimension.named())
     }
 
     /// The dimension of an expression, where it follows from the units of the symbols.

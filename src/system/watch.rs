@@ -94,6 +94,7 @@ impl List {
                 list.add_hidden("", e);
             }
         }
+        list.find_units(model, equations);
         list
     }
 
@@ -142,6 +143,21 @@ impl List {
             for (i, (name, e, _)) in casimirs.iter().enumerate() {
                 self.add(ChannelKind::Casimir(i), name, name, *e);
             }
+        }
+    }
+
+    /// Gives units to what has a name and none yet, where they follow from those of the file.
+    fn find_units(&mut self, model: &Model, equations: &Equations) {
+        let energy = self.channels.iter().find(|c| c.kind == ChannelKind::Energy);
+        let energy = energy.map_or_else(String::new, |channel| channel.unit.clone());
+        for (channel, e) in self.channels.iter_mut().zip(&self.expressions) {
+            if !channel.unit.is_empty() || channel.name.is_empty() {
+                continue;
+            }
+            channel.unit = match e {
+                Some(e) => equations.unit(model, *e),
+                None => energy.clone(),
+            };
         }
     }
 

@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns};
+use super::canvas::{Canvas, Span, columns, row};
 use super::gauges::sentence;
 use super::glyphs::Glyphs;
 use super::help::keys;
@@ -13,6 +13,7 @@ use super::number::{brief, fitted};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::typing;
+use super::wrap::words;
 use crate::app::keymap::KEYS;
 use crate::app::{Action, App, Field, Lab, Over, Page, Pane, Purpose, Spot};
 use crate::experiment::{Snapshot, Status};
@@ -106,11 +107,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
         canvas.span(
             Role::Dim,
-            if area.width < 100 {
-                " fps".to_owned()
-            } else {
-                format!("/{:<3} fps", app.meter.asked)
-            },
+            if area.width < 100 { " fps".to_owned() } else { format!("/{} fps", app.meter.asked) },
         ),
     ]);
     let mut used = 0;
@@ -178,10 +175,6 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if let Some(Over::Field(field)) = &app.over {
         return open_field(canvas, area, app, field);
     }
-    if let (None, Some(banner)) = (&app.notice, app.banner()) {
-        canvas.left(area, Role::Bad, &banner);
-        return;
-    }
     let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
     let meaning = match (&app.over, &app.lab, app.page) {
         (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),
@@ -189,9 +182,9 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         _ => String::new(),
     };
     let role = if ended.is_some() { Role::Warn } else { Role::Text };
-    let (meaning, role) = match &app.notice {
-        Some(notice) if notice.error => (canvas.text(&notice.text), Role::Bad),
-        Some(notice) => (canvas.text(&notice.text), Role::Good),
+    // Where nothing but text is on the page, what is told has no place above.
+    let (meaning, role) = match told(app).filter(|_| reads(app)) {
+        Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
     };
     let mut hints = hints(canvas, app);
@@ -199,14 +192,12 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two, help and quit, are always there; the others give way to the meaning.
     let room = usize::from(area.width);
-    // What is told in passing is told whole; what lasts may be cut.
-    let most = if app.notice.is_some() { room } else { room * 2 / 3 };
+    // The reason of a gauge stands nowhere else in full where its pane is small.
+    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
+    let most = if gauge { room } else { room * 2 / 3 };
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
     while hints.len() > 2 && meant + wide(&hints) > room + 3 {
         hints.remove(hints.len() - 3);
-    }
-    if app.notice.is_some() && meant + wide(&hints) > room + 3 {
-        hints.clear();
     }
     let all = (wide(&hints) as u16).saturating_sub(3).min(area.width);
     canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
@@ -216,6 +207,42 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         let used = canvas.spans(place, &hint.spans);
         canvas.spot(columns(place, 0, used), Spot::Hint(hint.action));
         start += used + 3;
+    }
+}
+
+/// Whether the page of plain reading is open, on which nothing may lie over the text.
+fn reads(app: &App) -> bool {
+    app.page == Page::Plain && !matches!(app.over, Some(Over::Help(_) | Over::Message(_)))
+}
+
+/// What is told in passing, or lasts until the file is right.
+fn told(app: &App) -> Option<(String, Role)> {
+    let notice = app
+        .notice
+        .as_ref()
+        .map(|notice| (notice.text.clone(), if notice.error { Role::Bad } else { Role::Good }));
+    notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
+}
+
+/// Rows that a notice takes at most.
+const NOTICE: usize = 3;
+
+/// What is told, over the lower frame of the page: a place of its own, so that the keys below stay in sight.
+pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
+    let Some((text, role)) = told(app).filter(|_| !reads(app)) else { return };
+    let room = usize::from(body.width.saturating_sub(6));
+    let mut lines = words(&canvas.text(&text), room);
+    if lines.len() > NOTICE {
+        let rest = lines.split_off(NOTICE - 1).join(" ");
+        lines.push(rest);
+    }
+    let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);
+    for (index, line) in lines.iter().enumerate() {
+        let at = usize::from(body.height).saturating_sub(lines.len()) + index;
+        let at = columns(row(body, at), 2, body.width.saturating_sub(4));
+        let gap = " ".repeat(wide.saturating_sub(line.width()));
+        canvas.left(columns(at, 0, wide as u16 + 2), Role::Text, &" ".repeat(wide + 2));
+        canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
     }
 }
 

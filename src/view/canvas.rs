@@ -77,15 +77,26 @@ impl Canvas<'_> {
         self.left(area, role, text)
     }
 
-    /// Writes pieces one after the other, as far as they go; the last one is cut if it must be.
+    /// Writes pieces one after the other; where they do not fit, a mark stands for what is left out.
     pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
+        let wide = |text: &str| self.look.glyphs.text(text).width();
+        let all: usize = spans.iter().map(|(text, _)| wide(text)).sum();
+        let padding = spans.last().map_or(0, |(text, _)| wide(text) - wide(text.trim_end()));
+        let mark = self.look.glyphs.pick("…", "~");
+        let cut = all.saturating_sub(padding) > usize::from(row.width);
+        let room = if cut { row.width.saturating_sub(1) } else { row.width };
         let mut used = 0;
         for (text, style) in spans {
-            if row.is_empty() || used >= row.width {
+            if row.is_empty() || used >= room {
                 break;
             }
             let at = Position::new(row.x + used, row.y);
-            used += self.write(at, row.width - used, text, *style);
+            let text = self.look.glyphs.text(text);
+            let text = clipped(&text, usize::from(room - used), "");
+            used += self.write(at, room - used, &text, *style);
+        }
+        if let (true, false, Some((_, style))) = (cut, row.is_empty(), spans.last()) {
+            used += self.write(Position::new(row.x + used, row.y), 1, mark, *style);
         }
         used
     }
@@ -153,6 +164,25 @@ impl Canvas<'_> {
         let style = self.style(role);
         self.buffer.set_style(row.intersection(self.buffer.area), style);
     }
+}
+
+/// Groups of pieces as far as they have room, each whole or not at all; the first is always there.
+pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
+    let mut spans: Vec<Span> = Vec::new();
+    for group in groups {
+        let ends = [spans.as_slice(), &group].concat();
+        if !spans.is_empty() && wide(&ends) > room {
+            break;
+        }
+        spans = ends;
+    }
+    spans
+}
+
+/// The columns of pieces, without blanks at the end.
+pub(super) fn wide(spans: &[Span]) -> usize {
+    let text: String = spans.iter().map(|(text, _)| text.as_str()).collect();
+    text.trim_end().width()
 }
 
 /// The row of an area that is `index` rows from its top; empty beyond it.

@@ -136,16 +136,17 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
         Plot::Potential { view, .. } => lab.potential(*view),
         _ => None,
     };
+    // Between the corners, with a blank at each side.
+    let room = usize::from(area.width.saturating_sub(6));
     let title = match plot {
         Plot::Space(eye) => space::title(canvas, lab, eye),
         Plot::Phase { x, y, .. } => {
-            phase::title(canvas, &q, ([*x, *y], plot.title(&lab.loaded).unwrap_or("Phase")))
+            let title = plot.title(&lab.loaded).unwrap_or("Phase");
+            phase::title(canvas, &q, ([*x, *y], title), room)
         }
-        Plot::Time { y, .. } => {
-            series::title(canvas, &q, (y, plot.title(&lab.loaded).unwrap_or("Time")))
-        }
+        Plot::Time { y, .. } => series::title(canvas, &q, (y, plot.title(&lab.loaded)), room),
         Plot::Potential { .. } => match &potential {
-            Some(shown) => potential::title(canvas, &q, shown),
+            Some(shown) => potential::title(canvas, &q, shown, room),
             None => Vec::new(),
         },
     };

@@ -157,7 +157,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let history = History {
         values: &values,
         scale: Scale::log(FLOOR, CEILING),
-        style: canvas.style(word(&gauge.verdict).1),
+        style: canvas.style(blame(gauge)),
         glyphs: canvas.look.glyphs,
     };
     history.render(strip, canvas.buffer);
@@ -186,8 +186,11 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    // What the physics changes is no fault of the method.
+    canvas.right(area, blame(gauge), &number::drift(gauge.drift));
+}
+
+/// The role of a drift: what the physics changes is no fault of the method.
+fn blame(gauge: &Gauge) -> Role {
     let physical = matches!(gauge.verdict, Verdict::Broken(_));
-    let role = if physical { Role::Dim } else { word(&gauge.verdict).1 };
-    canvas.right(area, role, &number::drift(gauge.drift));
+    if physical { Role::Dim } else { word(&gauge.verdict).1 }
 }

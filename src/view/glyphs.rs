@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 
 use ratatui::symbols::border;
+use unicode_width::UnicodeWidthChar;
 
 /// What dots, lines and letters are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,7 +21,7 @@ pub enum Glyphs {
     Sextant,
     /// Octants, 2×4 dots in a cell; of Unicode 16, and missing from most fonts.
     Octant,
-    /// Characters below 0x80 only, one dot in a cell.
+    /// Characters below 0x80 only, chosen by what stands where in a cell: 2×3 places.
     Ascii,
 }
 
@@ -87,8 +88,7 @@ impl Glyphs {
             Self::Braille | Self::Octant => (2, 4),
             Self::HalfBlock => (1, 2),
             Self::Quadrant => (2, 2),
-            Self::Sextant => (2, 3),
-            Self::Ascii => (1, 1),
+            Self::Sextant | Self::Ascii => (2, 3),
         }
     }
 
@@ -102,14 +102,72 @@ impl Glyphs {
         self.pick(border::ROUNDED, ASCII_BORDER)
     }
 
-    /// The text as this terminal may show it: unchanged, or spelt in ASCII (`θ₁²` → `theta1^2`).
+    /// The text as this terminal may show it, a character in a cell: dots over letters behind them (`θ̇` → `θ′`), or all
+    /// spelt in ASCII (`θ₁²` → `theta1^2`).
     pub fn text(self, text: &str) -> Cow<'_, str> {
-        if !self.is_ascii() || text.is_ascii() {
+        if text.is_ascii() {
             Cow::Borrowed(text)
+        } else if self.is_ascii() {
+            Cow::Owned(spell(&single(text)))
         } else {
-            Cow::Owned(spell(text))
+            single(text)
         }
     }
+}
+
+/// The text without what stands over a letter: there terminals differ, and some lose the row. Rates of change get
+/// primes, as in the files; other marks are left out.
+fn single(text: &str) -> Cow<'_, str> {
+    let over = |c: char| c.width() == Some(0);
+    if !text.chars().any(|c| over(c) || undotted(c).is_some()) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        // A letter with its dot in a word is one of a language.
+        let alone = |next: Option<&char>| {
+            !before.is_alphabetic() && next.is_none_or(|next| !next.is_alphabetic())
+        };
+        let prime = match (letter, undotted(letter)) {
+            ('\u{307}', _) => Some('′'),
+            ('\u{308}', _) => Some('″'),
+            (_, Some((plain, prime))) if alone(letters.peek()) => {
+                out.push(plain);
+                Some(prime)
+            }
+            (other, _) => {
+                out.extend(Some(other).filter(|c| !over(*c)));
+                None
+            }
+        };
+        before = letter;
+        if let Some(prime) = prime {
+            // θ₁′, not θ′₁
+            while let Some(low) = letters.next_if(|c| subscript(*c).is_some()) {
+                out.push(low);
+            }
+            out.push(prime);
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// The letters that Unicode has with a dot, or two, for rates of change.
+fn undotted(letter: char) -> Option<(char, char)> {
+    Some(match letter {
+        'ȧ' => ('a', '′'),
+        'ṙ' => ('r', '′'),
+        'ṡ' => ('s', '′'),
+        'ẋ' => ('x', '′'),
+        'ẏ' => ('y', '′'),
+        'ż' => ('z', '′'),
+        'ṗ' => ('p', '′'),
+        'ẍ' => ('x', '″'),
+        'ÿ' => ('y', '″'),
+        _ => return None,
+    })
 }
 
 /// Spells a text in ASCII. What has no spelling becomes `?`; combining dots become primes, as in `x'`.

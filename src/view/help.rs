@@ -33,11 +33,14 @@ pub(super) fn document(look: &Look, active: &[Place]) -> Document {
 
 /// The keys of a row, as they are named on keyboards.
 pub(super) fn keys(row: &Binding, look: &Look) -> String {
-    let named = |key: &crate::app::Key| {
-        let name = key.to_string();
-        let plain = [("↑", "Up"), ("↓", "Down"), ("←", "Left"), ("→", "Right")];
-        let spelt = plain.iter().fold(name.clone(), |name, (sign, word)| name.replace(sign, word));
-        look.glyphs.pick(name, spelt)
-    };
-    row.keys.iter().map(named).collect::<Vec<_>>().join(" ")
+    let names: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
+    named(&names.join(" "), look)
+}
+
+/// Names of keys, the arrows as words where they cannot be drawn.
+pub(super) fn named(keys: &str, look: &Look) -> String {
+    const ARROWS: [(&str, &str); 4] = [("↑", "Up"), ("↓", "Down"), ("←", "Left"), ("→", "Right")];
+    let spelt =
+        || ARROWS.iter().fold(keys.to_owned(), |name, (sign, word)| name.replace(sign, word));
+    if look.glyphs.is_ascii() { spelt() } else { keys.to_owned() }
 }

@@ -4,6 +4,7 @@
 
 use ratatui::layout::Rect;
 
+use super::wrap::words;
 use crate::app::{Lab, Pane, Plot, Target};
 
 /// The least screen on which anything can be done.
@@ -113,8 +114,11 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let parameters = lab.count(Target::Parameter) as u16;
     // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two, the reason of the
     // selected gauge some more.
-    let wants =
-        [parameters + 4, lab.count(Target::Initial) as u16 + 2, 2 * gauges.max(1) + 3 + REASON];
+    let wants = [
+        parameters + 2 + meaning(lab, area.width),
+        lab.count(Target::Initial) as u16 + 2,
+        2 * gauges.max(1) + 3 + REASON,
+    ];
     let mut heights = wants.map(|want| want.max(4));
     let mut total: u16 = heights.iter().sum();
     while total > area.height {
@@ -139,6 +143,14 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         slots.push((Slot::Law, Rect { y, height: spare, ..area }));
     }
     slots
+}
+
+/// Rows for what the selected parameter means: as many as the longest text needs, at least two, at most four.
+fn meaning(lab: &Lab, width: u16) -> u16 {
+    let room = usize::from(width.saturating_sub(5));
+    let facts = (0..lab.count(Target::Parameter)).filter_map(|i| lab.facts(Target::Parameter(i)));
+    let longest = facts.map(|facts| words(&facts.about, room).len() as u16).max();
+    (longest.unwrap_or(0) + 1).clamp(2, 4)
 }
 
 /// The first `room` plots; a focused one beyond them takes the last place.

@@ -3,9 +3,11 @@
 //! In: the menu. Out: cells. Never here: what its lines do.
 
 use ratatui::layout::Rect;
-use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, columns, row};
+use super::found::found_in;
+use super::help::named;
 use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
@@ -14,12 +16,13 @@ use crate::app::{Choice, Fit, Item, Menu, Spot};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
-    let width = area.width.saturating_sub(2).min(78);
+    let width = width(canvas, menu).clamp(MOST.0, MOST.1).min(area.width.saturating_sub(2));
     let shown = menu.found();
     let search = u16::from(menu.filter.is_some());
-    let about = if area.height > 14 { 4 } else { 2 };
+    let about = about(canvas, menu, (width, area.height));
     // As high as for all its lines, so that it does not jump while they are searched.
-    let wanted = (menu.items.len() as u16).clamp(1, 24) + 2 + search + about;
+    let most = (area.height * 3 / 5).max(24);
+    let wanted = (menu.items.len() as u16).clamp(1, most) + 2 + search + about;
     let height = wanted.min(area.height.saturating_sub(u16::from(area.height > 12) * 2));
     let place = Rect {
         x: area.x + (area.width - width) / 2,
@@ -68,73 +71,103 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             Some(reason) => (Role::Warn, format!("{}: {reason}", capitalised(refused(item)))),
             None => (Role::Text, item.about.clone()),
         };
+        // What the line had to cut is read here.
+        let whole = canvas.text(&item.label).width() <= columns_of.room(canvas, item).into();
+        let text = if whole { text } else { format!("{}. {text}", capitalised(&item.label)) };
         let text = canvas.text(&text);
         let room = usize::from(below.height.saturating_sub(1));
-        for (index, line) in words(&text, inner.width.into()).iter().take(room).enumerate() {
+        let mut lines = words(&text, inner.width.into());
+        if lines.len() > room {
+            // What is cut says so.
+            let rest = lines.split_off(room.saturating_sub(1)).join(" ");
+            lines.push(rest);
+        }
+        for (index, line) in lines.iter().take(room).enumerate() {
             canvas.left(row(below, index + 1), role, line);
         }
     }
 }
 
-/// Where the columns of the lines stand: as wide as the longest label and keys.
+/// The columns of a list: at least, and at most.
+const MOST: (u16, u16) = (78, 120);
+
+/// Columns between the parts of a line.
+const GAP: u16 = 2;
+
+/// Where what is said about a line begins at the latest.
+const NOTE: u16 = 48;
+
+/// The columns that all labels and keys need, and something of what is said beside them.
+fn width(canvas: &Canvas<'_>, menu: &Menu) -> u16 {
+    let line = |item: &Item| canvas.text(&item.label).width() + keys_of(canvas, item).width();
+    let widest = menu.items.iter().map(line).max().unwrap_or(0).min(usize::from(MOST.1)) as u16;
+    widest + 3 * GAP + 2
+}
+
+/// Rows for what the selected line means, the same for all lines: as many as the longest needs, where there is room.
+fn about(canvas: &Canvas<'_>, menu: &Menu, (width, height): (u16, u16)) -> u16 {
+    let most = if height > 14 { 6 } else { 2 };
+    let inner = usize::from(width.saturating_sub(4));
+    let needs = |item: &Item| words(&canvas.text(&item.about), inner).len() as u16;
+    menu.items.iter().map(needs).max().unwrap_or(0).saturating_add(1).clamp(2, most)
+}
+
+/// The keys of a line as they are named on keyboards.
+fn keys_of(canvas: &Canvas<'_>, item: &Item) -> String {
+    named(&item.keys, canvas.look)
+}
+
+/// Where the columns of the lines stand.
 struct Columns {
+    /// All columns of a line.
+    width: u16,
+    /// Columns of the labels, beyond which stands what is said about a line whose label is no longer.
     label: u16,
+    /// Columns of the longest keys.
     keys: u16,
 }
 
 impl Columns {
     fn of(canvas: &Canvas<'_>, menu: &Menu, width: u16) -> Self {
-        let widest = |text: fn(&Item) -> &str| {
-            let wide = menu.items.iter().map(|item| canvas.text(text(item)).width());
+        let widest = |wide: &dyn Fn(&Item) -> usize| {
+            let wide = menu.items.iter().map(wide);
             wide.max().unwrap_or(0).min(usize::from(width)) as u16
         };
-        let keys = widest(|item| &item.keys).min(width / 3);
-        let label = widest(|item| &item.label);
-        // Where there are keys they matter more than what is said about the line, which stands below the list too.
-        let most = if keys > 0 { width.saturating_sub(keys + 4) } else { width * 3 / 4 };
-        Self { label: label.min(most), keys }
+        let keys = widest(&|item| keys_of(canvas, item).width());
+        let label = widest(&|item| canvas.text(&item.label).width());
+        Self { width, label: label.min(NOTE).min(width * 3 / 4), keys }
+    }
+
+    /// The columns that the label of a line may take: up to its keys.
+    fn room(&self, canvas: &Canvas<'_>, item: &Item) -> u16 {
+        let keys = keys_of(canvas, item).width() as u16;
+        let right = if keys > 0 { keys + GAP } else { 0 };
+        self.width.saturating_sub(2 + right)
     }
 }
 
 /// A line: its label with the letters found, what is said about it or why not, the keys at the right.
 fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &Columns) {
     let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
-    canvas.spans(columns(area, 2, grid.label), &label(canvas, item, (fit, role)));
+    let label = found_in(canvas, &item.label, (fit, role));
+    let used = canvas.spans(columns(area, 2, grid.room(canvas, item)), &label);
     canvas.right(
         columns(area, area.width.saturating_sub(grid.keys), grid.keys),
         Role::Accent,
-        &item.keys,
+        &keys_of(canvas, item),
     );
-    let room =
-        area.width.saturating_sub(grid.label + 4 + if grid.keys > 0 { grid.keys + 2 } else { 0 });
+    let keys = keys_of(canvas, item).width() as u16 + GAP;
+    let from = 2 + grid.label + GAP;
+    let beside = if used > grid.label { 0 } else { area.width };
+    let room = beside.saturating_sub(from + keys);
     let note = if item.refusal.is_some() { refused(item) } else { &item.about };
     if room >= LEAST_NOTE {
-        canvas.left(columns(area, grid.label + 4, room), Role::Dim, note);
+        canvas.left(columns(area, from, room), Role::Dim, note);
     }
 }
 
 /// What is said about a line needs so many columns beside it.
 const LEAST_NOTE: u16 = 8;
-
-/// The label in pieces, those that were found marked.
-fn label(canvas: &Canvas<'_>, item: &Item, (fit, role): (&Fit, Role)) -> Vec<Span> {
-    let mut spans: Vec<Span> = Vec::new();
-    let mut last = None;
-    for (place, letter) in item.label.chars().enumerate() {
-        let found = fit.letters.binary_search(&place).is_ok();
-        // A combining dot goes with its letter.
-        let combining = letter.width() == Some(0);
-        if last != Some(found) && !combining || spans.is_empty() {
-            let marked = canvas.style(Role::Accent).underlined();
-            spans.push((String::new(), if found { marked } else { canvas.style(role) }));
-            last = Some(found);
-        }
-        if let Some((text, _)) = spans.last_mut() {
-            text.push(letter);
-        }
-    }
-    spans.into_iter().map(|(text, style)| (canvas.text(&text), style)).collect()
-}
 
 /// Why a line cannot be taken, in three words.
 fn refused(item: &Item) -> &'static str {

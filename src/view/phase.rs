@@ -4,14 +4,16 @@
 //! In: two channels, the trail, the landscape. Out: cells. Never here: what the levels are.
 
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, Span, groups};
 use super::cursor;
 use super::marks::{self, Marks};
 use super::number::readable;
 use super::plot::{Axes, Frame, Marker, Pen, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
+use crate::analysis::{Curve, Landscape};
 use crate::app::Plot;
 
 /// The layers of the picture, the lowest first.
@@ -21,20 +23,29 @@ const TRAIL: u8 = 2;
 const MARK: u8 = 3;
 const NOW: u8 = 4;
 
+/// A level curve is left out if others share its cells along more than this part of its way, in ASCII and with dots.
+const CROWDED: [f64; 2] = [0.25, 0.35];
+
+/// In more cells than this all levels have room.
+const ROOMY: u32 = 2000;
+
 /// The heading: what is shown, and the present values.
 pub(super) fn title(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
     ([x, y], title): ([usize; 2], &str),
+    room: usize,
 ) -> Vec<Span> {
-    let mut spans = vec![canvas.span(Role::Title, title)];
+    let mut pieces = vec![vec![canvas.span(Role::Title, title)]];
     for channel in [x, y] {
         let value = readable(q.value(channel), 4, canvas.look.glyphs);
-        spans.push(canvas.span(Role::Dim, format!("  {}", q.name(channel))));
-        spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+        pieces.push(vec![
+            canvas.span(Role::Dim, format!("  {}", q.name(channel))),
+            canvas.span(Role::Accent, format!(" {value:<8}")),
+        ]);
     }
-    spans.extend(marks::legend(canvas, q));
-    spans
+    pieces.push(marks::legend(canvas, q));
+    groups(pieces, room)
 }
 
 /// Draws the picture, and says where its axes stand.
@@ -53,16 +64,7 @@ pub(super) fn draw(
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     if let Some(landscape) = landscape {
-        let kinds = [
-            (&landscape.levels, Role::Level, LEVELS),
-            (&landscape.separatrices, Role::Separatrix, SEPARATRIX),
-        ];
-        for (curves, role, layer) in kinds {
-            let pen = Pen::shaded(look.theme.line(role), layer);
-            for curve in curves {
-                raster.polyline(&frame, curve.iter().copied(), &pen);
-            }
-        }
+        levels(canvas, &mut raster, &frame, landscape);
         let pen = Pen::shaded(look.theme.line(Role::Separatrix), SEPARATRIX);
         for saddle in &landscape.saddles {
             raster.marker(&frame, *saddle, Marker::Cross, &pen);
@@ -83,4 +85,36 @@ pub(super) fn draw(
     raster.draw(canvas.buffer);
     cursor::draw(canvas, area, &frame, (*lens, &marks));
     Some(frame)
+}
+
+/// Separatrices, and as many levels of the energy as have room beside each other.
+fn levels(canvas: &Canvas<'_>, raster: &mut Raster, frame: &Frame, landscape: &Landscape) {
+    let look = canvas.look;
+    let crowded = look.glyphs.pick(CROWDED[1], CROWDED[0]);
+    let plain = Pen::new(Style::new(), 0);
+    let trace = |raster: &mut Raster, curves: &[Curve], pen: &Pen| {
+        for curve in curves {
+            raster.polyline(frame, curve.iter().copied(), pen);
+        }
+    };
+    let blank = Raster::new(frame.area, look.glyphs);
+    let pen = Pen::shaded(look.theme.line(Role::Separatrix), SEPARATRIX);
+    trace(raster, &landscape.separatrices, &pen);
+    let mut drawn = blank.clone();
+    trace(&mut drawn, &landscape.separatrices, &plain);
+    let pen = Pen::shaded(look.theme.line(Role::Level), LEVELS);
+    let roomy = frame.area.area() > ROOMY && !look.glyphs.is_ascii();
+    for level in &landscape.levels {
+        if roomy {
+            trace(raster, level, &pen);
+            continue;
+        }
+        // Curves that fill the same cells are no curves any more.
+        let mut alone = blank.clone();
+        trace(&mut alone, level, &plain);
+        if alone.shared(&drawn) <= crowded {
+            trace(raster, level, &pen);
+            trace(&mut drawn, level, &plain);
+        }
+    }
 }

@@ -6,13 +6,14 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::canvas::{Canvas, columns, row};
+use super::found::found_in;
 use super::layout::{split_columns, split_rows};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
 use super::{phase, potential, series, space};
-use crate::app::{App, Picker, Plot, Spot};
+use crate::app::{App, Fit, Picker, Plot, Spot};
 use crate::preset::{Entry, Origin};
 
 /// Columns of the list where something stands beside it.
@@ -57,11 +58,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 /// A line of the list.
 enum Line<'a> {
     Topic(&'a str),
-    System(usize, &'a Entry),
+    System(usize, &'a Entry, &'a Fit),
 }
 
 fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
-    let shown = picker.shown();
+    let shown = picker.found();
     let count = format!("{} of {}", shown.len(), picker.entries.len());
     let mut title = vec![canvas.span(Role::Title, "Systems")];
     if picker.search.is_some() {
@@ -78,16 +79,17 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let mut lines: Vec<Line<'_>> = Vec::new();
     let mut topic = None;
     let mut here = 0;
-    for (place, &index) in shown.iter().enumerate() {
-        let entry = &picker.entries[index];
-        if topic != Some(entry.topic()) {
+    for (place, (index, fit)) in shown.iter().enumerate() {
+        let entry = &picker.entries[*index];
+        // What is found stands in the order in which it fits, not by topic.
+        if picker.sought().is_none() && topic != Some(entry.topic()) {
             topic = Some(entry.topic());
             lines.push(Line::Topic(entry.topic()));
         }
         if place == picker.selected {
             here = lines.len();
         }
-        lines.push(Line::System(place, entry));
+        lines.push(Line::System(place, entry, fit));
     }
     let rows = usize::from(body.height);
     let first = window(here, lines.len(), rows);
@@ -97,14 +99,15 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             Line::Topic(topic) => {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
-            Line::System(place, entry) => {
+            Line::System(place, entry, fit) => {
                 canvas.spot(area, Spot::System(*place));
                 let selected = *place == picker.selected;
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
                 let name = columns(area, 3, area.width.saturating_sub(4));
-                canvas.left(name, role, &entry.info.title);
+                let title = found_in(canvas, &entry.info.title, (fit, role));
+                canvas.spans(name, &title);
                 if selected {
                     canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
                 }

@@ -5,7 +5,7 @@
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, Span, groups};
 use super::cursor;
 use super::marks::Marks;
 use super::number::readable;
@@ -31,19 +31,26 @@ const SHADE: f64 = 0.12;
 const BEYOND: f64 = 0.4;
 
 /// The heading: what is shown, and the present values.
-pub(super) fn title(canvas: &Canvas<'_>, q: &Quantities<'_>, shown: &Potential) -> Vec<Span> {
+pub(super) fn title(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    shown: &Potential,
+    room: usize,
+) -> Vec<Span> {
     let title = if shown.title.is_empty() { "Potential" } else { &shown.title };
-    let mut spans = vec![canvas.span(Role::Title, title)];
+    let mut pieces = vec![vec![canvas.span(Role::Title, title)]];
     let energy = readable(shown.energy, 4, canvas.look.glyphs);
     for (name, value) in [
         (q.name(shown.x), readable(q.value(shown.x), 4, canvas.look.glyphs)),
         (q.name(shown.y), readable(q.value(shown.y), 4, canvas.look.glyphs)),
         ("E".to_owned(), energy),
     ] {
-        spans.push(canvas.span(Role::Dim, format!("  {name}")));
-        spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+        pieces.push(vec![
+            canvas.span(Role::Dim, format!("  {name}")),
+            canvas.span(Role::Accent, format!(" {value:<8}")),
+        ]);
     }
-    spans
+    groups(pieces, room)
 }
 
 /// Draws the picture, and says where its axes stand.

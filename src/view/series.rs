@@ -4,7 +4,7 @@
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, Span, groups, wide};
 use super::colour::ColourDepth;
 use super::cursor;
 use super::marks::{self, Marks};
@@ -21,27 +21,46 @@ const SECONDS: f64 = 20.0;
 const MARK: u8 = 201;
 const NOW: u8 = 202;
 
-/// The heading: each quantity in its colour with its present value.
+/// The heading: each quantity in its colour with its present value; where not all have room, without the values.
 pub(super) fn title(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
-    (channels, title): (&[usize], &str),
+    (channels, title): (&[usize], Option<&str>),
+    room: usize,
 ) -> Vec<Span> {
-    let mut spans = vec![canvas.span(Role::Title, title)];
-    for (index, channel) in channels.iter().enumerate() {
+    let head = |title: &str| vec![canvas.span(Role::Title, title)];
+    let named =
+        || channels.iter().enumerate().map(|(index, channel)| key(canvas, q, index, *channel));
+    let valued = named().zip(channels).map(|(mut key, channel)| {
         let value = readable(q.value(*channel), 4, canvas.look.glyphs);
-        let theme = &canvas.look.theme;
-        let [unicode, ascii] = theme.series(index).dash.sample();
-        let sample = canvas.look.glyphs.pick(unicode, ascii);
-        // A colour is seen on one character, a pattern on three.
-        let plain = theme.depth() != ColourDepth::None;
-        let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
-        spans.push((format!("  {mark} "), theme.curve(index)));
-        spans.push(canvas.span(Role::Dim, q.name(*channel)));
-        spans.push(canvas.span(Role::Accent, format!(" {value:<8}")));
-    }
-    spans.extend(marks::legend(canvas, q));
-    spans
+        key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+        key
+    });
+    let (valued, mut named): (Vec<_>, Vec<_>) = (valued.collect(), named().collect());
+    let whole = [head(title.unwrap_or("Time")), valued.concat()].concat();
+    let pieces = if wide(&whole) <= room {
+        [vec![head(title.unwrap_or("Time"))], valued, vec![marks::legend(canvas, q)]].concat()
+    } else if let Some(title) = title {
+        [vec![head(title)], named].concat()
+    } else {
+        // What a curve is called is worth more than that it runs with time.
+        if let Some((first, _)) = named.first_mut().and_then(|key| key.first_mut()) {
+            *first = first.trim_start().to_owned();
+        }
+        named
+    };
+    groups(pieces, room)
+}
+
+/// How a curve is drawn, and what it is called.
+fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
+    let theme = &canvas.look.theme;
+    let [unicode, ascii] = theme.series(index).dash.sample();
+    let sample = canvas.look.glyphs.pick(unicode, ascii);
+    // A colour is seen on one character, a pattern on three.
+    let plain = theme.depth() != ColourDepth::None;
+    let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
+    vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 
 /// Draws the picture, and says where its axes stand.

@@ -21,7 +21,7 @@ const NUMBER: u16 = 10;
 
 /// The most columns of a name and of a unit.
 const NAME: u16 = 12;
-const UNIT: u16 = 9;
+const UNIT: u16 = 11;
 
 /// Where the columns of a list stand: as wide as its longest name and unit.
 struct Columns {

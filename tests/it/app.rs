@@ -5,5 +5,6 @@ mod keys;
 pub(crate) mod real;
 mod saved;
 mod scripts;
+mod search;
 mod values;
 mod workbench;

@@ -1,5 +1,6 @@
 //! The screen, from snapshots made by hand: text and styles, any size, any terminal.
 
+mod cells;
 mod golden;
 mod motion;
 mod panes;

@@ -6,6 +6,7 @@
 
 mod cloud;
 mod hand;
+mod letter;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -17,6 +18,7 @@ use crate::expr::portable;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
 use hand::Hand;
+use letter::letter;
 
 /// More cells than this in a row or column are not drawn; no terminal has them.
 const MOST_CELLS: u16 = 1024;
@@ -95,7 +97,9 @@ impl Marker {
 struct Spot {
     /// One bit per dot, row by row, the left dot of a row first.
     dots: u8,
-    /// A character in place of the dots: a marker, or the direction of a line in ASCII.
+    /// Those of the layer that gives the style; ASCII, which cannot show all that cross, shows these.
+    upper: u8,
+    /// A character in place of the dots: a marker, or in ASCII the age of a trail.
     sign: Option<char>,
     /// Layer and freshness of the style, and whether it is a marker's; the greatest wins.
     rank: (u8, bool, u8),
@@ -122,6 +126,20 @@ impl Raster {
     /// The dots set so far.
     pub fn count(&self) -> usize {
         self.spots.iter().map(|spot| spot.dots.count_ones() as usize).sum()
+    }
+
+    /// Of the cells with dots, the share in which another raster of the same area has dots too, in ASCII also in the cells
+    /// beside; 0 if there are none.
+    pub fn shared(&self, other: &Self) -> f64 {
+        let wide = usize::from(self.area.width).max(1);
+        let near = |i: usize| {
+            let column = i % wide;
+            let reach = usize::from(self.glyphs.is_ascii());
+            let [from, to] = [i - column.min(reach), i + reach.min(wide - 1 - column)];
+            other.spots[from..=to].iter().any(|spot| spot.dots != 0)
+        };
+        let inked = || (0..self.spots.len()).filter(|i| self.spots[*i].dots != 0);
+        inked().filter(|i| near(*i)).count() as f64 / inked().count().max(1) as f64
     }
 
     /// Whether a dot is set; `[0, 0]` is the upper left one.
@@ -228,7 +246,7 @@ impl Raster {
                 (None, Glyphs::Quadrant) => QUADRANTS[usize::from(spot.dots & 0xf)],
                 (None, Glyphs::Sextant) => SEXTANTS[usize::from(spot.dots & 0x3f)],
                 (None, Glyphs::Octant) => OCTANTS[usize::from(spot.dots)],
-                (None, Glyphs::Ascii) => '.',
+                (None, Glyphs::Ascii) => letter(spot.upper),
             };
             let x = u32::from(self.area.x) + (index % width) as u32;
             let y = u32::from(self.area.y) + (index / width) as u32;
@@ -243,18 +261,29 @@ impl Raster {
     }
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
-        if pen.coverage < 1.0 && noise(dot) >= pen.coverage {
+        let Some((cell, bit)) = self.place(dot) else { return };
+        // A character in ASCII is there or not; its parts are not thinned.
+        let [wide, high] = if self.glyphs.is_ascii() { self.cell() } else { [1, 1] };
+        if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
             return;
         }
-        let Some((cell, bit)) = self.place(dot) else { return };
         let spot = &mut self.spots[cell];
         spot.dots |= bit;
         let rank = (pen.layer, false, pen.fresh);
+        if pen.layer >= spot.rank.0 {
+            spot.upper = if pen.layer > spot.rank.0 { bit } else { spot.upper | bit };
+        }
         if rank >= spot.rank {
             spot.rank = rank;
             spot.style = pen.style;
             spot.sign = sign;
         }
+    }
+
+    /// Dots across and down in a cell.
+    fn cell(&self) -> [i32; 2] {
+        let (wide, high) = self.glyphs.dots();
+        [i32::from(wide), i32::from(high)]
     }
 
     /// The cell and the bit of a dot.

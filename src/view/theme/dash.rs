@@ -54,16 +54,30 @@ impl Dash {
         dots[place.rem_euclid(dots.len() as i32) as usize] == b'#'
     }
 
+    /// The character of which the line is made in ASCII, where patterns cannot be drawn; the full one is drawn by its
+    /// shape.
+    pub fn letter(self) -> Option<char> {
+        match self {
+            Self::Full => None,
+            Self::Dashed => Some('+'),
+            Self::Dotted => Some('.'),
+            Self::DashDot => Some('x'),
+            Self::DashDotDot => Some('*'),
+            Self::Sparse => Some(':'),
+            Self::Long => Some('%'),
+        }
+    }
+
     /// The pattern in three characters, for a heading: in Unicode, and in ASCII.
     pub fn sample(self) -> [&'static str; 2] {
         match self {
             Self::Full => ["━━━", "---"],
-            Self::Dashed => ["━ ━", "- -"],
+            Self::Dashed => ["━ ━", "+++"],
             Self::Dotted => ["···", "..."],
-            Self::DashDot => ["━·━", "-.-"],
-            Self::DashDotDot => ["━··", "-.."],
-            Self::Sparse => ["· ·", ". ."],
-            Self::Long => ["━━ ", "-- "],
+            Self::DashDot => ["━·━", "xxx"],
+            Self::DashDotDot => ["━··", "***"],
+            Self::Sparse => ["· ·", ":::"],
+            Self::Long => ["━━ ", "%%%"],
         }
     }
 }

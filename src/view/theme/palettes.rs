@@ -100,7 +100,7 @@ const LIGHT: Palette = Palette {
         ink(0x00_5f_9e, Color::Blue, NONE, BOLD),
         own(BOLD, UNDERLINED),
         ink(0x9a_9e_ac, Color::DarkGray, NONE, DIM),
-        ink(0xa0_4a_00, Color::Red, BOLD, NONE),
+        ink(0xa0_4a_00, Color::Blue, BOLD, NONE),
         ink(0x00_6e_3a, Color::Reset, NONE, NONE),
         ink(0x8a_5a_00, Color::Magenta, NONE, UNDERLINED),
         ink(0xb8_1c_1c, Color::Red, BOLD, REVERSED),

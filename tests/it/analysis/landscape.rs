@@ -67,7 +67,7 @@ fn the_double_well_has_a_figure_of_eight() {
 fn an_oscillator_has_ellipses_and_no_separatrix() {
     let found = survey("harmonic-oscillator", &[], Form::Momentum, [[-1.0, 1.0], [-1.0, 1.0]]);
     assert!(found.saddles.is_empty() && found.separatrices.is_empty());
-    let closed = found.levels.iter().filter(|curve| curve.first() == curve.last());
+    let closed = found.levels.iter().flatten().filter(|curve| curve.first() == curve.last());
     assert!(closed.count() >= 4, "{} curves", found.levels.len());
 }
 

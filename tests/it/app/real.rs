@@ -224,6 +224,33 @@ fn what_is_taken_back_is_shown() {
     assert_eq!(real.lab().focus, phaselab::app::Pane::Parameters);
 }
 
+#[test]
+fn undo_and_redo_tell_what_went_where() {
+    let told = |real: &Real| real.app.notice.as_ref().map(|n| n.text.clone()).unwrap_or_default();
+    let check = |keys: &str, undone: &str, redone: &str| {
+        let mut real = Real::of("pendulum");
+        real.press(keys);
+        real.press("u");
+        assert_eq!(told(&real), undone, "{keys}");
+        real.press("U");
+        assert_eq!(told(&real), redone, "{keys}");
+    };
+    check("Right", "undone: m 1.02 → 1", "redone: m 1 → 1.02");
+    check("Tab Right", "undone: initial θ 2.01 → 2", "redone: initial θ 2 → 2.01");
+    check("m Down Enter", "undone: method leapfrog → taylor", "redone: method taylor → leapfrog");
+    check(
+        "m Down Enter s Ctrl-u . 0 2 Enter",
+        "undone: step 0.02 → by itself",
+        "redone: step by itself → 0.02",
+    );
+    check("R", "undone: the reset to the file's values", "redone: the reset to the file's values");
+    check(
+        "Tab Tab Tab Tab +",
+        "undone: what is shown of p_θ against θ",
+        "redone: what is shown of p_θ against θ",
+    );
+}
+
 /// Edits of every kind, and the keys between them that lead there.
 const EDITS: [&str; 24] = [
     "Right",

@@ -97,7 +97,7 @@ fn names_people_give() {
 #[test]
 fn ascii_spells_what_it_cannot_show() {
     let check = |text: &str, expected: &str| assert_eq!(Ascii.text(text), expected);
-    check("θ̇₁ [rad/s]", "theta'1 [rad/s]");
+    check("θ̇₁ [rad/s]", "theta1' [rad/s]");
     check("½ m l² θ̇² + m g l cos θ", "1/2 m l^2 theta'^2 + m g l cos theta");
     check("kg m² s⁻¹⁰", "kg m^2 s^-10");
     check("∂L/∂φ = 0 ⇒ p_φ − const", "dL/dphi = 0 => p_phi - const");

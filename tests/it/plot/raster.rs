@@ -289,3 +289,46 @@ fn patterns_run_along_lines_of_every_slope() {
         }
     }
 }
+
+#[test]
+fn in_ascii_a_curve_is_a_curve() {
+    let area = Rect::new(0, 0, 24, 4);
+    let wave = |x: f64| 0.5 + 0.46 * (std::f64::consts::TAU * x).sin();
+    let points = (0..=500).map(|i| f64::from(i) / 500.0).map(|x| [x, wave(x)]);
+    let buffer = drawn(area, Glyphs::Ascii, |raster| raster.polyline(&unit(area), points, &PLAIN));
+    let seen = rows(&buffer);
+    // in each column something, and from column to column no hole
+    let row = |x: usize| seen.iter().position(|line| line.chars().nth(x).is_some_and(|c| c != ' '));
+    let heights: Vec<usize> = (0..24).map(|x| row(x).expect("a character")).collect();
+    assert!(heights.windows(2).all(|pair| pair[0].abs_diff(pair[1]) <= 1), "{seen:#?}");
+    assert!(seen.concat().chars().filter(|c| "|+#X".contains(*c)).count() == 0, "{seen:#?}");
+}
+
+#[test]
+fn in_ascii_lines_without_colour_are_made_of_letters() {
+    let area = Rect::new(0, 0, 6, 1);
+    let line = |dash| {
+        let pen = Pen { dash, ..PLAIN };
+        let draw = |raster: &mut Raster| raster.line(&unit(area), [0.0, 0.5], [1.0, 0.5], &pen);
+        rows(&drawn(area, Glyphs::Ascii, draw)).concat()
+    };
+    let all: Vec<String> = Dash::ALL.into_iter().map(line).collect();
+    assert_eq!(all, ["------", "++++++", "......", "xxxxxx", "******", "::::::", "%%%%%%"]);
+    for (dash, line) in Dash::ALL.into_iter().zip(&all) {
+        assert!(line.starts_with(dash.sample()[1]), "the heading shows the same");
+    }
+}
+
+#[test]
+fn shared_cells_are_a_part_of_those_with_dots() {
+    let area = Rect::new(0, 0, 10, 1);
+    let raster = |from: f64, to: f64| {
+        let mut raster = Raster::new(area, Glyphs::Ascii);
+        raster.line(&unit(area), [from, 0.5], [to, 0.5], &PLAIN);
+        raster
+    };
+    assert_eq!(raster(0.0, 0.5).shared(&raster(0.75, 1.0)), 0.0);
+    assert_eq!(raster(0.0, 1.0).shared(&raster(0.0, 1.0)), 1.0);
+    assert_eq!(raster(0.0, 0.999).shared(&raster(0.0, 0.39)), 0.5, "beside counts too");
+    assert_eq!(Raster::new(area, Glyphs::Ascii).shared(&raster(0.0, 1.0)), 0.0);
+}

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Lens, Plot};
+use phaselab::app::{App, Event, Lens, Notice, Plot};
 use phaselab::experiment::{Growth, Status, Verdict};
 use phaselab::integrate::{Happening, Kind};
 use phaselab::model::{Shape, ViewKind};
@@ -13,7 +13,6 @@ use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
 use ratatui::style::Modifier;
-use unicode_width::UnicodeWidthStr;
 
 use super::{find, rich, rows, screen};
 use crate::hand::{at_picker, gauge, in_lab, loaded, lowered, pendulum, press, snapshot};
@@ -106,11 +105,10 @@ fn verdicts_have_their_colours() {
 }
 
 #[test]
-fn a_velocity_takes_one_cell() {
+fn a_velocity_has_a_prime_in_a_cell_of_its_own() {
     let buffer = screen(&in_lab(), &rich(), (120, 40));
-    let (x, y) = find(&buffer, "θ\u{307}").unwrap();
-    assert_eq!(buffer[(x, y)].symbol(), "θ\u{307}");
-    assert_eq!(buffer[(x, y)].symbol().width(), 1);
+    let (x, y) = find(&buffer, "θ′ ").unwrap();
+    assert_eq!([buffer[(x, y)].symbol(), buffer[(x + 1, y)].symbol()], ["θ", "′"]);
 }
 
 #[test]
@@ -198,12 +196,8 @@ fn the_equations_are_written_in_mathematics() {
     let mut app = in_lab();
     press(&mut app, "2");
     let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
-    for line in [
-        "L = ½ m l² θ\u{307}² + m l g cos θ",
-        "p_θ = m l² θ\u{307}",
-        "θ\u{308} = −g sin θ/l",
-        "∂L/∂t = 0",
-    ] {
+    for line in ["L = ½ m l² θ′² + m l g cos θ", "p_θ = m l² θ′", "θ″ = −g sin θ/l", "∂L/∂t = 0"]
+    {
         assert!(text.contains(line), "{line} in\n{text}");
     }
 }
@@ -226,7 +220,7 @@ fn what_happened_is_marked_where_it_was_and_named() {
     assert_eq!(signs(&buffer), 2 + 2 + 1, "{:#?}", rows(&buffer));
     assert!(find(&buffer, "◆ push").is_some());
     // the mark of t = 1 in the time series stands above that time
-    press(&mut app, "Shift-Tab z");
+    press(&mut app, "Shift-Tab Shift-Tab z");
     let buffer = screen(&app, &look, (120, 40));
     let columns: Vec<u16> =
         (1..120).filter(|&x| (2..38).any(|y| buffer[(x, y)].symbol() == "◆")).collect();
@@ -435,11 +429,10 @@ fn news_are_told_one_after_the_other_and_leave_the_hints_room() {
     app.update(Event::Snapshot(Arc::new(before)));
     app.update(Event::Tick(Duration::from_secs(6)));
     app.update(Event::Snapshot(Arc::new(seen)));
-    let footer = |app: &App| rows(&screen(app, &rich(), (80, 24)))[23].clone();
     for news in ["the bob passed", "the bob came back"] {
-        let footer = footer(&app);
-        assert!(footer.contains(news), "{footer}");
-        assert!(footer.contains("? help") && footer.contains("q quit"), "{footer}");
+        let rows = rows(&screen(&app, &rich(), (80, 24)));
+        assert!(rows[21].contains(news), "{rows:#?}");
+        assert!(rows[23].contains("? help") && rows[23].contains("q quit"), "{rows:#?}");
         app.update(Event::Tick(Duration::from_millis(2100)));
     }
     app.update(Event::Tick(Duration::from_secs(6)));
@@ -482,14 +475,16 @@ fn the_reason_of_a_gauge_is_read_in_full_where_it_is_narrow() {
 fn a_view_of_any_kind_is_called_what_the_file_calls_it() {
     let text = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
         L = \"1/2*x'^2 - x^2\"\n[[views]]\nkind = 'phase'\nx = 'x'\ny = 'p_x'\n\
-        title = 'The plane'\n[[views]]\nkind = 'time'\ny = 'x'\ntitle = 'The swing'\n";
+        title = 'The plane'\n[[views]]\nkind = 'time'\ny = 'x'\ntitle = 'The swing'\n\
+        [[views]]\nkind = 'space'\ntitle = 'The track'\n[[views]]\nkind = 'potential'\n\
+        x = 'x'\ny = 'x^2'\ntitle = 'The well'\n[space]\nshapes = [{ mass = ['x', '0', '0'] }]\n";
     let loaded = lowered(text);
     let mut app = in_lab();
     let seen = snapshot(&loaded, 1.0);
     app.update(Event::Loaded(Ok(loaded)));
     app.update(Event::Snapshot(Arc::new(seen)));
-    let buffer = screen(&app, &rich(), (120, 40));
-    for title in ["The plane", "The swing"] {
+    let buffer = screen(&app, &rich(), (200, 60));
+    for title in ["The plane", "The swing", "The track", "The well"] {
         let (x, y) = find(&buffer, title).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
         assert_eq!(buffer[(x, y)].fg, rich().theme[Role::Title].fg.unwrap());
     }
@@ -515,7 +510,7 @@ fn a_narrow_screen_shows_the_motion_too() {
 #[test]
 fn several_curves_are_told_apart_without_colour() {
     let mut app = in_lab();
-    press(&mut app, "Tab Tab Tab v Down Enter Tab Down Tab Down Tab Enter z");
+    press(&mut app, "Tab Tab Tab v Down Down Enter Tab Down Tab Down Tab Enter z");
     for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
         let look = Look { theme: Theme::dark(ColourDepth::None), glyphs };
         let buffer = screen(&app, &look, (120, 40));
@@ -606,4 +601,103 @@ fn a_circular_orbit_is_round() {
     real.press("Tab Tab Tab Tab z");
     let [wide, high] = extent(&screen(&real.app, &rich(), (200, 60)));
     assert!(wide > 1.5 * high, "unasked it fills the pane");
+}
+
+#[test]
+fn a_notice_leaves_the_keys_in_sight() {
+    let long = "a word and another ".repeat(12);
+    for (text, size) in [("struck", (80, 24)), (long.as_str(), (80, 24)), ("struck", (40, 10))] {
+        let mut app = in_lab();
+        let before = rows(&screen(&app, &rich(), size));
+        app.notice = Some(Notice::info(text));
+        let after = rows(&screen(&app, &rich(), size));
+        let last = usize::from(size.1) - 1;
+        assert_eq!(after[last - 1..], before[last - 1..], "status and keys are as they were");
+        let told: String = after[..last - 1].join(" ");
+        for word in text.split_whitespace() {
+            assert!(told.contains(word), "{after:#?}");
+        }
+        assert_eq!(after[..last - 4], before[..last - 4], "it takes a few rows at most");
+    }
+}
+
+#[test]
+fn what_is_found_is_marked_and_topics_are_headings_only_of_the_whole_list() {
+    let look = rich();
+    let mut app = at_picker();
+    let whole = rows(&screen(&app, &look, (80, 24))).join("\n");
+    assert!(whole.contains("│ Pendulum "), "{whole}");
+    press(&mut app, "/ p e n d");
+    let buffer = screen(&app, &look, (80, 24));
+    let text = rows(&buffer).join("\n");
+    assert!(!text.contains("│ Pendulum "), "{text}");
+    let (x, y) = find(&buffer, "Spherical pendulum").unwrap();
+    let marked: String = (x..x + 18)
+        .filter(|x| buffer[(*x, y)].modifier.contains(Modifier::UNDERLINED))
+        .map(|x| buffer[(x, y)].symbol().to_owned())
+        .collect();
+    assert_eq!(marked, "pend");
+}
+
+#[test]
+fn the_palette_names_keys_and_says_what_it_had_to_cut() {
+    let ascii = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let mut app = in_lab();
+    press(&mut app, ": c o a r s e");
+    let text = rows(&screen(&app, &ascii, (80, 24))).join("\n");
+    assert!(text.contains("Shift-Left H -") && text.contains("Shift-Right L + ="), "{text}");
+    let mut app = in_lab();
+    press(&mut app, ": p a g e Space 9");
+    let narrow = rows(&screen(&app, &ascii, (60, 24))).join("\n");
+    assert!(narrow.contains("line by line"), "what the line cuts stands below: {narrow}");
+    let wide = rows(&screen(&app, &rich(), (160, 50))).join("\n");
+    assert!(wide.contains("to be read line by line"), "{wide}");
+}
+
+#[test]
+fn a_gauge_says_in_full_why_it_is_watched() {
+    let mut app = in_lab();
+    let why = "[G, H] + ∂G/∂t = 0, proved by the canonical bracket";
+    let mut watched = gauge("area", "area", 1.0, Verdict::Bounded);
+    watched.reason = why.to_owned();
+    let mut seen = snapshot(&pendulum(), 2.0);
+    seen.gauges = vec![watched; 9].into();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    press(&mut app, "Tab Tab");
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        let text = rows(&screen(&app, &rich(), size));
+        let joined = text.join(" ").replace('│', " ");
+        let words: Vec<&str> = joined.split_whitespace().collect();
+        assert!(words.join(" ").contains("proved by the canonical bracket"), "{size:?}: {text:#?}");
+    }
+}
+
+#[test]
+fn observed_quantities_have_their_units_on_axes() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = 1.0, unit = 'm' }\n\
+        [parameters]\nm = { value = 1.0, unit = 'kg' }\nk = { value = 1.0, unit = 'kg/s²' }\n\
+        [lagrangian]\nL = \"1/2*m*x'^2 - 1/2*k*x^2\"\n\
+        [[observables]]\nname = 'stored'\nexpression = '1/2*k*x^2'\n\
+        [[observables]]\nname = 'ratio'\nexpression = 'x/x'\n";
+    let loaded = lowered(text);
+    let unit = |name: &str| {
+        let channel = loaded.system.channels().iter().find(|c| c.name == name).unwrap();
+        channel.unit.clone()
+    };
+    assert_eq!(["p_x", "stored", "ratio", "energy"].map(unit), ["kg m/s", "J", "", "J"]);
+}
+
+#[test]
+fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
+    let (app, _) = {
+        let loaded = loaded("rolling-race", 1);
+        let seen = snapshot(&loaded, 1.0);
+        let (mut app, effects) = App::new(crate::hand::catalog(), Some("rolling-race"));
+        app.update(Event::Loaded(Ok(loaded)));
+        app.update(Event::Snapshot(Arc::new(seen)));
+        (app, effects)
+    };
+    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
+    assert!(text.contains("--- x1  +++ x2  ... x3"), "{text}");
 }

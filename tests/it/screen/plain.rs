@@ -42,6 +42,7 @@ fn everything_on_the_screen_can_be_read() {
         press(&mut app, "1 9");
         let text = text(&app);
         let told = |what: &str| {
+            let what = Glyphs::Braille.text(what);
             let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(text.contains(&what), "{name}: {what} in {text}");
         };

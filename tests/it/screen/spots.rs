@@ -64,7 +64,8 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
             match spot {
                 Spot::Value(target) | Spot::Bar { target, .. } => {
-                    named(&app.lab.as_ref().unwrap().facts(target).unwrap().shown);
+                    let shown = app.lab.as_ref().unwrap().facts(target).unwrap().shown;
+                    named(&rich().glyphs.text(&shown));
                 }
                 // Every second row of a gauge holds its numbers.
                 Spot::Gauge(_) => assert!(!row.contains("verdict"), "{row}"),
@@ -125,8 +126,10 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
             let mut marked = app.clone();
             let lab = marked.lab.as_mut().unwrap();
             let lens = match &mut lab.plots[index] {
-                Plot::Phase { lens, .. } | Plot::Time { lens, .. } => lens,
-                other => panic!("{other:?} has no axes"),
+                Plot::Phase { lens, .. }
+                | Plot::Time { lens, .. }
+                | Plot::Potential { lens, .. } => lens,
+                other @ Plot::Space(_) => panic!("{other:?} has no axes"),
             };
             lens.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
@@ -229,7 +232,7 @@ fn the_wheel_zooms_about_the_place_under_it() {
             let mut real = Real::of("pendulum");
             real.run(900);
             if size.0 == 80 && picture == 2 {
-                real.press("Shift-Tab");
+                real.press("Shift-Tab Shift-Tab");
             }
             let (x, y) = inside(&real.app, size, picture);
             let place = (x + 6, y - 2);

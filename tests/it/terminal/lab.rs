@@ -170,11 +170,11 @@ fn a_narrow_line_is_kept_to() {
 #[test]
 fn frames_a_second_are_shown_and_changed() {
     let mut lab = lab(&["pendulum", "--fps", "20"]).start();
-    lab.shows("/20  fps");
+    lab.shows("/20 fps");
     lab.press("<");
-    lab.shows("/15  fps");
+    lab.shows("/15 fps");
     lab.press("<<<");
-    lab.shows("/2   fps");
+    lab.shows("/2 fps");
     lab.quiet(Duration::from_millis(300));
     let frames = lab.frames_in(Duration::from_secs(2));
     assert!((1..=5).contains(&frames), "{frames} frames in two seconds");
@@ -182,7 +182,7 @@ fn frames_a_second_are_shown_and_changed() {
 
     let mut calm =
         Setup::new(PROGRAM, &["pendulum", "--reduce-motion", "--fps", "60"]).size(120, 40).start();
-    calm.shows("/4   fps");
+    calm.shows("/4 fps");
     let frames = calm.frames_in(Duration::from_secs(2));
     assert!(frames <= 9, "{frames} frames in two seconds");
     calm.press(">");

@@ -8,8 +8,8 @@ use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::{Frame, Scale};
 use crate::view::plot::stroke::{Tip, clip};
 
-/// What a dot of a line is drawn with: the pen, the character in place of the dot, the axis along which the line runs.
-type Ink<'p> = (&'p Pen, Option<char>, usize);
+/// What covers less than this is shading, in ASCII of single dots, and no line.
+const FAINT: f64 = 0.3;
 
 /// Draws through points in data coordinates; [`Hand::rest`] ends the line.
 pub(super) struct Hand<'a, 'p> {
@@ -83,32 +83,56 @@ impl<'a, 'p> Hand<'a, 'p> {
     }
 
     fn stroke(&mut self, from: [f64; 2], next: [f64; 2], pen: &'p Pen) {
-        let last = self.size.map(|n| n - 1);
+        let sign = self.sign(pen);
+        // What is written by signs goes from cell to cell.
+        let grid = if sign.is_some() { self.raster.cell() } else { [1, 1] };
+        let count = [0, 1].map(|i| self.size[i] / grid[i]);
         let inside = clip(from, next, self.size.map(f64::from));
-        let Some((a, b)) = inside.filter(|_| !last.contains(&-1)) else { return self.lift() };
-        let sign = (self.raster.glyphs == Glyphs::Ascii).then(|| match self.fading {
-            Some((age, ages)) => faded(age, ages),
-            None => direction(b[0] - a[0], b[1] - a[1]),
-        });
+        let Some((a, b)) = inside.filter(|_| !count.contains(&0)) else { return self.lift() };
+        let (last, whole) = (count.map(|n| n - 1), b == next);
+        let [a, b] = [a, b].map(|point| [0, 1].map(|i| point[i] / f64::from(grid[i])));
         // The axis along which the line runs, and its pattern with it.
         let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+        let ink = Ink { pen, sign, along, grid };
         let raster = &mut *self.raster;
-        self.tip.follow((a, b), last, (pen, sign, along), |dot, ink| put(raster, dot, ink));
-        if b != next {
+        self.tip.follow((a, b), last, ink, |dot, ink| ink.put(raster, dot));
+        if !whole {
             self.lift();
         }
     }
 
+    /// In ASCII, the sign that tells the age of a trail, or which of several lines this is.
+    fn sign(&self, pen: &Pen) -> Option<char> {
+        if self.raster.glyphs != Glyphs::Ascii {
+            return None;
+        }
+        let faint = (pen.coverage < FAINT).then_some('.');
+        self.fading.map(|(age, ages)| faded(age, ages)).or(pen.dash.letter()).or(faint)
+    }
+
     fn lift(&mut self) {
         let raster = &mut *self.raster;
-        self.tip.lift(|dot, ink| put(raster, dot, ink));
+        self.tip.lift(|dot, ink| ink.put(raster, dot));
     }
 }
 
-/// Inks a dot of a line unless it falls in a gap of the pattern.
-fn put(raster: &mut Raster, dot: [i32; 2], (pen, sign, along): Ink<'_>) {
-    if pen.dash.covers(dot[along]) {
-        raster.ink(dot, pen, sign);
+/// What a dot of a line is put down with.
+#[derive(Clone, Copy)]
+struct Ink<'p> {
+    pen: &'p Pen,
+    sign: Option<char>,
+    along: usize,
+    grid: [i32; 2],
+}
+
+impl Ink<'_> {
+    /// Inks a dot of a line unless it falls in a gap of the pattern.
+    fn put(&self, raster: &mut Raster, dot: [i32; 2]) {
+        if self.sign.is_some() || self.pen.dash.covers(dot[self.along]) {
+            // the middle of its cell
+            let dot = [0, 1].map(|i| dot[i] * self.grid[i] + self.grid[i] / 2);
+            raster.ink(dot, self.pen, self.sign);
+        }
     }
 }
 
@@ -116,20 +140,4 @@ fn put(raster: &mut Raster, dot: [i32; 2], (pen, sign, along): Ink<'_>) {
 fn faded(age: usize, ages: usize) -> char {
     const AGES: [char; 4] = ['.', ':', '+', 'o'];
     AGES[(age * AGES.len() / ages.max(1)).min(AGES.len() - 1)]
-}
-
-/// The character along a direction given in cells, y downwards.
-fn direction(dx: f64, dy: f64) -> char {
-    let (across, down) = (dx.abs(), dy.abs());
-    if across == 0.0 && down == 0.0 {
-        '.'
-    } else if down < 0.4 * across {
-        '-'
-    } else if across < 0.4 * down {
-        '|'
-    } else if (dx > 0.0) == (dy > 0.0) {
-        '\\'
-    } else {
-        '/'
-    }
 }

@@ -1,0 +1,83 @@
+//! Searching: what is found among the systems and among the actions, and in which order.
+
+use phaselab::app::{App, Event, Over};
+
+use crate::hand::{at_picker, in_lab, press};
+
+/// The names of the systems that a search among them leaves.
+fn systems(query: &str) -> Vec<String> {
+    let mut app = at_picker();
+    press(&mut app, "/");
+    app.update(Event::Paste(query.to_owned()));
+    let shown = app.picker.shown();
+    shown.into_iter().map(|index| app.picker.entries[index].name.clone()).collect()
+}
+
+/// The palette's lines for a search.
+fn lines(app: &App, query: &str) -> Vec<String> {
+    let mut app = app.clone();
+    press(&mut app, ":");
+    app.update(Event::Paste(query.to_owned()));
+    let Some(Over::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    menu.shown().into_iter().map(|index| menu.items[index].label.clone()).collect()
+}
+
+#[test]
+fn a_letter_leaves_the_systems_of_which_a_word_begins_with_it() {
+    let all = at_picker().picker.entries.len();
+    let found = systems("m");
+    assert!(!found.is_empty() && found.len() < all / 4, "{} of {all}", found.len());
+    assert_eq!(found[0], "magnetic-mirror", "a title that begins with it is first");
+    assert!(!found.contains(&"pendulum".to_owned()), "an m within a word is none");
+}
+
+#[test]
+fn the_best_system_is_first() {
+    for (query, first) in [
+        ("pendulum", "pendulum"),
+        ("henon", "henon-heiles"),
+        ("hh", "henon-heiles"),
+        ("ddp", "driven-damped-pendulum"),
+        ("doub pend", "double-pendulum"),
+        ("foucault", "foucault"),
+        ("kepler", "kepler-brackets"),
+    ] {
+        let found = systems(query);
+        assert_eq!(found.first().map(String::as_str), Some(first), "{query}: {found:?}");
+    }
+    assert_eq!(systems("zzz"), [""; 0]);
+    assert_eq!(systems("").len(), at_picker().picker.entries.len());
+}
+
+#[test]
+fn the_palette_begins_with_what_people_do() {
+    let lines = lines(&in_lab(), "");
+    assert!(lines[0].starts_with("pause"), "{lines:?}");
+    let moving = ["the value above", "less, by a fine step", "the first value"];
+    let first = |wanted: &str| lines.iter().position(|line| line.starts_with(wanted));
+    for line in moving {
+        assert!(first(line) > first("open: "), "{line}");
+    }
+    for word in ["step", "reset", "choose the method", "quit", "type l", "type the initial"] {
+        let place = first(word).unwrap_or_else(|| panic!("{word} is missing"));
+        assert!(place < 30, "{word} is line {place}");
+    }
+}
+
+#[test]
+fn the_palette_finds_words_and_not_chance() {
+    let lab = in_lab();
+    for (query, first) in [
+        ("undo", "undo the last"),
+        ("pause", "pause: "),
+        ("quit", "quit: "),
+        ("ene", "measure the drift of energy"),
+        ("theme", "theme: dark"),
+        ("method", "method: "),
+    ] {
+        let found = lines(&lab, query);
+        assert!(found[0].starts_with(first), "{query}: {found:?}");
+    }
+    let chance = lines(&lab, "ene");
+    assert!(!chance.iter().any(|line| line.starts_with("focus the next")), "{chance:?}");
+}
