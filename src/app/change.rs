@@ -4,7 +4,7 @@
 //! them. Never here: which key asks for it, or how the history keeps it.
 
 use super::history::Change;
-use super::{Effect, Lab, Pane, Plot, Target};
+use super::{App, Effect, Lab, Pane, Plot, Target};
 use crate::experiment::{Command, Snapshot, with_given};
 use crate::integrate::Settings;
 use crate::system::Given;
@@ -31,6 +31,33 @@ impl Wishes {
 enum Side {
     Before,
     After,
+}
+
+impl App {
+    /// Gives a value to something, as a person would: it is selected in its list and can be taken back. The same value
+    /// again begins the motion anew where it is an initial one.
+    pub fn give(&mut self, target: Target, value: f64) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        match target {
+            Target::Parameter(index) => lab.selection.parameter = index,
+            Target::Initial(index) => lab.selection.initial = index,
+        }
+        let effects = lab.change(target, value);
+        if !effects.is_empty() {
+            return effects;
+        }
+        vec![Effect::Tell(match target {
+            Target::Parameter(index) => Command::Parameter { index, value },
+            Target::Initial(index) => Command::Initial { index, value },
+        })]
+    }
+
+    /// What is changed from now on until [`App::drop_hold`] is one change.
+    pub fn hold_on(&mut self) {
+        if let Some(lab) = &mut self.lab {
+            lab.history.grip();
+        }
+    }
 }
 
 impl Lab {
@@ -171,6 +198,10 @@ impl Lab {
                     went("step", [before.step, after.step].map(number))
                 }
             }
+            Change::Together(changes) => {
+                let each: Vec<String> = changes.iter().map(|one| self.words(one, side)).collect();
+                each.join(", ")
+            }
         }
     }
 
@@ -218,6 +249,12 @@ impl Lab {
                 let settings = side.of(settings);
                 self.asked.settings = Some(settings);
                 vec![Effect::Tell(Command::Settings(settings))]
+            }
+            Change::Together(mut changes) => {
+                if matches!(side, Side::Before) {
+                    changes.reverse();
+                }
+                changes.into_iter().flat_map(|change| self.carry_out(change, side)).collect()
             }
         }
     }

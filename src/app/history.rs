@@ -51,6 +51,8 @@ pub(super) enum Change {
     Method([&'static str; 2]),
     /// It has another step or tolerance: before, and after.
     Settings([Settings; 2]),
+    /// Several things were changed in one go, in this order.
+    Together(Vec<Change>),
 }
 
 impl Change {
@@ -94,24 +96,30 @@ impl History {
     /// Takes note of a change made now.
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
-        let together = match self.grip {
-            // All that is done while the mouse holds on is one change, however long it takes.
-            Some(before) => self.done.len() > before,
-            None => self.since.is_some_and(|since| since < TOGETHER),
+        let last = self.done.len().saturating_sub(1);
+        let joining = match self.grip {
+            // All that is done while something is held is one change, however long it takes.
+            Some(before) => self.done.get_mut(before..).unwrap_or_default(),
+            None if self.since.is_some_and(|since| since < TOGETHER) => &mut self.done[last..],
+            None => &mut [],
         };
         self.since = Some(Duration::ZERO);
-        if !(together && self.done.last_mut().is_some_and(|last| last.join(&change))) {
+        if !joining.iter_mut().rev().any(|earlier| earlier.join(&change)) {
             self.done.push(change);
         }
     }
 
-    /// The mouse takes hold of something.
+    /// The mouse takes hold of something, or values begin to be carried elsewhere.
     pub(super) fn grip(&mut self) {
         self.grip = Some(self.done.len());
     }
 
-    /// The mouse lets go.
+    /// They are let go; all that was changed meanwhile is taken back as one.
     pub(super) fn release(&mut self) {
+        if let Some(before) = self.grip.filter(|before| self.done.len() > before + 1) {
+            let changes = self.done.split_off(before);
+            self.done.push(Change::Together(changes));
+        }
         (self.grip, self.since) = (None, None);
     }
 

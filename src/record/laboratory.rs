@@ -90,10 +90,8 @@ impl Laboratory {
 
     /// Gives a value to a parameter, or to an initial value.
     pub(super) fn set(&mut self, target: Target, value: f64) {
-        self.tell(match target {
-            Target::Parameter(index) => Command::Parameter { index, value },
-            Target::Initial(index) => Command::Initial { index, value },
-        });
+        let effects = self.app.give(target, value);
+        self.perform(effects);
     }
 
     /// Tells the experiment something.

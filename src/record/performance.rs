@@ -163,8 +163,8 @@ impl Performance {
                 // no frame was left for it
                 UnderWay::Sweep { courses, .. } => {
                     let courses = mem::take(courses);
-                    self.under_way = UnderWay::Nothing;
                     self.carry(&courses, 1.0);
+                    self.end_sweep();
                 }
                 UnderWay::Nothing => {
                     if let Some(beat) = self.step()? {
@@ -227,6 +227,7 @@ impl Performance {
                     format!("{} from {from} to {to}", way.name.text)
                 });
                 let told = told.collect::<Vec<_>>().join(", ");
+                self.lab.app.hold_on();
                 self.pass(time);
                 let count = self.lab.clock.left();
                 self.under_way = UnderWay::Sweep { courses, frame: 0, count };
@@ -291,6 +292,12 @@ impl Performance {
         }
     }
 
+    /// All that it carried is there; a key would take it back as one.
+    fn end_sweep(&mut self) {
+        self.under_way = UnderWay::Nothing;
+        self.lab.app.drop_hold();
+    }
+
     /// Lets time pass; its frames are the next beats.
     fn pass(&mut self, time: Micros) {
         self.begins = true;
@@ -330,10 +337,10 @@ impl Performance {
         if let UnderWay::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;
             let (courses, part) = (courses.clone(), *frame as f64 / *count as f64);
-            if frame == count {
-                self.under_way = UnderWay::Nothing;
-            }
             self.carry(&courses, part);
+            if part >= 1.0 {
+                self.end_sweep();
+            }
         }
         self.lab.tick();
         let now = self.lab.now();

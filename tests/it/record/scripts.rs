@@ -158,6 +158,24 @@ fn several_values_are_swept_at_once() {
 }
 
 #[test]
+fn what_a_script_changes_is_selected() {
+    let recording = played("pendulum", "Size 110x32\nSweep g to 20 in 1s\nAssert screen \"› g \"");
+    assert_eq!(recording.false_claims, []);
+}
+
+#[test]
+fn what_a_script_sets_and_sweeps_is_taken_back_as_one() {
+    let text = "Fps 10\nSet m = 2\nWait 1s\nSweep l from 1.5 to 3 and g to 20 in 2s\nPress u\n\
+                Assert screen \"undone: l 3 → 1, g 20 → 9.81\"\nAssert l = 1 within 0\nAssert g = 9.81 within 0\nAssert m = 2 within 0\n\
+                Press U\nAssert l = 3 within 0\nAssert g = 20 within 0\nPress u x2\n\
+                Assert m = 1 within 0\nAssert l = 1 within 0\n\
+                Set theta = 1\nWait 1s\nSet theta = 1\nAssert t = 0 within 0";
+    let recording = played("pendulum", text);
+    let wrong: Vec<_> = recording.false_claims.iter().map(|claim| &claim.message).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+#[test]
 fn the_account_tells_what_was_done_and_found() {
     let text = "Title \"Ein Pendel\"\nCaption \"It swings\"\nPress z\nWait 1s\nMarker \"One\"\n\
                 Assert t > 1\nAssert t > 9\nWait 1s";
