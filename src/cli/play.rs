@@ -76,7 +76,7 @@ pub(super) fn source(name: Option<&str>) -> Result<Document, Failure> {
     if is_script || (is_path(name) && path.extension().is_none_or(|ending| ending != "toml")) {
         return Document::open(path).map_err(|why| Failure::reading(path, &why));
     }
-    record::own_demo(name)
+    record::own_demo(name, "name a script, as in --demo my.demo")
 }
 
 /// A script, its system, and how that is called on the screen.

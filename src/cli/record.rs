@@ -67,7 +67,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
         Some(path) => Document::open(path).map_err(|why| Failure::reading(path, &why))?,
-        None => own_demo(&arguments.name)?,
+        None => own_demo(&arguments.name, "give one with --script")?,
     };
     let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
     let recording = recorded(&script, &source, &system, &arguments.name, arguments.size)?;
@@ -118,11 +118,11 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
     out.finish()
 }
 
-/// The demo that is shipped with a preset.
-pub(super) fn own_demo(name: &str) -> Result<Document, Failure> {
+/// The demo that is shipped with a preset; where there is none, what can be done instead.
+pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, Failure> {
     demo(name).ok_or_else(|| {
         let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
-        Failure::WrongUse(format!("`{name}` has no demo of its own: give one with --script{near}"))
+        Failure::WrongUse(format!("`{name}` has no demo of its own: {instead}{near}"))
     })
 }
 

@@ -95,7 +95,7 @@ impl Projector {
         cut.then(|| {
             format!(
                 "the cast is {columns}×{rows}, the window {width}×{height}: \
-                 a larger window or a smaller font shows all"
+                 enlarge it, or take a smaller font"
             )
         })
     }

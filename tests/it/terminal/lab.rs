@@ -532,5 +532,5 @@ fn what_is_wrong_with_a_demo_is_told_on_the_restored_terminal() {
     check("my.demo", "Open pendulum\nWait 1s\nSet thta = 1\nWait 1s", 65, "did you mean `theta`?");
     check("my.demo", "Open pendulum\nWiat 1s", 65, "did you mean `Wait`?");
     check("my.demo", "Wait 1s", 65, "does not say which system");
-    check("duffing", "", 2, "has no demo of its own");
+    check("duffing", "", 2, "`duffing` has no demo of its own: name a script");
 }
