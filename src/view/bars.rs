@@ -13,7 +13,7 @@ use super::number::{brief, fitted};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::typing;
-use super::wrap::words;
+use super::wrap::words_in;
 use crate::app::keymap::KEYS;
 use crate::app::{Action, App, Field, Lab, Over, Page, Pane, Purpose, Spot};
 use crate::experiment::{Snapshot, Status};
@@ -27,10 +27,12 @@ const PAGES: [(&str, &str, Page); 5] = [
     ("9", "Plain", Page::Plain),
 ];
 
+/// The program's name.
+const NAME: &str = "phaselab";
+
 /// The program's name, the system's, and the pages.
 pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
-    let mut used = canvas.left(area, Role::Accent, "phaselab");
     let title = match (&app.lab, app.page) {
         (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
         (Some(lab), _) => &lab.loaded.model.info.title,
@@ -39,7 +41,10 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         if app.page == Page::Picker || app.lab.is_none() { Vec::new() } else { tabs(canvas, app) };
     let wide: usize = tabs.iter().map(|(text, _)| text.width()).sum();
     let room = area.width.saturating_sub(wide as u16 + 2);
-    if room > used + 3 {
+    // The pages are worth more than the program's name.
+    let named = room >= NAME.len() as u16 || usize::from(area.width) <= wide;
+    let mut used = if named { canvas.left(area, Role::Accent, NAME) } else { 0 };
+    if room > used + 10 {
         used += canvas.left(columns(area, used, 2), Role::Dim, "  ");
         canvas.left(columns(area, used, room - used), Role::Title, title);
     }
@@ -231,11 +236,7 @@ const NOTICE: usize = 3;
 pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     let Some((text, role)) = told(app).filter(|_| !reads(app)) else { return };
     let room = usize::from(body.width.saturating_sub(6));
-    let mut lines = words(&canvas.text(&text), room);
-    if lines.len() > NOTICE {
-        let rest = lines.split_off(NOTICE - 1).join(" ");
-        lines.push(rest);
-    }
+    let lines = words_in(&canvas.text(&text), room, NOTICE);
     let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);
     for (index, line) in lines.iter().enumerate() {
         let at = usize::from(body.height).saturating_sub(lines.len()) + index;

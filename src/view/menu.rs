@@ -11,7 +11,7 @@ use super::help::named;
 use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
-use super::wrap::{capitalised, words};
+use super::wrap::{capitalised, words, words_in};
 use crate::app::{Choice, Fit, Item, Menu, Spot};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
@@ -76,13 +76,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         let text = if whole { text } else { format!("{}. {text}", capitalised(&item.label)) };
         let text = canvas.text(&text);
         let room = usize::from(below.height.saturating_sub(1));
-        let mut lines = words(&text, inner.width.into());
-        if lines.len() > room {
-            // What is cut says so.
-            let rest = lines.split_off(room.saturating_sub(1)).join(" ");
-            lines.push(rest);
-        }
-        for (index, line) in lines.iter().take(room).enumerate() {
+        for (index, line) in words_in(&text, inner.width.into(), room).iter().enumerate() {
             canvas.left(row(below, index + 1), role, line);
         }
     }

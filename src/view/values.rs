@@ -12,7 +12,7 @@ use super::plot::Scale;
 use super::spot::Region;
 use super::strip::RangeBar;
 use super::theme::Role;
-use super::wrap::words;
+use super::wrap::{words, words_in};
 use crate::app::{Facts, Field, Lab, Purpose, Spot, Target};
 use crate::model;
 
@@ -70,9 +70,10 @@ impl Values<'_> {
         let spare = usize::from(area.height).saturating_sub(count);
         let facts = self.lab.facts((self.kind)(self.selected));
         let text = facts.map_or_else(String::new, |facts| facts.about);
-        let mut lines = words(&text, usize::from(area.width.saturating_sub(3)));
+        let width = usize::from(area.width.saturating_sub(3));
+        let all = words(&text, width).len();
+        let mut lines = words_in(&text, width, spare.saturating_sub(usize::from(spare > all)));
         lines.retain(|line| !line.is_empty());
-        lines.truncate(spare.saturating_sub(usize::from(spare > lines.len())));
         lines
     }
 

@@ -9,6 +9,16 @@ pub(super) fn words(text: &str, width: usize) -> Vec<String> {
     fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0)
 }
 
+/// The lines of a paragraph, at most so many: the last then holds all that is left, so that who writes it marks the cut.
+pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
+    let mut lines = words(text, width);
+    if lines.len() > rows {
+        let rest = lines.split_off(rows.saturating_sub(1)).join(" ");
+        lines.extend((rows > 0).then_some(rest));
+    }
+    lines
+}
+
 /// The text with a capital at its beginning.
 pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();

@@ -689,15 +689,34 @@ fn observed_quantities_have_their_units_on_axes() {
 
 #[test]
 fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
-    let (app, _) = {
-        let loaded = loaded("rolling-race", 1);
-        let seen = snapshot(&loaded, 1.0);
-        let (mut app, effects) = App::new(crate::hand::catalog(), Some("rolling-race"));
-        app.update(Event::Loaded(Ok(loaded)));
-        app.update(Event::Snapshot(Arc::new(seen)));
-        (app, effects)
-    };
+    let loaded = loaded("rolling-race", 1);
+    let seen = snapshot(&loaded, 1.0);
+    let (mut app, _) = App::new(crate::hand::catalog(), Some("rolling-race"));
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
     let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
     assert!(text.contains("--- x1  +++ x2  ... x3"), "{text}");
+}
+
+#[test]
+fn names_are_whole_or_not_there_and_cuts_are_marked() {
+    for width in 40..120 {
+        let head = rows(&screen(&in_lab(), &rich(), (width, 20)))[0].clone();
+        let name = head.split_whitespace().next().unwrap();
+        assert!(name == "phaselab" || name == "1", "{width}: {head}");
+    }
+    // The longest meaning of a parameter, in fewer rows than it needs.
+    let loaded = loaded("heavy-top", 1);
+    let seen = snapshot(&loaded, 1.0);
+    let (mut app, _) = App::new(crate::hand::catalog(), Some("heavy-top"));
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    for size in [(60, 20), (80, 24), (120, 40)] {
+        let rows = rows(&screen(&app, &rich(), size));
+        let row = rows.iter().position(|row| row.contains("  moment about any axis"));
+        let Some(row) = row else { continue };
+        let whole = rows[row..row + 3].join(" ").contains("symmetry axis");
+        assert!(whole || rows[row].contains('…') || rows[row + 1].contains('…'), "{rows:#?}");
+    }
 }
