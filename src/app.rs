@@ -8,6 +8,7 @@
 mod action;
 mod change;
 mod choose;
+mod edit;
 mod editor;
 mod event;
 mod field;
@@ -30,6 +31,7 @@ mod potential;
 mod prompt;
 mod reading;
 mod saved;
+mod sheet;
 mod speed;
 mod spot;
 mod strike;
@@ -38,6 +40,7 @@ mod value;
 mod workbench;
 
 pub use action::{Action, Axes, Way};
+pub use edit::{Checked, NotSaved, Work};
 pub use editor::{Caret, Editor};
 pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
 pub use field::{Field, Purpose};
@@ -54,9 +57,11 @@ pub use potential::Potential;
 pub use prompt::Prompt;
 pub use reading::Reading;
 pub use saved::{Quantity, Saved, SavedPlot};
+pub use sheet::{Asking, Flaw, Sheet, State as SheetState, Unsaved};
 pub use spot::{Hold, Spot};
+pub use update::LONGEST_PASTE;
 pub use value::{Facts, Target};
-pub use workbench::{Asking, Checked, Flaw, NotSaved, State as BenchState, Work, Workbench};
+pub use workbench::Workbench;
 
 use serde::{Deserialize, Serialize};
 
@@ -85,10 +90,8 @@ pub struct App {
     pub recording: bool,
     /// How many rows the page of text is scrolled down.
     pub scroll: u16,
-    /// The file of a system being edited, also while its editor is closed.
-    pub workbench: Option<Box<Workbench>>,
-    /// Files of other systems with changes that are not saved.
-    drafts: Vec<Workbench>,
+    /// The files being edited, also while the editor is closed.
+    pub workbench: Workbench,
     /// The themes there are, each with a line about it.
     pub themes: Vec<(&'static str, &'static str)>,
     /// The theme chosen, in place of the one phaselab was opened with.
@@ -127,8 +130,13 @@ pub enum Page {
 /// Something that lies over a page and takes its keys.
 #[derive(Clone, Debug)]
 pub enum Over {
-    /// The keys; remembers how far the page below was scrolled.
-    Help(u16),
+    /// The keys.
+    Help {
+        /// How far the page below was scrolled.
+        scroll: u16,
+        /// Whether the editor lay there.
+        editing: bool,
+    },
     /// A text that must be read: what is wrong with a file.
     Message(LoadFailure),
     /// A pop-up list.
@@ -137,7 +145,7 @@ pub enum Over {
     Field(Field),
     /// The prompt for brackets.
     Prompt(Prompt),
-    /// The editor of the system's file, [`App::workbench`].
+    /// The editor of the system's file, which lies on top of [`App::workbench`].
     Workbench,
 }
 
@@ -154,8 +162,7 @@ impl App {
             mouse: false,
             recording: false,
             scroll: 0,
-            workbench: None,
-            drafts: Vec::new(),
+            workbench: Workbench::default(),
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),
@@ -206,12 +213,12 @@ impl App {
     /// Where keys hold now, the innermost place first.
     pub fn places(&self) -> &'static [Place] {
         match &self.over {
-            Some(Over::Help(_) | Over::Message(_)) => chain([Place::Text, Place::Anywhere]),
+            Some(Over::Help { .. } | Over::Message(_)) => chain([Place::Text, Place::Anywhere]),
             Some(Over::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Over::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Over::Field(_) | Over::Prompt(_)) => chain([Place::Field, Place::Typing]),
             Some(Over::Workbench) => {
-                let asks = self.workbench.as_ref().is_some_and(|bench| bench.asking.is_some());
+                let asks = self.workbench.top().is_some_and(|sheet| sheet.asking.is_some());
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
             }
@@ -219,9 +226,12 @@ impl App {
         }
     }
 
-    /// Where keys hold on the page, whatever lies over it.
+    /// Where keys hold on the page, or in the editor, under the help that lies over it.
     pub fn places_below(&self) -> &'static [Place] {
-        chain(self.places_of_page())
+        match self.over {
+            Some(Over::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
+            _ => chain(self.places_of_page()),
+        }
     }
 
     fn places_of_page(&self) -> [Place; 2] {

@@ -32,7 +32,7 @@ pub use crate::analysis::{Growth, Verdict};
 pub use chronicle::{Chronicle, Tally};
 pub use command::Command;
 pub use export::Export;
-pub use moment::{Changed, Moment, Named, Reference, Whereabouts};
+pub use moment::{Changed, Moment, Named, Past, Reference, Whereabouts};
 pub use ready::{Ready, Unready};
 pub use setup::{NoMethod, Setup, choose_method, with_given};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
@@ -64,6 +64,8 @@ pub struct Experiment {
     told: Vec<String>,
     /// The event that ended the motion.
     ended: Option<String>,
+    /// Whether a motion left elsewhere was taken up.
+    taken_up: bool,
 }
 
 /// How far an experiment came.
@@ -106,6 +108,7 @@ impl Experiment {
             happenings: Chronicle::default(),
             told: Vec::new(),
             ended: None,
+            taken_up: false,
             setup,
         };
         experiment.restart();
@@ -209,6 +212,7 @@ impl Experiment {
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
+            taken_up: self.taken_up,
         }
     }
 }

@@ -32,6 +32,7 @@ mod signals;
 mod stage;
 mod store;
 mod terminal;
+pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, NotBandwidth};
 pub use diagnosis::{Finding, diagnosis};
@@ -79,7 +80,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
     log.guard();
     let pace = request.pace(&variable);
     let mut session = Session::new(catalog, &request, request.look(&variable), pace, log)?;
-    session.keep_in(Store::open());
+    session.keep_in(Store::open(), request.open.as_deref());
     if let Some(saved) = saved {
         session.resume(saved);
     }

@@ -104,7 +104,7 @@ fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
     let over = app.over.as_ref();
-    if let Some(Over::Help(_)) = over {
+    if let Some(Over::Help { .. }) = over {
         let page = help::document(look, app.places_below());
         return text(canvas, area, "Keys", page, app.scroll);
     }
@@ -116,8 +116,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         let title = format!("{} has mistakes", failure.name);
         return text(canvas, area, &title, page, app.scroll);
     }
-    if let (Some(bench), Some(lab)) = (app.open_workbench(), &app.lab) {
-        return workbench::draw(canvas, area, (app, lab), bench);
+    if let (Some(sheet), Some(lab)) = (app.open_sheet(), &app.lab) {
+        return workbench::draw(canvas, area, (app, lab), sheet);
     }
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {

@@ -104,7 +104,7 @@ impl App {
             Some(Over::Prompt(prompt)) => self.answer(prompt),
             Some(Over::Workbench) => {
                 self.over = Some(Over::Workbench);
-                self.accept_at_bench()
+                self.accept_on_sheet()
             }
             other => {
                 self.over = other;

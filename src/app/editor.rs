@@ -142,11 +142,14 @@ impl Editor {
         self.type_in(text, false)
     }
 
-    /// Pasted text: lines of any ending, no characters that steer a terminal.
+    /// Pasted text: lines of any ending, no characters that steer a terminal; whether all of it found room.
     pub fn paste(&mut self, text: &str) -> bool {
         let text = text.replace("\r\n", "\n").replace('\r', "\n").replace('\t', "    ");
         let text: String = text.chars().filter(|c| *c == '\n' || !c.is_control()).collect();
-        self.insert(&text)
+        let room = self.limit.saturating_sub(self.size());
+        let beginning = beginning(&text, room);
+        self.insert(beginning);
+        beginning.len() == text.len()
     }
 
     /// Takes what is selected, or else the line, out of the text and keeps it.
@@ -226,13 +229,17 @@ impl Editor {
         self.go(cursor);
     }
 
+    /// How many bytes the text has at most.
+    fn size(&self) -> usize {
+        self.lines.iter().map(|line| line.len() + 2).sum()
+    }
+
     fn length(&self, row: usize) -> usize {
         self.lines[row].chars().count()
     }
 
     fn type_in(&mut self, text: &str, together: bool) -> bool {
-        let size: usize = self.lines.iter().map(|line| line.len() + 2).sum();
-        if text.is_empty() || size + text.len() > self.limit {
+        if text.is_empty() || self.size() + text.len() > self.limit {
             return false;
         }
         let (from, to) = self.selection().unwrap_or((self.cursor, self.cursor));
@@ -402,6 +409,12 @@ impl Editor {
         }
         Caret { row, column: at }
     }
+}
+
+/// As many whole characters of a text as have room in so many bytes.
+pub(super) fn beginning(text: &str, room: usize) -> &str {
+    let mut ends = (0..=room.min(text.len())).rev();
+    &text[..ends.find(|end| text.is_char_boundary(*end)).unwrap_or(0)]
 }
 
 fn is_word(c: char) -> bool {

@@ -48,6 +48,8 @@ pub enum Event {
         /// Whether it was read because [`Effect::Reread`] asked for it.
         asked: bool,
     },
+    /// The watched file of the system is there again, or is there no longer.
+    FileThere(bool),
     /// The screen was drawn, and this is what came of it.
     Drawn(Drawn),
 }
@@ -103,8 +105,8 @@ pub enum Effect {
     /// Check a text; where it is right, what it describes takes the place of the system in the lab. [`Event::Checked`]
     /// answers.
     Check {
-        /// Counts the texts.
-        revision: u64,
+        /// Counts the checks of all texts.
+        ticket: u64,
         /// What reports call it.
         title: String,
         /// The text.

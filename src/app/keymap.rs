@@ -289,7 +289,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Workbench, &[Key::ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
     row(Place::Workbench, &[Key::ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
     row(Place::Workbench, &[Key::ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
-    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it"),
+    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
+    row(Place::Workbench, &[Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
 

@@ -13,7 +13,7 @@ use super::history::History;
 use super::landscape::{self, Survey};
 use super::plot::{Eye, Plot};
 use super::{Loaded, Target};
-use crate::experiment::Snapshot;
+use crate::experiment::{Moment, Snapshot, Status};
 use crate::expr::Zero;
 use crate::model::Shape;
 
@@ -67,6 +67,8 @@ pub struct Lab {
     /// The speed asked for and not yet seen.
     pub(super) speed_wish: Option<f64>,
     pub(super) history: History,
+    /// The motion that the experiment is to take up, until it has.
+    pub(super) awaited: Option<Moment>,
 }
 
 /// For each shape whether it is a rod, a line that keeps its length: of the picture in space, then of each view with
@@ -121,6 +123,7 @@ impl Lab {
             asked: Wishes::default(),
             speed_wish: None,
             history: History::default(),
+            awaited: None,
         }
     }
 
@@ -128,6 +131,13 @@ impl Lab {
     pub(super) fn see(&mut self, snapshot: Arc<Snapshot>) -> bool {
         if snapshot.epoch != self.loaded.epoch {
             return false;
+        }
+        let stopped = matches!(snapshot.status, Status::Faulted(_));
+        if self.awaited.is_some() && !(snapshot.taken_up || stopped) {
+            return false;
+        }
+        if snapshot.taken_up {
+            self.awaited = None;
         }
         self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
         self.asked.see(&snapshot);

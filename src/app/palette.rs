@@ -11,7 +11,7 @@ use crate::system::System;
 impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         // What is chosen is done to the page, not to the help above it.
-        if let Some(Over::Help(scroll)) = self.over {
+        if let Some(Over::Help { scroll, .. }) = self.over {
             self.scroll = scroll;
         }
         self.over = None;

@@ -211,8 +211,11 @@ impl App {
 
     fn help(&mut self) -> Vec<Effect> {
         match self.over {
-            Some(Over::Help(_)) => return self.back(),
-            _ => self.over = Some(Over::Help(self.scroll)),
+            Some(Over::Help { .. }) => return self.back(),
+            _ => {
+                let editing = matches!(self.over, Some(Over::Workbench));
+                self.over = Some(Over::Help { scroll: self.scroll, editing });
+            }
         }
         self.scroll = 0;
         Vec::new()
@@ -220,12 +223,13 @@ impl App {
 
     fn back(&mut self) -> Vec<Effect> {
         if matches!(self.over, Some(Over::Workbench)) {
-            self.leave_bench();
+            self.leave_sheet();
             return Vec::new();
         }
         match self.over.take() {
-            Some(Over::Help(scroll)) => {
+            Some(Over::Help { scroll, editing }) => {
                 self.scroll = scroll;
+                self.over = editing.then_some(Over::Workbench);
                 return Vec::new();
             }
             Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
@@ -263,7 +267,7 @@ impl App {
         match &mut self.over {
             Some(Over::Menu(menu)) => menu.step(by),
             Some(Over::Field(_) | Over::Prompt(_) | Over::Workbench) => {}
-            Some(Over::Help(_) | Over::Message(_)) => self.roll(by),
+            Some(Over::Help { .. } | Over::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
                 (Page::Lab, Some(lab)) => {

@@ -6,7 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{App, Effect, Eye, Lab, Lens, Loaded, Over, Page, Pane, Plot, Selection};
+use super::{
+    App, Effect, Eye, Lab, Lens, Loaded, Over, Page, Pane, Plot, Selection, Sheet, SheetState,
+};
 use crate::experiment::{Command, Moment};
 
 /// A session.
@@ -26,12 +28,9 @@ pub struct Saved {
     pub zoomed: bool,
     /// The selected lines.
     pub selection: Selection,
-    /// The text of the file being edited, where that was not saved.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub draft: Option<String>,
-    /// The file's text that it was made from.
+    /// Whether the system was not the file's but that of a text that is not saved.
     #[serde(default)]
-    pub draft_of: Option<String>,
+    pub edited: bool,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
@@ -86,7 +85,10 @@ impl Saved {
     /// The session of a lab on a page; `None` before its motion was seen.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
         let Loaded { name, model, system, .. } = &lab.loaded;
-        let snapshot = lab.seen()?;
+        let moment = match &lab.awaited {
+            Some(moment) => moment.clone(),
+            None => Moment::of(model, system, lab.seen()?),
+        };
         Some(Self {
             version: Self::VERSION,
             phaselab: env!("CARGO_PKG_VERSION").to_owned(),
@@ -95,10 +97,9 @@ impl Saved {
             focus: lab.focus,
             zoomed: lab.zoomed,
             selection: lab.selection,
-            draft: None,
-            draft_of: None,
+            edited: false,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, &lab.loaded)).collect(),
-            moment: Moment::of(model, system, snapshot),
+            moment,
         })
     }
 }
@@ -180,13 +181,9 @@ impl App {
             return None;
         }
         let lab = self.lab.as_ref()?;
-        let draft = self.workbench.as_ref().filter(|bench| bench.name == lab.loaded.name);
-        let draft = draft.filter(|bench| bench.is_modified());
-        Some(Saved {
-            draft: draft.map(|bench| bench.editor.text()),
-            draft_of: draft.map(|bench| bench.on_disk().to_owned()),
-            ..Saved::of(lab, self.page)?
-        })
+        let runs = |sheet: &Sheet| sheet.is_modified() && sheet.state != SheetState::Left;
+        let edited = self.own_sheet().is_some_and(runs);
+        Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
 
     /// Goes on with a session as soon as its system is loaded.
@@ -194,23 +191,41 @@ impl App {
         self.resuming = Some(saved);
     }
 
-    /// The system that was asked for is there: goes on with the session that was left with it, or lets it move.
-    pub(super) fn begin(&mut self) -> Vec<Effect> {
+    /// The system that was asked for is there, to be opened or only previewed: goes on with the session that was left
+    /// with it, or lets it move.
+    pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let saved = self.resuming.take().filter(|saved| saved.open == lab.loaded.name);
-        let Some(saved) = saved else { return vec![Effect::Tell(Command::Play)] };
+        let Some(saved) = saved else {
+            if opened {
+                self.remind();
+            }
+            return vec![Effect::Tell(Command::Play)];
+        };
         lab.look_as(&saved);
+        lab.awaited = Some(saved.moment);
         self.page = saved.page;
-        if let Some(text) = &saved.draft {
-            self.take_draft(text, saved.draft_of.as_deref());
-        }
-        vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
+        self.remind();
+        // the motion belongs to the text that is not saved, and waits until that is checked
+        if saved.edited && self.wake() { Vec::new() } else { self.take_up() }
+    }
+
+    /// Has the experiment take up the motion that is waited for, if there is one.
+    pub(super) fn take_up(&mut self) -> Vec<Effect> {
+        let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
+        let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
+        awaited.map(command).into_iter().collect()
     }
 
     /// The system in the lab was built anew from a changed file: the motion goes on, and is looked at as before.
     pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
         let Some(old) = self.lab.take() else { return self.loaded(loaded) };
-        let saved = Saved::of(&old, self.page);
+        let mut saved = Saved::of(&old, self.page);
+        if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
+            // what is drawn of the motion goes on too
+            let moment = std::mem::take(&mut saved.moment);
+            saved.moment = moment.with_past(&old.loaded.system, seen);
+        }
         let mut lab = Lab::new(loaded);
         // A history speaks of values, channels, views and frames by their places.
         let places = |lab: &Lab| {
@@ -233,7 +248,8 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.look_as(&saved);
+        lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
-        vec![Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]
+        self.take_up()
     }
 }

@@ -4,10 +4,18 @@
 
 use std::sync::Arc;
 
+use super::editor::beginning;
 use super::field::{edit, paste};
 use super::keymap::{self, Place};
 use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
 use crate::experiment::Snapshot;
+
+/// The most that is taken of one paste, in bytes.
+pub const LONGEST_PASTE: usize = 256 * 1024;
+
+/// Told where the editor has no room for all of a paste.
+const LONG_TEXT: &str = "The pasted text was too long; as much of its beginning was taken as a \
+                         paste (256 KiB) and a file (1 MiB) can hold.";
 
 impl App {
     /// Takes an event in, and says what is to be done about it.
@@ -34,7 +42,7 @@ impl App {
                     lab.tick(elapsed);
                 }
                 let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
-                preview.into_iter().chain(self.tick_bench(elapsed)).collect()
+                preview.into_iter().chain(self.tick_sheet(elapsed)).collect()
             }
             Event::Checked(checked) => self.checked(*checked),
             Event::FileSaved(outcome) => {
@@ -43,6 +51,10 @@ impl App {
             }
             Event::FileRead { text, asked } => {
                 self.changed_on_disk(&text, asked);
+                Vec::new()
+            }
+            Event::FileThere(there) => {
+                self.found_on_disk(there);
                 Vec::new()
             }
             Event::Drawn(drawn) => {
@@ -77,14 +89,14 @@ impl App {
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
         match &mut self.over {
-            Some(Over::Workbench) => self.type_at_bench(key),
+            Some(Over::Workbench) => self.type_on_sheet(key),
             Some(Over::Field(field)) => field.press(key),
             Some(Over::Prompt(prompt)) => prompt.press(key),
             Some(Over::Menu(menu)) => {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
             }
-            Some(Over::Help(_) | Over::Message(_)) => {}
+            Some(Over::Help { .. } | Over::Message(_)) => {}
             None if searching => {
                 self.picker.search(|input| {
                     edit(input, key);
@@ -96,8 +108,10 @@ impl App {
     }
 
     fn paste(&mut self, text: &str) -> Vec<Effect> {
+        let all = text.len();
+        let text = beginning(text, LONGEST_PASTE);
         let whole = match &mut self.over {
-            Some(Over::Workbench) => self.paste_at_bench(text),
+            Some(Over::Workbench) => self.paste_on_sheet(text),
             Some(Over::Field(field)) => paste(&mut field.input, text),
             Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Over::Menu(menu)) => {
@@ -111,9 +125,11 @@ impl App {
             }
             _ => return Vec::new(),
         };
-        if !whole {
-            self.notice =
-                Some(Notice::error("The pasted text was too long; its beginning was taken."));
+        if !whole || text.len() < all {
+            self.notice = Some(Notice::error(match self.over {
+                Some(Over::Workbench) => LONG_TEXT,
+                _ => "The pasted text was too long; its beginning was taken.",
+            }));
         }
         Vec::new()
     }
@@ -135,6 +151,8 @@ impl App {
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.drop_hold();
+        self.workbench.clear();
+        self.over.take_if(|over| matches!(over, Over::Workbench));
         self.lab = Some(Lab::new(loaded));
         // What went wrong is not less so because something else is there.
         self.notice.take_if(|notice| !notice.error);
@@ -144,7 +162,7 @@ impl App {
         if answered == Some(true) {
             self.go(Page::Lab);
         }
-        self.begin()
+        self.begin(answered == Some(true))
     }
 
     fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {

@@ -8,6 +8,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 use super::failure::Failure;
 use super::output::Output;
 use super::{config, play, record};
+use crate::preset::{Catalog, Origin, is_path};
 use crate::record::Performance;
 use crate::shell::options::{Choice, Kind, OPTIONS};
 use crate::shell::{self, Ending, NoSession, Options, Refusal, Request};
@@ -125,14 +126,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.demo {
         return perform_demo(arguments);
     }
+    if arguments.options.is_on("watch") {
+        watchable(arguments.name.as_deref())?;
+    }
     let mut request = request(arguments.name.clone(), arguments.options.clone())?;
     let mut ended = shell::run(&request);
-    let gone = matches!(
-        ended,
-        Err(Refusal::NoSession(NoSession::NoHome | NoSession::Unread { .. }) | Refusal::NotFound(_))
-    );
+    let gone = matches!(ended, Err(Refusal::NoSession(_) | Refusal::NotFound(_)));
     if gone && request.resume && !arguments.options.is_on("resume") {
-        // a session is gone on with wherever there is one; here there is none yet, or its system is gone
+        // a session is gone on with wherever there is one; here there is none yet, or none that can be gone on with
         request.resume = false;
         ended = shell::run(&request);
     }
@@ -157,6 +158,20 @@ fn perform_demo(arguments: &Arguments) -> Result<(), Failure> {
         out.finish()?;
     }
     how_it_ended(Ok(ending))
+}
+
+/// What is shipped has no file that could change.
+fn watchable(name: Option<&str>) -> Result<(), Failure> {
+    let Some(name) = name.filter(|name| !is_path(name)) else { return Ok(()) };
+    let catalog = Catalog::load();
+    let entry = catalog.entries().iter().find(|entry| entry.name == name);
+    match entry.map(|entry| &entry.origin) {
+        Some(Origin::Shipped) => Err(Failure::WrongUse(format!(
+            "`{name}` is shipped with phaselab and has no file to be watched; open it, press E and Ctrl-s to save a \
+             copy of your own, and watch that"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// What an ending on the terminal means for the exit code.

@@ -40,6 +40,10 @@ const FILES: &[(&str, &str)] = &[
         "~/.local/state/phaselab/session.toml",
         "The last session, saved on every way out of the lab; --resume goes on with it.",
     ),
+    (
+        "~/.local/state/phaselab/texts.toml",
+        "Texts that were being edited and not saved; they are there when their systems are edited again.",
+    ),
 ];
 
 /// Which variables of the environment count. Those of the options come before them.

@@ -4,10 +4,11 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::failure::Failure;
 use super::stderr;
+use crate::shell::whole::Whole;
 
 /// A place for data.
 #[derive(Debug)]
@@ -15,8 +16,6 @@ pub(super) struct Output {
     writer: BufWriter<Target>,
     /// As messages call it.
     name: String,
-    /// The file under its final name, where the writer fills one beside it.
-    replaces: Option<(PathBuf, PathBuf)>,
     /// Whether a file with something in it stands there already.
     over: bool,
 }
@@ -24,46 +23,44 @@ pub(super) struct Output {
 #[derive(Debug)]
 enum Target {
     Stdout(Stdout),
-    File(File),
+    /// A device or a pipe.
+    Direct(File),
+    File(Whole),
 }
 
 impl Output {
-    /// Standard output, or the file of that path. A regular file is written under another name
-    /// beside it and takes its place at [`Output::finish`], so that a failure leaves an old file
-    /// as it was; a device or a pipe is written directly.
+    /// Standard output, or the file of that path. A regular file takes its place whole at [`Output::finish`], so that
+    /// a failure leaves an old file as it was; a device or a pipe is written directly.
     pub(super) fn open(path: Option<&Path>) -> Result<Output, Failure> {
         let Some(path) = path else {
             let writer = BufWriter::new(Target::Stdout(io::stdout()));
-            let name = "standard output".to_owned();
-            return Ok(Output { writer, name, replaces: None, over: false });
+            return Ok(Output { writer, name: "standard output".to_owned(), over: false });
         };
         let name = path.display().to_string();
-        // a link keeps pointing where it points
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let about = fs::metadata(&path);
+        let about = fs::metadata(path);
         let direct = about.as_ref().is_ok_and(|about| !about.is_file());
         let over = about.is_ok_and(|about| about.is_file() && about.len() > 0);
-        let partial = partial_name(&path);
-        let place = if direct { &path } else { &partial };
-        let file =
-            if direct { File::options().write(true).open(place) } else { File::create(place) }
-                .map_err(|error| Failure::writing(&name, &error))?;
-        let writer = BufWriter::new(Target::File(file));
-        Ok(Output { writer, name, replaces: (!direct).then_some((partial, path)), over })
+        let target = if direct {
+            File::options().write(true).open(path).map(Target::Direct)
+        } else {
+            Whole::begin(path).map(Target::File)
+        };
+        let target = target.map_err(|error| Failure::writing(&name, &error))?;
+        Ok(Output { writer: BufWriter::new(target), name, over })
     }
 
     /// Brings everything to its place, and tells where something else stood there.
-    pub(super) fn finish(mut self) -> Result<(), Failure> {
-        let done = self.writer.flush().and_then(|()| match self.replaces.take() {
-            None => Ok(()),
-            Some((partial, path)) => fs::rename(&partial, path).inspect_err(|_| {
-                // the error that matters is the one on its way
-                let _ = fs::remove_file(&partial);
-            }),
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        let Self { writer, name, over } = self;
+        let done = writer.into_inner().map_err(io::IntoInnerError::into_error);
+        let done = done.and_then(|target| match target {
+            Target::Stdout(mut stdout) => stdout.flush(),
+            Target::Direct(mut file) => file.flush(),
+            Target::File(file) => file.finish(),
         });
-        done.map_err(|error| Failure::writing(&self.name, &error))?;
-        if self.over {
-            stderr::tell(&format!("{} is replaced", self.name));
+        done.map_err(|error| Failure::writing(&name, &error))?;
+        if over {
+            stderr::tell(&format!("{name} is replaced"));
         }
         Ok(())
     }
@@ -84,19 +81,11 @@ impl Write for Output {
     }
 }
 
-impl Drop for Output {
-    /// An output that was not finished leaves nothing behind.
-    fn drop(&mut self) {
-        if let Some((partial, _)) = self.replaces.take() {
-            let _ = fs::remove_file(partial);
-        }
-    }
-}
-
 impl Write for Target {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Target::Stdout(stdout) => stdout.write(bytes),
+            Target::Direct(file) => file.write(bytes),
             Target::File(file) => file.write(bytes),
         }
     }
@@ -104,13 +93,8 @@ impl Write for Target {
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Target::Stdout(stdout) => stdout.flush(),
+            Target::Direct(file) => file.flush(),
             Target::File(file) => file.flush(),
         }
     }
-}
-
-/// `.out.csv.1234.partial` beside `out.csv`.
-fn partial_name(path: &Path) -> PathBuf {
-    let file = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{file}.{}.partial", std::process::id()))
 }

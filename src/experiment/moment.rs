@@ -10,10 +10,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
-use super::{Experiment, Setup, Snapshot, Status};
+use super::{Experiment, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
-use crate::system::{ChannelKind, Fault, Form, Given, State, System};
+use crate::system::{Channel, ChannelKind, Fault, Form, Given, State, System};
 
 /// A motion that is on its constraints to this part of their terms may be taken up as it is.
 const KEPT_WITHIN: f64 = 1e-9;
@@ -39,6 +39,16 @@ pub struct Moment {
     pub running: bool,
     /// Where the motion was; `None` where it had not begun.
     pub present: Option<Whereabouts>,
+    /// What was recorded before. No file has it: it is far longer than all else, and made anew where it is wanted.
+    #[serde(skip)]
+    pub past: Option<Past>,
+}
+
+/// Rows recorded of a motion, and the names of their channels.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Past {
+    names: Vec<String>,
+    trail: Trail,
 }
 
 /// A parameter that was changed.
@@ -122,7 +132,33 @@ impl Moment {
             speed: (setup.speed != of_file.speed).then_some(setup.speed),
             running: snapshot.status == Status::Running,
             present: Whereabouts::of(model, system, snapshot),
+            past: None,
         }
+    }
+
+    /// The same with what a snapshot of that system has recorded.
+    #[must_use]
+    pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Moment {
+        let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
+        Moment { past: Some(Past { names, trail: snapshot.trail.clone() }), ..self }
+    }
+}
+
+impl Past {
+    /// Its rows before a time, with these channels; what one of them was not recorded of is not a number.
+    fn rows<'a>(&'a self, channels: &[Channel], time: f64) -> impl Iterator<Item = Vec<f64>> + 'a {
+        // where several have a name, the first is the first, and so on
+        let place = |(at, channel): (usize, &Channel)| {
+            let earlier = channels[..at].iter().filter(|other| other.name == channel.name).count();
+            let mut places = (0..self.names.len()).filter(|&i| self.names[i] == channel.name);
+            places.nth(earlier)
+        };
+        let places: Vec<Option<usize>> = channels.iter().enumerate().map(place).collect();
+        self.trail.rows().take_while(move |row| row[0] < time).map(move |row| {
+            let value = |place: &Option<usize>| place.and_then(|i| row.get(i + 1).copied());
+            let values = places.iter().map(|place| value(place).unwrap_or(f64::NAN));
+            std::iter::once(row[0]).chain(values).collect()
+        })
     }
 }
 
@@ -227,6 +263,7 @@ fn given(model: &Model, named: &Named) -> Option<Given> {
 impl Experiment {
     /// Goes on from a moment of this system or of one of similar names. What has no place here is told in a notice.
     pub fn take_up(&mut self, moment: &Moment) {
+        self.taken_up = true;
         let mut lost = self.take_setup(moment);
         self.running = moment.running;
         let told = std::mem::take(&mut self.notices);
@@ -236,13 +273,27 @@ impl Experiment {
             lost.extend(
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
             );
-            if let Err(why) = self.take_present(present) {
-                self.restart();
-                self.tell(format!("the motion begins anew: {why}"));
+            match self.take_present(present) {
+                Ok(()) => self.recall(moment.past.as_ref(), present),
+                Err(why) => {
+                    self.restart();
+                    self.tell(format!("the motion begins anew: {why}"));
+                }
             }
         }
         if !lost.is_empty() {
             self.tell(format!("no longer there: {}", lost.join(", ")));
+        }
+    }
+
+    /// Puts what was recorded before the present, where the coordinates are the same.
+    fn recall(&mut self, past: Option<&Past>, present: &Whereabouts) {
+        let own = self.model.coordinates.iter();
+        let same = own.len() == present.coordinates.len()
+            && own.clone().all(|c| present.coordinates.contains(&c.name));
+        if let Some(past) = past.filter(|_| same) {
+            let rows = past.rows(self.motion.system().channels(), present.time);
+            self.recorder.precede(rows);
         }
     }
 
@@ -266,15 +317,16 @@ impl Experiment {
                 None => lost.push(named.name.clone()),
             }
         }
-        setup.settings = Settings {
+        setup.speed = moment.speed.filter(|s| *s > 0.0).unwrap_or(setup.speed);
+        let settings = Settings {
             step: moment.step.or(setup.settings.step),
             tolerance: moment.tolerance.or(setup.settings.tolerance),
         };
-        setup.speed = moment.speed.filter(|s| *s > 0.0).unwrap_or(setup.speed);
-        let settings = setup.settings;
         let wanted = moment.method.as_ref().unwrap_or(&setup.method).clone();
         let changed = wanted != self.setup.method || settings != self.setup.settings;
-        self.setup = Setup { method: self.setup.method.clone(), ..setup };
+        // a method that is refused leaves the one that runs, with its settings
+        self.setup =
+            Setup { method: self.setup.method.clone(), settings: self.setup.settings, ..setup };
         if changed {
             self.take_method(&wanted, settings);
         }

@@ -92,6 +92,15 @@ impl Recorder {
         }
     }
 
+    /// Puts rows of the same channels before all that are recorded; the times that are due stay as they are.
+    pub(super) fn precede(&mut self, rows: impl Iterator<Item = Vec<f64>>) {
+        let later = self.trail();
+        self.sealed = Default::default();
+        self.open = Arc::default();
+        rows.for_each(|row| self.insert(row[0], &row[1..]));
+        later.rows().for_each(|row| self.insert(row[0], &row[1..]));
+    }
+
     /// Widens the bounds to hold these values.
     pub(super) fn widen(&mut self, values: &[f64]) {
         for ((least, greatest), &value) in self.bounds.iter_mut().zip(values) {

@@ -42,6 +42,8 @@ pub struct Snapshot {
     pub happenings: Chronicle,
     /// The constraints that were let go, by index.
     pub released: Vec<usize>,
+    /// Whether a motion left elsewhere was taken up.
+    pub taken_up: bool,
 }
 
 impl Snapshot {
@@ -64,6 +66,7 @@ impl Snapshot {
             notices: Arc::default(),
             happenings: Chronicle::default(),
             released: Vec::new(),
+            taken_up: false,
         }
     }
 }

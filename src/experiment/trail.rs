@@ -3,6 +3,16 @@
 
 use std::sync::Arc;
 
+/// Two are equal where their rows are, bit by bit.
+impl PartialEq for Trail {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |trail: &Self| -> Vec<u64> {
+            trail.rows().flatten().map(|value| value.to_bits()).collect()
+        };
+        self.width == other.width && bits(self) == bits(other)
+    }
+}
+
 /// Recorded rows, the oldest first. Each row is the time followed by every channel's value.
 #[derive(Clone, Debug, Default)]
 pub struct Trail {

@@ -21,8 +21,8 @@ pub(super) struct Checker {
 
 /// What became of a text.
 pub(super) struct Answer {
-    /// Which text it was.
-    pub(super) revision: u64,
+    /// Which check it was.
+    pub(super) ticket: u64,
     /// The experiment it makes, or what is wrong with it.
     pub(super) outcome: Result<Box<Ready>, Vec<Mistake>>,
     /// How long that took.
@@ -37,7 +37,7 @@ impl Checker {
     }
 
     /// Begins to check a text.
-    pub(super) fn check(&self, revision: u64, document: Document) {
+    pub(super) fn check(&self, ticket: u64, document: Document) {
         let sender = self.sender.clone();
         let begun = Instant::now();
         let work = move || {
@@ -48,14 +48,14 @@ impl Checker {
                 Err(panic) => Err(vec![Mistake::error(0..0, defect(panic.as_ref()))]),
             };
             // The program may have ended meanwhile.
-            let _ = sender.send(Answer { revision, outcome, took: begun.elapsed() });
+            let _ = sender.send(Answer { ticket, outcome, took: begun.elapsed() });
         };
         let started =
             thread::Builder::new().name("checker".to_owned()).stack_size(STACK).spawn(work);
         if let Err(error) = started {
             let mistake =
                 Mistake::error(0..0, format!("there is no thread to check it on: {error}"));
-            let answer = Answer { revision, outcome: Err(vec![mistake]), took: begun.elapsed() };
+            let answer = Answer { ticket, outcome: Err(vec![mistake]), took: begun.elapsed() };
             let _ = self.sender.send(answer);
         }
     }

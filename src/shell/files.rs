@@ -2,12 +2,13 @@
 //!
 //! In: texts and paths. Out: the same on disk; the news that a file has changed. Never here: what a text means.
 
-use std::fs::{self, File, Metadata};
+use std::fs::{self, Metadata};
 use std::io::{self, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use super::whole::Whole;
 use crate::app::NotSaved;
 use crate::preset::{Catalog, TEXT_LIMIT, is_path};
 
@@ -47,24 +48,10 @@ pub(super) fn save_copy(name: &str, text: &str) -> Result<PathBuf, NotSaved> {
     Ok(place)
 }
 
-/// Fills a file beside the one meant and puts it in its place, so that no reader ever finds half of it. What a link
-/// points to is replaced, not the link; who may read it stays so.
 fn write_whole(place: &Path, bytes: &[u8]) -> io::Result<()> {
-    let place = fs::canonicalize(place).unwrap_or_else(|_| place.to_owned());
-    let name = place.file_name().unwrap_or_default().to_string_lossy();
-    let partial = place.with_file_name(format!(".{name}.{}.partial", std::process::id()));
-    let written = File::create(&partial).and_then(|mut file| {
-        file.write_all(bytes)?;
-        if let Ok(old) = fs::metadata(&place) {
-            file.set_permissions(old.permissions())?;
-        }
-        file.sync_all()?;
-        fs::rename(&partial, &place)
-    });
-    written.inspect_err(|_| {
-        // the error that matters is the one on its way
-        let _ = fs::remove_file(&partial);
-    })
+    let mut file = Whole::begin(place)?;
+    file.write_all(bytes)?;
+    file.finish_on_disk()
 }
 
 fn refused(what: &str, place: &Path, error: &io::Error) -> NotSaved {
@@ -86,32 +73,52 @@ pub(super) struct Watch {
     place: Option<PathBuf>,
     stamp: Option<Stamp>,
     since: Duration,
+    /// How often in a row it was not there.
+    missed: u32,
 }
+
+/// What has become of a watched file.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum News {
+    /// It has changed, and holds this text now; or it was gone and is there again.
+    Text { text: String, back: bool },
+    /// It is not there any more.
+    Gone,
+}
+
+/// One that is not there so often in a row is gone; some editors take a file away for a moment when they write it.
+const GONE: u32 = 2;
 
 /// What changes with a file.
 type Stamp = (u64, Option<SystemTime>, u64);
 
 impl Watch {
-    /// Time has passed: the file's text, if it has changed since it was looked at last. One that is gone for a moment,
-    /// as some editors write, is looked at again.
-    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<String> {
+    /// Time has passed: what has become of the file since it was looked at last, each once.
+    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<News> {
         if self.place.as_deref() != Some(place) {
-            *self = Self { place: Some(place.to_owned()), stamp: stamp(place), since: LOOKS };
+            let place = place.to_owned();
+            *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
             // it may have changed between its loading and now
-            return read(place);
+            let text = read(self.place.as_deref()?)?;
+            return Some(News::Text { text, back: false });
         }
         self.since = self.since.saturating_sub(elapsed);
         if !self.since.is_zero() {
             return None;
         }
         self.since = LOOKS;
-        let stamp = stamp(place)?;
-        if self.stamp == Some(stamp) {
+        let Some(stamp) = stamp(place) else {
+            self.missed = self.missed.saturating_add(1);
+            return (self.missed == GONE).then_some(News::Gone);
+        };
+        let back = self.missed >= GONE;
+        if self.stamp == Some(stamp) && !back {
+            self.missed = 0;
             return None;
         }
         let text = read(place)?;
-        self.stamp = Some(stamp);
-        Some(text)
+        (self.stamp, self.missed) = (Some(stamp), 0);
+        Some(News::Text { text, back })
     }
 }
 
@@ -186,15 +193,23 @@ mod tests {
         let place = folder.path().join("system.toml");
         fs::write(&place, "one").expect("it is written");
         let mut watch = Watch::default();
-        assert_eq!(watch.look(&place, Duration::ZERO).as_deref(), Some("one"));
+        let text = |text: &str, back| Some(News::Text { text: text.to_owned(), back });
+        assert_eq!(watch.look(&place, Duration::ZERO), text("one", false));
         fs::write(&place, "longer").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS / 2), None, "it is not looked at all the time");
-        assert_eq!(watch.look(&place, LOOKS / 2).as_deref(), Some("longer"));
+        assert_eq!(watch.look(&place, LOOKS / 2), text("longer", false));
         assert_eq!(watch.look(&place, LOOKS), None);
         // gone for a moment, and there again
         fs::remove_file(&place).expect("it goes");
         assert_eq!(watch.look(&place, LOOKS), None);
         fs::write(&place, "again").expect("it is written");
-        assert_eq!(watch.look(&place, LOOKS).as_deref(), Some("again"));
+        assert_eq!(watch.look(&place, LOOKS), text("again", false));
+        // gone for long
+        fs::remove_file(&place).expect("it goes");
+        let looks: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
+        assert_eq!(looks, [News::Gone], "it is told once");
+        fs::write(&place, "again").expect("it is written");
+        assert_eq!(watch.look(&place, LOOKS), text("again", true));
+        assert_eq!(watch.look(&place, LOOKS), None);
     }
 }

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use vte::{Params, Parser, Perform};
 
 use super::terminal::Mode;
-use crate::app::{Act, Code, Key, Mouse};
+use crate::app::{Act, Code, Key, LONGEST_PASTE, Mouse};
 
 /// What a person did at the terminal.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,8 +30,8 @@ pub enum Input {
     Resize(u16, u16),
 }
 
-/// The most that one paste brings, in bytes: more than a field takes, which then tells that it was too long.
-pub const PASTE_LIMIT: usize = 16 * 1024;
+/// The most that one paste brings, in bytes: a character more than is taken of it, so that it is told where it was cut.
+pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
 
 const ESC: u8 = 0x1b;
 

@@ -4,7 +4,7 @@
 //! the stage. Never here: what a key does, or how anything looks.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
-use super::files::{self, Watch};
+use super::files::{self, News, Watch};
 use super::input::Input;
 use super::loader::Loader;
 use super::log::Log;
@@ -21,7 +21,9 @@ use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
 use super::store::{NoStore, Store};
-use crate::app::{Act, App, Checked, Effect, Event, Loaded, Mouse, Notice, Saved};
+use crate::app::{
+    Act, App, Checked, Effect, Event, LoadFailure, Loaded, Mouse, Notice, Saved, Unsaved,
+};
 use crate::experiment::{Export, Ready, Status};
 use crate::preset::{Catalog, Document, is_path};
 use crate::record::{data, plain, still};
@@ -114,30 +116,56 @@ impl Session {
         self.app.resume(saved);
     }
 
-    /// Keeps the session in a store from now on; where there is none the user is told.
-    pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>) {
-        match store {
-            Ok(store) => self.store = Some(store),
-            Err(why) => {
-                self.app.notice = Some(Notice::error(why.to_string()));
-                self.warning = Some(why.to_string());
+    /// Keeps the session in a store from now on, and takes the texts up that are kept there; `open` is what was asked
+    /// for. What is not kept the user is told.
+    pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>, open: Option<&str>) {
+        let troubles = match store {
+            Err(why) => vec![why.to_string()],
+            Ok(mut store) => {
+                let texts = store.texts().iter().cloned();
+                self.app.workbench.put(texts.map(|text| called(text, open)).collect());
+                self.app.workbench.keeps = store.place_of_texts().is_some();
+                let troubles = std::mem::take(&mut store.troubles);
+                self.store = Some(store);
+                troubles
             }
+        };
+        if !troubles.is_empty() {
+            let told = troubles.join("; ");
+            self.app.notice = Some(Notice::error(&told));
+            self.warning = Some(told);
         }
     }
 
-    /// Saves the session as it is now.
+    /// Saves the session as it is now, and the texts that are not saved.
     pub(super) fn keep(&mut self) -> io::Result<()> {
         self.unsaved = Duration::ZERO;
         if let Some(snapshot) = self.worker.newest() {
             self.update(Event::Snapshot(snapshot));
         }
-        let Some((store, mut saved)) = self.store.as_ref().zip(self.app.saved()) else {
-            return Ok(());
-        };
-        if is_path(&saved.open) {
-            saved.open = std::path::absolute(&saved.open)?.display().to_string();
+        let Some(store) = &mut self.store else { return Ok(()) };
+        let texts = self.app.unsaved().into_iter().map(placed).collect::<io::Result<_>>();
+        let texts = texts.and_then(|texts| store.keep_texts(texts));
+        self.app.workbench.keeps = texts.is_ok() && store.place_of_texts().is_some();
+        if let Some(mut saved) = self.app.saved() {
+            saved.open = absolute(saved.open)?;
+            store.save(&saved)?;
         }
-        store.save(&saved)
+        texts
+    }
+
+    /// Whether the program may end: not where a text would be lost by it, before that was told.
+    fn may_end(&mut self) -> bool {
+        if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
+            return true;
+        }
+        if let Err(error) = self.keep() {
+            self.log.error(error);
+        }
+        if !self.app.workbench.keeps {
+            self.app.stay();
+        }
+        self.app.workbench.keeps
     }
 
     /// Saves the session now and then. What goes wrong is told once; it will go wrong again at the end.
@@ -174,8 +202,8 @@ impl Session {
                     self.log.info(format!("export {written:?}"));
                     self.app.update(Event::Written(written));
                 }
-                Effect::Check { revision, title, text } => {
-                    self.checker.check(revision, Document::new(title, text));
+                Effect::Check { ticket, title, text } => {
+                    self.checker.check(ticket, Document::new(title, text));
                 }
                 Effect::Save { place, text, known } => {
                     let saved = files::save(&place, &text, known.as_deref());
@@ -202,7 +230,8 @@ impl Session {
                 Effect::Record(true) => self.record(),
                 Effect::Record(false) => self.tell_of(Session::end_recording),
                 Effect::Suspend => wish = Wish::Suspend,
-                Effect::Quit => return Wish::Quit,
+                Effect::Quit if self.may_end() => return Wish::Quit,
+                Effect::Quit => {}
             }
         }
         wish
@@ -226,8 +255,19 @@ impl Session {
         let Some((watch, place)) = self.watch.as_mut().zip(self.app.file().filter(|_| open)) else {
             return false;
         };
-        let Some(text) = watch.look(&place, elapsed) else { return false };
-        self.update(Event::FileRead { text, asked: false });
+        match watch.look(&place, elapsed) {
+            None => return false,
+            Some(News::Gone) => {
+                self.log.info(format!("{} is gone", place.display()));
+                self.update(Event::FileThere(false));
+            }
+            Some(News::Text { text, back }) => {
+                if back {
+                    self.update(Event::FileThere(true));
+                }
+                self.update(Event::FileRead { text, asked: false });
+            }
+        }
         true
     }
 
@@ -235,10 +275,10 @@ impl Session {
     fn answer(&mut self) -> bool {
         let Some(answer) = self.checker.take() else { return false };
         let name = self.app.lab.as_ref().map(|lab| lab.loaded.name.clone());
-        let Some(name) = name.filter(|_| self.app.awaits(answer.revision)) else { return false };
+        let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
-        let (revision, took) = (answer.revision, answer.took);
-        self.update(Event::Checked(Box::new(Checked { revision, outcome, took })));
+        let (ticket, took) = (answer.ticket, answer.took);
+        self.update(Event::Checked(Box::new(Checked { ticket, outcome, took })));
         true
     }
 
@@ -344,11 +384,45 @@ impl Session {
         PALETTES.iter().find(named).unwrap_or_else(|| self.look.theme.palette())
     }
 
+    /// Adds where a text of a system that cannot be loaded is found.
+    fn with_text_kept(&self, mut failure: LoadFailure) -> LoadFailure {
+        let place = self.store.as_ref().and_then(Store::place_of_texts);
+        let kept = self.app.unsaved().iter().any(|text| text.name == failure.name);
+        if let Some(place) = place.filter(|_| kept) {
+            let place = place.display();
+            failure.message += &format!("\n\nThe text of it that is not saved is in {place}.\n");
+        }
+        failure
+    }
+
     /// Sets a loaded system in motion.
     fn begin(&mut self, name: String, ready: Ready) -> Loaded {
         let Ready { document, model, equations, system, experiment } = ready;
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, document, model, equations, system }
+    }
+}
+
+/// A name that means the same wherever the program is started next.
+fn absolute(name: String) -> io::Result<String> {
+    if !is_path(&name) {
+        return Ok(name);
+    }
+    Ok(std::path::absolute(&name)?.display().to_string())
+}
+
+/// A text with names that mean the same wherever the program is started next.
+fn placed(text: Unsaved) -> io::Result<Unsaved> {
+    let place = text.place.map(std::path::absolute).transpose()?;
+    Ok(Unsaved { name: absolute(text.name)?, place, ..text })
+}
+
+/// A text that was kept, called as it was asked for now.
+fn called(text: Unsaved, open: Option<&str>) -> Unsaved {
+    let same = |open: &&str| absolute((*open).to_owned()).is_ok_and(|name| name == text.name);
+    match open.filter(|open| is_path(open)).filter(same) {
+        Some(open) => Unsaved { name: open.to_owned(), place: Some(PathBuf::from(open)), ..text },
+        None => text,
     }
 }
 
@@ -387,7 +461,9 @@ impl Page for Session {
                     self.log.error(format!("cannot load {}: {}", failure.name, failure.message));
                 }
             }
-            let loaded = outcome.map(|(name, ready)| self.begin(name, *ready));
+            let loaded = outcome
+                .map(|(name, ready)| self.begin(name, *ready))
+                .map_err(|failure| self.with_text_kept(failure));
             self.update(Event::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
                 self.app.notice = Some(Notice::error(warning));

@@ -217,11 +217,15 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 
 /// Whether the page of plain reading is open, on which nothing may lie over the text.
 fn reads(app: &App) -> bool {
-    app.page == Page::Plain && !matches!(app.over, Some(Over::Help(_) | Over::Message(_)))
+    app.page == Page::Plain && !matches!(app.over, Some(Over::Help { .. } | Over::Message(_)))
 }
 
 /// What is told in passing, or lasts until the file is right.
 fn told(app: &App) -> Option<(String, Role)> {
+    // The editor tells in a place of its own.
+    if app.open_sheet().is_some() {
+        return None;
+    }
     let notice = app
         .notice
         .as_ref()

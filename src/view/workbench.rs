@@ -4,14 +4,14 @@
 
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use unicode_width::UnicodeWidthChar;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::canvas::{Canvas, columns, row};
 use super::desk;
 use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
-use crate::app::{App, Asking, BenchState, Caret, Drawn, Flaw, Lab, Workbench};
+use crate::app::{App, Asking, Caret, Drawn, Flaw, Lab, Notice, Sheet, SheetState};
 
 /// From this width on the motion has room beside the text.
 const WIDE: u16 = 112;
@@ -24,7 +24,7 @@ pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (app, lab): (&App, &Lab),
-    bench: &Workbench,
+    sheet: &Sheet,
 ) -> Drawn {
     let mut left = area;
     if area.width >= WIDE {
@@ -32,41 +32,43 @@ pub(super) fn draw(
         desk::draw(canvas, beside, app, lab);
         left = text;
     }
-    let place = bench.editor.cursor();
+    let place = sheet.editor.cursor();
     let title = [
-        canvas.span(Role::Title, &bench.title),
-        canvas.span(Role::Warn, if bench.is_modified() { "  not saved" } else { "" }),
+        canvas.span(Role::Title, &sheet.title),
+        canvas.span(Role::Warn, if sheet.is_modified() { "  not saved" } else { "" }),
         canvas.span(Role::Dim, format!("  {}:{}", place.row + 1, place.column + 1)),
     ];
     let inner = canvas.pane(left, &title, true);
     let foot = FOOT.min(inner.height / 3);
     let (text, below) = split_rows(inner, inner.height - foot);
-    let drawn = lines(canvas, text, bench);
-    self::foot(canvas, columns(below, 1, below.width.saturating_sub(2)), bench);
+    let drawn = lines(canvas, text, sheet);
+    let below = columns(below, 1, below.width.saturating_sub(2));
+    self::foot(canvas, below, sheet, app.notice.as_ref());
     drawn
 }
 
 /// The text with numbers of lines and marks of mistakes at its left.
-fn lines(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) -> Drawn {
-    let all = bench.editor.lines();
+fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet) -> Drawn {
+    let all = sheet.editor.lines();
     let digits = all.len().to_string().len().max(2) as u16;
     let margin = digits + 3;
     let body = columns(area, margin, area.width.saturating_sub(margin));
     // the last column is for the mark of a line that goes on
     let wide = body.width.saturating_sub(1);
-    let (first, from) = bench.follow(area.height.into(), wide.into());
+    let (first, from) = sheet.follow(area.height.into(), wide.into());
+    let from = in_sight(canvas, sheet, from, wide);
     let glyphs = canvas.look.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
-        let flaws: Vec<&Flaw> = bench.flaws.iter().filter(|f| f.from.row == index).collect();
-        let here = bench.editor.cursor().row == index;
+        let flaws: Vec<&Flaw> = sheet.flaws.iter().filter(|f| f.from.row == index).collect();
+        let here = sheet.editor.cursor().row == index;
         if let Some(flaw) = flaws.first() {
             let role = if flaw.warning { Role::Warn } else { Role::Bad };
             canvas.left(columns(at, 0, 1), role, glyphs.pick("✗", "x"));
         }
         let role = if here { Role::Accent } else { Role::Dim };
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
-        write(canvas, row(body, index - first), (index, line), from, &flaws, bench);
+        write(canvas, row(body, index - first), (index, line), from, &flaws, sheet);
     }
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
@@ -78,18 +80,17 @@ fn write(
     (index, line): (usize, &str),
     from: usize,
     flaws: &[&Flaw],
-    bench: &Workbench,
+    sheet: &Sheet,
 ) {
-    let ascii = canvas.look.glyphs.is_ascii();
-    let selection = bench.editor.selection();
-    let cursor = bench.editor.cursor();
+    let selection = sheet.editor.selection();
+    let cursor = sheet.editor.cursor();
     let comment = comment(line);
     let plain = if line.trim_start().starts_with('[') { Role::Title } else { Role::Text };
     let mut used = 0;
     // one place more than there are characters: the cursor may stand behind the last
     for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {
-        let c = if c.is_control() || ascii && !c.is_ascii() { '?' } else { c };
-        let width = c.width().unwrap_or(0) as u16;
+        let shown = shown(canvas, c);
+        let width = shown.width() as u16;
         if used + width > at.width {
             // the line goes on
             let mark = Rect { x: at.right().saturating_sub(1), width: 1, ..at };
@@ -106,10 +107,10 @@ fn write(
         if selection.is_some_and(|(from, to)| from <= spot && spot < to) {
             style = canvas.style(Role::Selected);
         }
-        if spot == cursor && bench.asking.is_none() {
+        if spot == cursor && sheet.asking.is_none() {
             style = style.add_modifier(Modifier::REVERSED);
         }
-        put(canvas, Position::new(at.x + used, at.y), c, style);
+        put(canvas, Position::new(at.x + used, at.y), &shown, style);
         used += width;
     }
     let covered = Caret { row: index, column: from };
@@ -118,10 +119,39 @@ fn write(
     }
 }
 
-fn put(canvas: &mut Canvas<'_>, at: Position, c: char, style: Style) {
+fn put(canvas: &mut Canvas<'_>, at: Position, shown: &str, style: Style) {
     if canvas.buffer.area.contains(at) {
-        canvas.buffer.set_string(at.x, at.y, c.to_string(), style);
+        canvas.buffer.set_string(at.x, at.y, shown, style);
     }
+}
+
+/// What a character is shown as: itself where it has cells of its own; under ASCII glyphs `<theta>`, by what it is spelt
+/// as; any other `<U+6F22>`, by its number. So nothing is taken for what it is not.
+fn shown(canvas: &Canvas<'_>, c: char) -> String {
+    let itself = c.width().is_some_and(|width| width > 0);
+    if itself && (c.is_ascii() || !canvas.look.glyphs.is_ascii()) {
+        return c.to_string();
+    }
+    let named = canvas.text(&c.to_string());
+    let known = itself && named.is_ascii() && !named.is_empty() && named != "?";
+    if known { format!("<{named}>") } else { format!("<U+{:04X}>", u32::from(c)) }
+}
+
+/// The first column shown, so far on that the cursor is in sight also where characters take several cells.
+fn in_sight(canvas: &Canvas<'_>, sheet: &Sheet, from: usize, wide: u16) -> usize {
+    let cursor = sheet.editor.cursor();
+    let line = sheet.editor.lines().get(cursor.row).map_or("", String::as_str);
+    let cells = |c: char| shown(canvas, c).width();
+    // the character under the cursor too, or the blank behind the last
+    let seen = line.chars().chain([' ']).take(cursor.column + 1);
+    let widths: Vec<usize> = seen.map(cells).collect();
+    let mut from = from.min(cursor.column);
+    let mut used: usize = widths.iter().skip(from).sum();
+    while used > usize::from(wide) && from < cursor.column {
+        used -= widths[from];
+        from += 1;
+    }
+    from
 }
 
 /// Whether a mistake is underlined here; one without extent has a place of one character.
@@ -143,27 +173,33 @@ fn comment(line: &str) -> Option<usize> {
     None
 }
 
-/// What is known of the text, or what is asked for.
-fn foot(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) {
-    if let Some(asking) = &bench.asking {
-        return self::asking(canvas, area, asking);
+/// What is known of the text, or what is asked for; what is told in passing stands in the place of the first.
+fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet, notice: Option<&Notice>) {
+    if let Some(asking) = &sheet.asking {
+        return self::asking(canvas, area, asking, notice);
     }
-    let count = bench.flaws.iter().filter(|flaw| !flaw.warning).count();
-    let (role, text) = match bench.state {
-        BenchState::Runs(None) => (Role::Dim, "This text is the one that runs.".to_owned()),
-        BenchState::Runs(Some(took)) => {
+    let count = sheet.mistakes();
+    let (role, text) = match sheet.state {
+        SheetState::Runs(None) => (Role::Dim, "This text is the one that runs.".to_owned()),
+        SheetState::Runs(Some(took)) => {
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
             (Role::Good, format!("No mistake: built anew in {time} ms, the motion goes on."))
         }
-        BenchState::Changed => (Role::Dim, "Being looked at when typing rests.".to_owned()),
-        BenchState::Wrong if count == 1 => {
+        SheetState::Changed | SheetState::Left => {
+            (Role::Dim, "Being looked at when typing rests.".to_owned())
+        }
+        SheetState::Wrong if count == 1 => {
             (Role::Bad, "One mistake; the last right text goes on.".to_owned())
         }
-        BenchState::Wrong => (Role::Bad, format!("{count} mistakes; the last right text goes on.")),
+        SheetState::Wrong => (Role::Bad, format!("{count} mistakes; the last right text goes on.")),
     };
-    canvas.left(row(area, 0), role, &text);
-    let Some(flaw) = bench.flaw() else { return };
+    let used = match notice {
+        Some(notice) => tell(canvas, area, notice),
+        None => usize::from(canvas.left(row(area, 0), role, &text) > 0),
+    };
+    let area = Rect { y: area.y + used as u16, height: area.height - used as u16, ..area };
+    let Some(flaw) = sheet.flaw() else { return };
     let (row_of, column) = (flaw.from.row + 1, flaw.from.column + 1);
     let text = format!("{row_of}:{column} {}", flaw.message);
     let help = flaw.help.as_ref().map(|help| format!("help: {help}"));
@@ -172,16 +208,28 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, bench: &Workbench) {
     let help = help.map_or_else(Vec::new, |help| words(&canvas.text(&help), width));
     let role = if flaw.warning { Role::Warn } else { Role::Text };
     // the help keeps its row where both are long
-    let room =
-        usize::from(area.height.saturating_sub(1)).saturating_sub(usize::from(!help.is_empty()));
+    let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
     let shown = message.iter().take(room).map(|line| (role, line));
     let helped = help.iter().map(|line| (Role::Accent, line));
     for (index, (role, line)) in shown.chain(helped).enumerate() {
-        canvas.left(row(area, index + 1), role, line);
+        if index < area.height.into() {
+            canvas.left(row(area, index), role, line);
+        }
     }
 }
 
-fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking) {
+/// What is told in passing; how many rows it takes.
+fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notice) -> usize {
+    let role = if notice.error { Role::Bad } else { Role::Good };
+    let lines = words(&canvas.text(&notice.text), area.width.into());
+    let used = lines.len().min(area.height.into());
+    for (index, line) in lines.iter().take(used).enumerate() {
+        canvas.left(row(area, index), role, line);
+    }
+    used
+}
+
+fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&Notice>) {
     let (label, input, help) = match asking {
         Asking::Words(input) => {
             ("find: ", input, "Enter goes to the next place, Ctrl-g to one more.")
@@ -201,7 +249,14 @@ fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking) {
     canvas.left(place, Role::Text, &text);
     let cursor = input.visual_cursor().saturating_sub(skipped).min(room) as u16;
     canvas.tint(columns(place, cursor, 1), Role::Selected);
+    let below = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+    if let Some(notice) = notice {
+        tell(canvas, below, notice);
+        return;
+    }
     for (index, line) in words(help, area.width.into()).iter().enumerate() {
-        canvas.left(row(area, index + 1), Role::Dim, line);
+        if index < below.height.into() {
+            canvas.left(row(below, index), Role::Dim, line);
+        }
     }
 }

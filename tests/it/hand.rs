@@ -86,6 +86,7 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
         trail: Trail::from_rows(width, &rows),
         gauges: [gauge("energy", "E", rows[200][1 + energy], Verdict::Bounded)].into(),
         method: MethodFact { name: "taylor", step: 0.0123, steps: 4321, tolerance: Some(1e-15) },
+        taken_up: true,
         ..Snapshot::empty(loaded.epoch)
     }
 }
@@ -165,6 +166,7 @@ pub(crate) fn key(word: &str) -> Key {
         "PageUp" => Code::PageUp,
         "PageDown" => Code::PageDown,
         "Space" => Code::Char(' '),
+        "F1" => Code::F(1),
         word => {
             let mut letters = word.chars();
             let (Some(letter), None) = (letters.next(), letters.next()) else {

@@ -1,5 +1,6 @@
 //! The program on a pseudo-terminal: what it leaves behind on every way out, and what it takes in and sends.
 
+mod endings;
 mod hostile;
 mod kept;
 mod lab;

@@ -95,7 +95,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("page", format!("{:?}", app.page));
     let over = match &app.over {
         None => "nothing".to_owned(),
-        Some(Over::Help(_)) => "the keys".to_owned(),
+        Some(Over::Help { .. }) => "the keys".to_owned(),
         Some(Over::Message(failure)) => failure.message.clone(),
         Some(Over::Menu(menu)) => {
             format!("list {:?} line {} marked {:?}", menu.title, menu.selected, menu.marked)
@@ -105,7 +105,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
         Some(Over::Workbench) => "the editor".to_owned(),
     };
     fact("over it", over);
-    let bench = app.open_workbench();
+    let bench = app.open_sheet();
     fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));

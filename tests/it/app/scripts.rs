@@ -12,7 +12,7 @@ use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, 
 fn place(app: &App) -> String {
     let over = match &app.over {
         None => String::new(),
-        Some(Over::Help(_)) => " + help".to_owned(),
+        Some(Over::Help { .. }) => " + help".to_owned(),
         Some(Over::Message(_)) => " + message".to_owned(),
         Some(Over::Menu(menu)) => format!(" + menu {:?}", menu.title),
         Some(Over::Prompt(prompt)) => format!(" + prompt {:?}", prompt.input.value()),

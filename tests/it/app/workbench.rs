@@ -4,22 +4,23 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, BenchState, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Plot, Workbench,
+    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Plot, Sheet, SheetState,
 };
-use phaselab::experiment::{Command, Ready};
+use phaselab::experiment::{Command, Ready, Snapshot, Status};
 use phaselab::preset::Document;
 
-use crate::hand::{catalog, in_lab, loaded, press, snapshot};
+use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 
-fn bench(app: &App) -> &Workbench {
-    app.open_workbench().expect("the workbench is open")
+fn sheet(app: &App) -> &Sheet {
+    app.open_sheet().expect("the editor is open")
 }
 
 /// What the shell would answer to a check.
 fn checked(app: &App, effect: &Effect) -> Event {
-    let Effect::Check { revision, title, text } = effect else { panic!("{effect:?}") };
-    assert!(app.awaits(*revision));
+    let Effect::Check { ticket, title, text } = effect else { panic!("{effect:?}") };
+    assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let outcome = match Ready::of(&Document::new(title.as_str(), text.as_str())) {
         Ok(Ready { document, model, equations, system, .. }) => {
@@ -28,7 +29,7 @@ fn checked(app: &App, effect: &Effect) -> Event {
         Err(unready) => Err(unready.mistakes),
     };
     let took = Duration::from_millis(7);
-    Event::Checked(Box::new(Checked { revision: *revision, outcome, took }))
+    Event::Checked(Box::new(Checked { ticket: *ticket, outcome, took }))
 }
 
 /// Lets typing rest, answers the check that follows, and returns what is asked for then.
@@ -56,16 +57,16 @@ fn replace(app: &mut App, words: &str, with: &str) {
 #[test]
 fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     let mut app = edited();
-    assert_eq!(bench(&app).state, BenchState::Runs(None));
+    assert_eq!(sheet(&app).state, SheetState::Runs(None));
     press(&mut app, "Ctrl-End x");
-    assert_eq!(bench(&app).state, BenchState::Changed);
+    assert_eq!(sheet(&app).state, SheetState::Changed);
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
     press(&mut app, "Backspace");
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
     let effects = rest(&mut app);
     let [Effect::Tell(Command::TakeUp(moment))] = effects.as_slice() else { panic!("{effects:?}") };
     assert!(moment.running);
-    assert_eq!(bench(&app).state, BenchState::Runs(Some(Duration::from_millis(7))));
+    assert_eq!(sheet(&app).state, SheetState::Runs(Some(Duration::from_millis(7))));
     assert_eq!(app.lab.as_ref().unwrap().loaded.epoch, 2);
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "it is checked once");
 }
@@ -96,22 +97,22 @@ fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
     assert_eq!(rest(&mut app), [], "the old system goes on");
-    let flaw = bench(&app).flaw().expect("a mistake").clone();
-    let line = &bench(&app).editor.lines()[flaw.from.row];
+    let flaw = sheet(&app).flaw().expect("a mistake").clone();
+    let line = &sheet(&app).editor.lines()[flaw.from.row];
     let word: String =
         line.chars().skip(flaw.from.column).take(flaw.to.column - flaw.from.column).collect();
-    assert_eq!((word.as_str(), bench(&app).state), ("thet", BenchState::Wrong));
+    assert_eq!((word.as_str(), sheet(&app).state), ("thet", SheetState::Wrong));
     assert!(flaw.help.as_deref().is_some_and(|help| help.contains("theta")), "{flaw:?}");
     // while the editor is closed a line tells of it
     press(&mut app, "Esc");
     let banner = app.banner().expect("a banner");
     assert!(banner.contains("pendulum.toml:") && banner.contains("thet"), "{banner}");
     press(&mut app, "E Ctrl-Home Ctrl-n");
-    assert_eq!(bench(&app).editor.cursor(), flaw.from);
+    assert_eq!(sheet(&app).editor.cursor(), flaw.from);
     press(&mut app, "Ctrl-u");
     let effects = rest(&mut app);
     assert!(matches!(effects.as_slice(), [Effect::Tell(Command::TakeUp(_))]), "{effects:?}");
-    assert_eq!(bench(&app).flaws, []);
+    assert_eq!(sheet(&app).flaws, []);
     assert_eq!(app.banner(), None);
 }
 
@@ -121,14 +122,14 @@ fn next_and_previous_go_round_all_mistakes() {
     app.update(Event::Paste("oops = 1\n".to_owned()));
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
-    let rows: Vec<usize> = bench(&app).flaws.iter().map(|flaw| flaw.from.row).collect();
+    let rows: Vec<usize> = sheet(&app).flaws.iter().map(|flaw| flaw.from.row).collect();
     assert_eq!((rows.len(), rows[0]), (2, 0));
     press(&mut app, "Ctrl-Home Ctrl-n");
-    assert_eq!(bench(&app).editor.cursor().row, rows[1]);
+    assert_eq!(sheet(&app).editor.cursor().row, rows[1]);
     press(&mut app, "Ctrl-n");
-    assert_eq!(bench(&app).editor.cursor(), Caret::default());
+    assert_eq!(sheet(&app).editor.cursor(), Caret::default());
     press(&mut app, "Ctrl-p");
-    assert_eq!(bench(&app).editor.cursor().row, rows[1]);
+    assert_eq!(sheet(&app).editor.cursor().row, rows[1]);
 }
 
 #[test]
@@ -140,19 +141,38 @@ fn an_answer_to_an_older_text_shows_no_mistakes_and_another_check_follows() {
     press(&mut app, "Backspace");
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "one check at a time");
     app.update(answer);
-    assert_eq!(bench(&app).flaws, []);
+    assert_eq!(sheet(&app).flaws, []);
     assert_eq!(rest(&mut app).len(), 1);
 }
 
 #[test]
-fn an_answer_is_not_wanted_once_another_system_is_open() {
+fn an_answer_that_comes_late_never_reaches_another_system() {
     let mut app = edited();
-    press(&mut app, "x");
-    let effects = app.update(Event::Tick(Duration::from_millis(200)));
-    let Effect::Check { revision, .. } = effects[0] else { panic!("{effects:?}") };
-    assert!(app.awaits(revision));
-    app.lab.as_mut().unwrap().loaded.name = "planet".to_owned();
-    assert!(!app.awaits(revision));
+    replace(&mut app, "cos(theta)", "cos(thet)");
+    let slow = app.update(Event::Tick(Duration::from_millis(200)));
+    let late = checked(&app, &slow[0]);
+    app.update(Event::Loaded(Ok(loaded("planet", 3))));
+    app.update(Event::Snapshot(Arc::new(snapshot(&loaded("planet", 3), 1.0))));
+    press(&mut app, "E x");
+    let asked = app.update(Event::Tick(Duration::from_millis(200)));
+    assert!(
+        matches!(&asked[..], [Effect::Check { .. }]),
+        "nobody waits for the old one: {asked:?}"
+    );
+    let Event::Checked(old) = &late else { panic!("{late:?}") };
+    assert!(!app.awaits(old.ticket));
+    app.update(late);
+    assert_eq!((sheet(&app).flaws.len(), sheet(&app).state), (0, SheetState::Changed));
+    // its own answer is still to come, and comes
+    let own = checked(&app, &asked[0]);
+    app.update(own);
+    assert_eq!(sheet(&app).state, SheetState::Wrong);
+    // back at the first system, whose text is as it was left and is checked anew
+    app.update(Event::Loaded(Ok(pendulum())));
+    press(&mut app, "E");
+    assert!(sheet(&app).is_modified());
+    rest(&mut app);
+    assert_eq!(sheet(&app).flaws.len(), 1);
 }
 
 #[test]
@@ -161,16 +181,16 @@ fn a_shipped_system_is_saved_as_a_copy_and_then_in_its_place() {
     press(&mut app, "# Enter");
     assert_eq!(press(&mut app, "Ctrl-s"), [], "it asks for a name");
     press(&mut app, "Ctrl-u m i n e");
-    let text = bench(&app).editor.text();
+    let text = sheet(&app).editor.text();
     let copy = Effect::SaveCopy { name: "mine".to_owned(), text: text.clone() };
     assert_eq!(press(&mut app, "Enter"), [copy]);
-    assert!(bench(&app).is_modified());
+    assert!(sheet(&app).is_modified());
     let place = PathBuf::from("/home/me/.config/phaselab/presets/mine.toml");
     app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
-    assert!(!bench(&app).is_modified());
+    assert!(!sheet(&app).is_modified());
     assert_eq!(app.file(), Some(place.clone()), "the copy is what is open now");
     press(&mut app, "y");
-    let later = bench(&app).editor.text();
+    let later = sheet(&app).editor.text();
     assert_eq!(press(&mut app, "Ctrl-s"), [Effect::Save { place, text: later, known: Some(text) }]);
 }
 
@@ -180,9 +200,9 @@ fn a_name_that_is_taken_is_asked_for_again() {
     press(&mut app, "Ctrl-s Enter");
     app.update(Event::FileSaved(Err(NotSaved::Exists(PathBuf::from("mine.toml")))));
     assert!(app.notice.as_ref().unwrap().text.contains("exists already"));
-    assert!(bench(&app).asking.is_some());
+    assert!(sheet(&app).asking.is_some());
     press(&mut app, "Esc");
-    assert!(bench(&app).asking.is_none(), "Esc leaves the question, not the text");
+    assert!(sheet(&app).asking.is_none(), "Esc leaves the question, not the text");
     press(&mut app, "Esc");
     assert!(app.over.is_none());
 }
@@ -217,9 +237,9 @@ fn a_file_changed_by_another_program_is_written_over_only_on_demand() {
     assert!(matches!(&again[..], [Effect::Save { known: None, .. }]), "{again:?}");
     assert_eq!(press(&mut app, "Ctrl-o"), [Effect::Reread(PathBuf::from("./my.toml"))]);
     app.update(Event::FileRead { text: "title = \"Other\"\n".to_owned(), asked: true });
-    assert_eq!(bench(&app).editor.text(), "title = \"Other\"\n");
+    assert_eq!(sheet(&app).editor.text(), "title = \"Other\"\n");
     press(&mut app, "Ctrl-u");
-    assert!(bench(&app).editor.text().starts_with('#'), "what stood there can be had back");
+    assert!(sheet(&app).editor.text().starts_with('#'), "what stood there can be had back");
 }
 
 #[test]
@@ -255,9 +275,9 @@ fn a_file_caught_half_written_is_looked_at_once_more_before_it_is_called_wrong()
 fn a_watched_file_does_not_replace_what_is_not_saved() {
     let mut app = own_file();
     press(&mut app, "E #");
-    let mine = bench(&app).editor.text();
+    let mine = sheet(&app).editor.text();
     app.update(file("title = \"Other\"\n"));
-    assert_eq!(bench(&app).editor.text(), mine);
+    assert_eq!(sheet(&app).editor.text(), mine);
     assert!(app.notice.as_ref().unwrap().text.contains("changed by another program"));
 }
 
@@ -265,30 +285,108 @@ fn a_watched_file_does_not_replace_what_is_not_saved() {
 fn what_is_not_saved_of_another_system_is_kept() {
     let mut app = edited();
     press(&mut app, "x y Esc");
-    let pendulum = app.lab.as_ref().unwrap().loaded.clone();
     let planet = loaded("planet", 3);
-    app.lab.as_mut().unwrap().loaded = planet.clone();
+    app.update(Event::Loaded(Ok(planet.clone())));
     press(&mut app, "E");
-    assert_eq!(bench(&app).editor.text(), planet.document.text);
-    press(&mut app, "Esc");
-    app.lab.as_mut().unwrap().loaded = pendulum;
+    assert_eq!(sheet(&app).editor.text(), planet.document.text);
+    press(&mut app, "z Esc");
+    let mut names: Vec<String> = app.unsaved().into_iter().map(|text| text.name).collect();
+    names.sort();
+    assert_eq!(names, ["pendulum", "planet"]);
+    app.update(Event::Loaded(Ok(pendulum())));
     press(&mut app, "E");
-    assert!(bench(&app).editor.text().starts_with("xy"));
-    assert_eq!(bench(&app).state, BenchState::Changed, "the system was loaded anew meanwhile");
+    assert!(sheet(&app).editor.text().starts_with("xy"));
+    assert_eq!(sheet(&app).state, SheetState::Changed, "the system was loaded anew meanwhile");
+}
+
+/// Another start of the program, with the texts that were kept, and what is asked for once the system is there.
+fn started_again(app: &App, resumed: bool) -> (App, Vec<Effect>) {
+    let (mut again, _) = App::new(catalog(), Some("pendulum"));
+    again.workbench.put(app.unsaved());
+    if resumed {
+        again.resume(app.saved().unwrap());
+    }
+    let effects = again.update(Event::Loaded(Ok(pendulum())));
+    (again, effects)
 }
 
 #[test]
 fn a_text_that_is_not_saved_outlives_the_session() {
     let mut app = edited();
-    assert_eq!(app.saved().unwrap().draft, None);
-    press(&mut app, "# Enter");
-    let saved = app.saved().unwrap();
-    let (mut again, _) = App::new(catalog(), Some("pendulum"));
-    again.resume(saved);
-    again.update(Event::Loaded(Ok(loaded("pendulum", 1))));
+    assert_eq!(app.unsaved(), []);
+    replace(&mut app, "cos(theta)", "cos(2*theta)");
+    rest(&mut app);
+    app.update(Event::Snapshot(Arc::new(Snapshot { epoch: 2, ..snapshot(&pendulum(), 2.0) })));
+    let left = app.saved().unwrap();
+    assert!(left.edited);
+    let (mut again, effects) = started_again(&app, true);
+    // the motion is that of the text, so it waits for it; and a session that ends now is the same
+    assert_eq!(effects, []);
+    assert_eq!(again.saved().unwrap().moment, left.moment);
+    assert_eq!(rest(&mut again), [Effect::Tell(Command::TakeUp(Box::new(left.moment)))]);
     press(&mut again, "E");
-    assert_eq!(bench(&again).editor.text(), bench(&app).editor.text());
-    assert!(bench(&again).is_modified());
+    assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
+    assert!(sheet(&again).is_modified());
+    assert!(matches!(sheet(&again).state, SheetState::Runs(Some(_))));
+}
+
+#[test]
+fn a_text_with_mistakes_that_is_not_saved_outlives_the_session_too() {
+    let mut app = edited();
+    replace(&mut app, "cos(theta)", "cos(thet)");
+    rest(&mut app);
+    let left = app.saved().unwrap();
+    let (mut again, effects) = started_again(&app, true);
+    assert_eq!(effects, []);
+    assert_eq!(rest(&mut again), [Effect::Tell(Command::TakeUp(Box::new(left.moment)))]);
+    assert!(again.banner().is_some_and(|banner| banner.contains("thet")));
+}
+
+#[test]
+fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
+    let mut app = edited();
+    press(&mut app, "# Enter");
+    let (mut again, effects) = started_again(&app, false);
+    assert_eq!(effects, [Effect::Tell(Command::Play)]);
+    assert!(again.notice.as_ref().unwrap().text.contains("E goes to them"));
+    assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
+    assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");
+    // what is watched is the file, not the text
+    let text = again.lab.as_ref().unwrap().loaded.document.text.clone();
+    again.update(Event::FileRead { text, asked: false });
+    assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
+    press(&mut again, "E");
+    assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
+    assert_eq!(rest(&mut again).len(), 1);
+}
+
+#[test]
+fn another_system_s_start_leaves_kept_texts_alone() {
+    let mut app = edited();
+    press(&mut app, "# Enter");
+    let (mut again, _) = App::new(catalog(), Some("planet"));
+    again.workbench.put(app.unsaved());
+    again.update(Event::Loaded(Ok(loaded("planet", 1))));
+    assert_eq!(again.notice, None);
+    press(&mut again, "E Esc");
+    assert_eq!(again.unsaved(), app.unsaved());
+}
+
+#[test]
+fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
+    let mut app = edited();
+    press(&mut app, "x Backspace");
+    let first = rest(&mut app);
+    // a snapshot of the new system from before it took the motion up
+    let early = Snapshot { epoch: 2, taken_up: false, ..snapshot(&pendulum(), 0.0) };
+    app.update(Event::Snapshot(Arc::new(early)));
+    assert!(app.snapshot().is_none(), "it is not shown");
+    press(&mut app, "x Backspace");
+    assert_eq!(rest(&mut app), first);
+    let taken = Snapshot { epoch: 2, status: Status::Paused, ..snapshot(&pendulum(), 2.5) };
+    app.update(Event::Snapshot(Arc::new(taken)));
+    press(&mut app, "x Backspace");
+    assert_ne!(rest(&mut app), first, "now the motion is seen, and goes on from there");
 }
 
 #[test]
@@ -299,20 +397,105 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
     assert!(app.over.is_none());
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");
-    assert!(bench(&app).editor.text().starts_with("xyq"));
+    assert!(sheet(&app).editor.text().starts_with("xyq"));
     assert!(matches!(app.over, Some(Over::Workbench)));
 }
 
 #[test]
-fn a_text_that_no_session_would_keep_is_not_lost_at_the_first_q() {
+fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
     let mut app = in_lab();
     press(&mut app, "E x Esc");
-    // in the lab the session keeps it
-    assert_eq!(press(&mut app.clone(), "q"), [Effect::Quit]);
-    assert!(app.saved().unwrap().draft.is_some());
-    press(&mut app, "Esc");
-    assert_eq!(press(&mut app, "q"), []);
-    let told = app.notice.clone().unwrap().text;
-    assert!(told.ends_with("has changes that are not saved; quit again to lose them."), "{told}");
-    assert_eq!(press(&mut app, "q"), [Effect::Quit]);
+    let mut kept = app.clone();
+    kept.workbench.keeps = true;
+    assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
+    assert_eq!(press(&mut kept, "Esc q"), [Effect::Quit], "also from the list of systems");
+    let lost = "has changes that are not saved; quit again to lose them.";
+    for keys in ["q", "Esc q"] {
+        let mut app = app.clone();
+        assert_eq!(press(&mut app, keys), []);
+        assert!(app.notice.as_ref().unwrap().text.ends_with(lost));
+        assert_eq!(press(&mut app, "q"), [Effect::Quit]);
+    }
+    // it was to be kept, and could not
+    kept.stay();
+    assert!(kept.notice.as_ref().unwrap().text.ends_with(lost));
+    assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
+}
+
+#[test]
+fn reading_anew_gives_a_shipped_text_back() {
+    let mut app = edited();
+    press(&mut app, "x y Ctrl-o");
+    assert!(!sheet(&app).is_modified());
+    assert_eq!(app.unsaved(), []);
+    press(&mut app, "Ctrl-u");
+    assert!(sheet(&app).editor.text().starts_with("xy"), "it can be taken back");
+}
+
+#[test]
+fn saving_what_has_a_mistake_says_so() {
+    let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
+    let saved = |app: &mut App| {
+        let [Effect::Save { place, text, .. }] = &press(app, "Ctrl-s")[..] else { panic!("no") };
+        app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
+    };
+    let mut app = own_file();
+    press(&mut app, "E");
+    replace(&mut app, "cos(theta)", "cos(thet)");
+    rest(&mut app);
+    saved(&mut app);
+    let with = told(&app);
+    assert!(with.starts_with("Saved: ./my.toml, with 1 mistake: "), "{with}");
+    assert!(with.contains("thet"), "{with}");
+    // one that was saved before it was looked at
+    replace(&mut app, "thet)", "thetta)");
+    saved(&mut app);
+    assert_eq!(told(&app), "Saved: ./my.toml");
+    rest(&mut app);
+    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 mistake: "), "{}", told(&app));
+    replace(&mut app, "thetta)", "theta)");
+    saved(&mut app);
+    rest(&mut app);
+    assert_eq!(told(&app), "Saved: ./my.toml");
+}
+
+#[test]
+fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
+    let mut app = edited();
+    press(&mut app, "x y F1");
+    assert!(matches!(app.over, Some(Over::Help { editing: true, .. })));
+    assert_eq!(app.places_below()[0], Place::Workbench);
+    for back in ["Esc", "F1", "?"] {
+        press(&mut app, back);
+        assert!(sheet(&app).editor.text().starts_with("xy"), "{back}");
+        press(&mut app, "F1");
+    }
+    press(&mut app, "Esc Esc F1 Esc");
+    assert!(app.over.is_none(), "elsewhere it goes back to the page");
+}
+
+#[test]
+fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
+    let mut app = edited();
+    let long = "0123456789\n".repeat(100_000);
+    app.update(Event::Paste(long.clone()));
+    assert!(app.notice.as_ref().unwrap().text.contains("too long"));
+    let text = sheet(&app).editor.text();
+    let taken = text.bytes().zip(long.bytes()).take_while(|(a, b)| a == b).count();
+    assert_eq!(taken, 256 << 10);
+}
+
+#[test]
+fn what_becomes_of_a_watched_file_is_told() {
+    let mut app = own_file();
+    let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
+    let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
+    app.update(Event::FileThere(false));
+    assert_eq!(told(&app), "./my.toml is no longer there; what it held goes on.");
+    app.update(Event::FileThere(true));
+    app.update(file(&text));
+    assert_eq!(told(&app), "./my.toml is there again.");
+    app.update(file(&text.replace("9.81", "1.62")));
+    rest(&mut app);
+    assert_eq!(told(&app), "./my.toml: built anew in 7 ms; the motion goes on.");
 }

@@ -200,3 +200,69 @@ fn an_ended_motion_is_still_ended() {
         panic!("the race has no end");
     }
 }
+
+#[test]
+fn a_method_that_is_refused_leaves_the_one_that_runs_with_its_settings() {
+    let method = Some("leapfrog".to_owned());
+    let moment = Moment { method, step: Some(0.01), ..kept(&shipped("double-pendulum")) };
+    let mut taken = shipped("double-pendulum");
+    let before = taken.snapshot();
+    taken.obey(Command::TakeUp(Box::new(moment)));
+    let after = taken.snapshot();
+    assert_eq!(after.method.name, before.method.name);
+    assert_eq!(after.setup.method, before.setup.method);
+    assert_eq!(after.setup.settings, before.setup.settings);
+    assert!(after.notices.iter().any(|notice| notice.contains("leapfrog")), "{:?}", after.notices);
+}
+
+/// A spring that has moved for a while, taken up with its past by the system of a changed text.
+fn recalled(change: impl Fn(String) -> String) -> (Experiment, Experiment) {
+    let mut left = build(SPRING, |_| ());
+    run(&mut left, 2.0);
+    let snapshot = left.snapshot();
+    let moment = Moment::of(left.model(), left.system(), &snapshot);
+    let moment = moment.with_past(left.system(), &snapshot);
+    let mut taken = build(&change(SPRING.to_owned()), |_| ());
+    taken.obey(Command::TakeUp(Box::new(moment)));
+    (left, taken)
+}
+
+/// What was recorded of a channel: times and values as bits.
+fn recorded(experiment: &Experiment, name: &str) -> Vec<(u64, u64)> {
+    let channels = experiment.system().channels();
+    let place = channels.iter().position(|channel| channel.name == name).expect("a channel");
+    let trail = experiment.snapshot().trail;
+    trail.rows().map(|row| (row[0].to_bits(), row[1 + place].to_bits())).collect()
+}
+
+#[test]
+fn what_was_drawn_stays_where_the_coordinates_are_the_same() {
+    let observed = |text: String| text + "[[observables]]\nname = \"new\"\nexpression = \"2*x\"\n";
+    let (left, mut taken) = recalled(observed);
+    for name in ["x", "y'", "energy"] {
+        let (before, after) = (recorded(&left, name), recorded(&taken, name));
+        let whole = before.iter().filter(|(time, _)| *time < 2.0_f64.to_bits()).count();
+        assert!(whole > 50 && after.len() > whole, "{name}: {whole} of {}", after.len());
+        assert_eq!(before[..whole], after[..whole], "{name}");
+    }
+    // of what is new nothing is known before
+    let new = recorded(&taken, "new");
+    assert!(f64::from_bits(new[0].1).is_nan() && f64::from_bits(new[new.len() - 1].1).is_finite());
+    let bounds = taken.snapshot().bounds;
+    assert!(bounds.iter().all(|(least, most)| least.is_finite() && most.is_finite()));
+    // and the rows that follow come in order
+    run(&mut taken, 3.0);
+    let times: Vec<f64> =
+        recorded(&taken, "x").iter().map(|(time, _)| f64::from_bits(*time)).collect();
+    assert!(times.is_sorted(), "{times:?}");
+}
+
+#[test]
+fn what_was_drawn_of_other_coordinates_goes() {
+    let (_, taken) = recalled(|text| {
+        let text =
+            text.replace("y = { initial = 2.0, velocity = 0.5 }\n", "z = { initial = 9.0 }\n");
+        text.replace("y'^2", "z'^2").replace("y^2", "z^2")
+    });
+    assert!(recorded(&taken, "x").len() <= 2);
+}

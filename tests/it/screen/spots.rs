@@ -310,7 +310,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.lab().focus, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
-    assert!(matches!(real.app.over, Some(Over::Help(_))));
+    assert!(matches!(real.app.over, Some(Over::Help { .. })));
     act(&mut real, size, Act::WheelDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");

@@ -1,6 +1,6 @@
 //! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
 
-use phaselab::app::{App, BenchState, Caret, Event, Flaw};
+use phaselab::app::{App, Caret, Event, Flaw, Notice, SheetState};
 use phaselab::view::Look;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -53,9 +53,9 @@ proptest! {
             app.update(Event::Drawn(shown));
             press(&mut app, word);
         }
-        let bench = app.open_workbench().unwrap();
-        let Caret { row, column } = bench.editor.cursor();
-        let under = bench.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
+        let sheet = app.open_sheet().unwrap();
+        let Caret { row, column } = sheet.editor.cursor();
+        let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
         let buffer = screen(&app, &rich(), (width, height));
         prop_assert_eq!(cells(&buffer, Modifier::REVERSED, width), [under]);
     }
@@ -64,14 +64,14 @@ proptest! {
 #[test]
 fn a_mistake_is_underlined_marked_and_told_below() {
     let mut app = edited();
-    let bench = app.workbench.as_mut().unwrap();
+    let sheet = app.workbench.top_mut().unwrap();
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
-    bench.flaws = vec![Flaw { from, to, warning: false, message, help }];
-    bench.state = BenchState::Wrong;
+    sheet.flaws = vec![Flaw { from, to, warning: false, message, help }];
+    sheet.state = SheetState::Wrong;
     for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
         let buffer = screen(&app, &look, (80, 24));
-        let line: String = bench_line(&app, 2).chars().skip(10).take(3).collect();
+        let line: String = sheet_line(&app, 2).chars().skip(10).take(3).collect();
         let (_, y) = find(&buffer, " 3  source").unwrap();
         let row = (0..80).map(|x| &buffer[(x, y)]);
         let underlined = row.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED));
@@ -83,8 +83,8 @@ fn a_mistake_is_underlined_marked_and_told_below() {
     }
 }
 
-fn bench_line(app: &App, row: usize) -> String {
-    app.open_workbench().unwrap().editor.lines()[row].clone()
+fn sheet_line(app: &App, row: usize) -> String {
+    app.open_sheet().unwrap().editor.lines()[row].clone()
 }
 
 fn plain() -> Look {
@@ -110,4 +110,58 @@ fn the_motion_stands_beside_the_text_where_there_is_room() {
     let app = edited();
     let beside = |size| find(&screen(&app, &rich(), size), "Motion").is_some();
     assert!(beside((120, 40)) && beside((200, 60)) && !beside((80, 24)));
+}
+
+const ALONG: [&str; 6] = ["Left", "Right", "Home", "End", "Ctrl-Right", "Ctrl-Left"];
+
+/// What a character stands as on a terminal of ASCII.
+fn spelt(c: char) -> String {
+    match c {
+        'θ' => "<theta>".to_owned(),
+        '½' => "<1/2>".to_owned(),
+        '漢' => "<U+6F22>".to_owned(),
+        _ => c.to_string(),
+    }
+}
+
+proptest! {
+    /// Where a character takes several cells the cursor stands on all of them.
+    #[test]
+    fn the_cursor_is_in_sight_where_letters_are_spelt_out(
+        keys in prop::collection::vec(prop::sample::select(ALONG.to_vec()), 0..20),
+        (width, height) in (40_u16..111, 10_u16..50),
+    ) {
+        let mut app = edited();
+        app.update(Event::Paste("θx½漢".repeat(12) + "\n" + &"θ漢".repeat(40) + "\n"));
+        press(&mut app, "Ctrl-Home");
+        for word in keys {
+            let (_, shown) = drawn(&app, &plain(), (width, height));
+            app.update(Event::Drawn(shown));
+            press(&mut app, word);
+        }
+        let sheet = app.open_sheet().unwrap();
+        let Caret { row, column } = sheet.editor.cursor();
+        let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ');
+        let buffer = screen(&app, &plain(), (width, height));
+        prop_assert_eq!(cells(&buffer, Modifier::REVERSED, width).concat(), spelt(under));
+    }
+}
+
+#[test]
+fn what_is_told_leaves_the_keys_in_sight() {
+    let mut app = edited();
+    let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 mistake: 12:3 no such name";
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        for look in [rich(), plain()] {
+            app.notice = None;
+            let before = rows(&screen(&app, &look, size));
+            app.notice = Some(Notice::error(told));
+            let after = rows(&screen(&app, &look, size));
+            assert_eq!(before.last(), after.last(), "{size:?}");
+            assert!(after.last().unwrap().contains("F1 help"), "{after:#?}");
+            let shown: Vec<&str> = after.iter().flat_map(|row| row.split_whitespace()).collect();
+            let words: Vec<&str> = told.split_whitespace().collect();
+            assert!(words.iter().all(|word| shown.contains(word)), "{after:#?}");
+        }
+    }
 }

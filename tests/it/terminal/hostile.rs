@@ -112,39 +112,6 @@ fn time_goes_on_behind_a_stalled_terminal() {
 }
 
 #[test]
-fn a_line_that_dies_in_a_panic_leaves_nobody_behind() {
-    let mut page = Setup::page().start();
-    page.shows("clock");
-    page.press("p");
-    let mut child = page.hang_up();
-    let start = Instant::now();
-    let status = child.wait().expect("a child of ours");
-    assert!(status.signal().is_none_or(|signal| !signal.contains("bort")), "{status:?}");
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
-}
-
-#[test]
-#[cfg(target_os = "linux")]
-fn a_dead_line_is_not_waited_for_in_a_loop() {
-    // The shell that waits for it reports how much of the processor it took: user and system, in its last line.
-    let folder = tempfile::tempdir().expect("a folder");
-    let report = folder.path().join("times");
-    let line = "trap '' HUP; setsid --wait \"$0\" pendulum; times > \"$1\"";
-    let mut lab = Setup::new("sh", &["-c", line]).argument(PROGRAM).argument(&report).start();
-    lab.shows("Phase");
-    let start = Instant::now();
-    lab.hang_up().wait().expect("a child of ours");
-    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
-    let times = fs::read_to_string(report).expect("a report");
-    let seconds = |word: &str| -> f64 {
-        let (minutes, seconds) = word.trim_end_matches('s').split_once('m').expect("0m0.1s");
-        60.0 * minutes.parse::<f64>().expect("minutes") + seconds.parse::<f64>().expect("seconds")
-    };
-    let spent: f64 = times.lines().last().unwrap_or("").split_whitespace().map(seconds).sum();
-    assert!(spent < 2.0, "{spent} s of the processor");
-}
-
-#[test]
 fn the_log_tells_what_happened_and_the_terminal_does_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("own.log");

@@ -137,3 +137,109 @@ fn a_disk_that_is_full_at_the_end_is_told() {
     lab.assert_restored();
     assert!(lab.text().contains("the session is not saved: cannot write"), "{}", lab.text());
 }
+
+#[test]
+fn a_configured_resume_of_what_cannot_be_understood_opens_all_the_same() {
+    for (text, told) in
+        [("version = 9\n", "newer phaselab"), ("version = ]\n", "cannot be understood")]
+    {
+        let state = folder();
+        fs::create_dir_all(state.path().join("phaselab")).expect("a folder");
+        fs::write(file(state.path()), text).expect("it is written");
+        let setup = Setup::new(PROGRAM, &[]).size(160, 40).variable("XDG_STATE_HOME", state.path());
+        let mut lab = setup.variable("PHASELAB_RESUME", "true").start();
+        lab.shows("Systems");
+        lab.shows(told);
+        lab.press("\r");
+        lab.shows("running");
+        lab.shows(told);
+        lab.press("q");
+        assert_eq!(lab.ends().0, 0);
+        assert_eq!(kept(state.path()), text, "nothing is written over");
+    }
+}
+
+/// A file of one's own, and what is typed at its beginning and not saved, left at the list of systems.
+fn edited(state: &Path, place: &Path) -> Session {
+    let text = "title = \"Oscillator\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - 1/2*x^2\"\n";
+    if !place.exists() {
+        fs::write(place, text).expect("it is written");
+    }
+    let mut lab = lab(&[place.to_str().expect("text")], state);
+    lab.shows("running");
+    lab.press("E");
+    lab.shows("This text is the one that runs.");
+    lab.press("# mine\r");
+    lab.shows("built anew in");
+    lab.press("\x1b");
+    lab.shows("E goes back to it");
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    lab
+}
+
+#[test]
+fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
+    let (state, folder) = (folder(), folder());
+    let (place, texts) = (folder.path().join("own.toml"), state.path().join("phaselab/texts.toml"));
+    let kept = || fs::read_to_string(&texts).unwrap_or_default();
+    let mut left = edited(state.path(), &place);
+    left.press("\x1b");
+    left.shows("Systems");
+    left.press("q");
+    assert_eq!(left.ends().0, 0);
+    assert!(kept().contains("# mine"), "{}", kept());
+    // another system begins and ends, and the text stays
+    let mut other = lab(&["planet"], state.path());
+    other.shows("running");
+    other.press("q");
+    assert_eq!(other.ends().0, 0);
+    assert!(kept().contains("# mine"));
+    // it is there when its system is opened again, whatever ends the program then
+    let mut again = lab(&[place.to_str().expect("text")], state.path());
+    again.shows("E goes to them");
+    again.press("E");
+    again.shows("# mine");
+    again.press("# more\r");
+    again.shows("# more");
+    again.signal(Signal::TERM);
+    assert_eq!(again.ends().0, 143);
+    again.assert_restored();
+    assert!(kept().contains("# more") && kept().contains("# mine"), "{}", kept());
+    // also where the line is lost, and where the session is gone on with
+    let mut resumed = lab(&["--resume"], state.path());
+    resumed.shows("E goes to them");
+    resumed.press("E");
+    resumed.shows("built anew in");
+    resumed.press("# last\r");
+    resumed.shows("# last");
+    resumed.hang_up().wait().expect("it ends");
+    assert!(kept().contains("# last") && kept().contains("# mine"), "{}", kept());
+    // what is saved need not be kept
+    let mut saved = lab(&["--resume"], state.path());
+    saved.shows("E goes to them");
+    saved.press("E");
+    saved.shows("built anew in");
+    saved.press("\x13");
+    saved.shows("Saved: ");
+    saved.press("\x1b");
+    saved.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    saved.press("q");
+    assert_eq!(saved.ends().0, 0);
+    assert!(!texts.exists());
+    assert!(fs::read_to_string(&place).expect("it is there").contains("# last"));
+}
+
+#[test]
+fn a_text_that_cannot_be_kept_is_not_lost_at_the_first_q() {
+    let (state, folder) = (folder(), folder());
+    let mut lab = edited(state.path(), &folder.path().join("own.toml"));
+    let place = state.path().join("phaselab");
+    fs::remove_dir_all(&place).expect("it is there");
+    fs::write(&place, "in the way").expect("it is written");
+    lab.press("q");
+    lab.shows("quit again to lose them");
+    lab.press("q");
+    assert_eq!(lab.ends().0, 74);
+    lab.assert_restored();
+}

@@ -257,28 +257,6 @@ fn a_name_that_is_not_there_opens_nothing() {
 }
 
 #[test]
-fn signals_end_a_moving_lab() {
-    for (signal, status) in [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130)] {
-        let mut lab = pendulum();
-        lab.signal(signal);
-        assert_eq!(lab.ends().0, status);
-        lab.assert_restored();
-    }
-}
-
-#[test]
-fn ctrl_z_stops_a_moving_lab_and_it_comes_back() {
-    let mut lab = pendulum();
-    lab.press("\x1a");
-    lab.stops();
-    lab.assert_restored();
-    lab.signal(Signal::CONT);
-    lab.until("it is on the screen again", |lab| lab.screen().alternate_screen());
-    lab.shows("running");
-    quits(lab);
-}
-
-#[test]
 fn a_flood_of_keys_does_not_hold_a_moving_lab() {
     for key in ["z", " "] {
         let mut lab = pendulum();

@@ -55,7 +55,7 @@ fn quits_from_bench(mut lab: Session, place: &Path) {
     let saved = fs::read_to_string(place).expect("it is there");
     assert_eq!(saved, FILE.replace("k = 4.0", "k = 9.0"));
     lab.press("\x1b");
-    lab.until("the editor is closed", |lab| !lab.text().contains("built anew"));
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
     lab.shows("running");
     quits(lab);
 }
@@ -71,6 +71,44 @@ fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
     let right = FILE.replace("Oscillator", "Another name");
     fs::write(&place, right).expect("it can be written");
     lab.shows("Another name");
-    lab.until("the mistake is forgotten", |lab| !lab.text().contains("own.toml:"));
+    lab.shows("built anew in");
+    lab.until("the mistake is forgotten", |lab| !lab.text().contains("what was right goes on"));
+    let text = fs::read_to_string(&place).expect("it is there");
+    fs::remove_file(&place).expect("it goes");
+    lab.shows("is no longer there");
+    fs::write(&place, text).expect("it can be written");
+    lab.shows("is there again");
     quits(lab);
+}
+
+#[test]
+fn what_is_shipped_has_no_file_to_be_watched() {
+    let mut lab = Setup::new(PROGRAM, &["--watch", "pendulum"]).start();
+    assert_eq!(lab.ends().0, 2);
+    assert!(lab.text().contains("no file to be watched"), "{}", lab.text());
+    // where it is but a habit it does no harm
+    let setup = Setup::new(PROGRAM, &["pendulum"]).variable("PHASELAB_WATCH", "true");
+    let mut habit = setup.start();
+    habit.shows("Phase");
+    quits(habit);
+}
+
+#[test]
+fn a_long_paste_is_taken_into_the_text() {
+    let (_folder, _place, mut lab) = open(&[]);
+    lab.press("E");
+    lab.shows("This text is the one that runs.");
+    lab.until("pastes come in brackets", |lab| lab.screen().bracketed_paste());
+    let long = "# a line that is pasted, one of very many\n".repeat(4000);
+    lab.press(&format!("\x1b[200~{long}\x1b[201~"));
+    lab.shows("4001:1");
+    lab.shows("built anew in");
+    lab.press("\x1b[200~");
+    lab.press(&"x".repeat(300_000));
+    lab.press("\x1b[201~");
+    lab.shows("too long");
+    lab.press("\x1b");
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
 }

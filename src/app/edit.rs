@@ -1,0 +1,417 @@
+//! Editing: what is done to the file of the system in the lab while that runs.
+//!
+//! In: keys, time, and what became of checks, of saving and of the file on disk. Out: the changed sheet, and what is to
+//! be checked or saved. Never here: files, threads, how it is drawn.
+//!
+//! A text is checked when typing rests, one check at a time, and where it is right the lab is built anew from it. A
+//! file changed by another program takes the same way.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use tui_input::Input;
+
+use super::field::paste;
+use super::sheet::{Asking, Found, Sheet, State, Unsaved};
+use super::{App, Effect, Key, Lab, Loaded, Notice, Over};
+use crate::preset::{Mistake, Origin, is_path};
+
+/// A text that was asked to be checked: what became of it.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// Which check it was.
+    pub ticket: u64,
+    /// The system it makes, running already, or its mistakes.
+    pub outcome: Result<Loaded, Vec<Mistake>>,
+    /// How long that took.
+    pub took: Duration,
+}
+
+/// Why a text was not saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotSaved {
+    /// The file is not what it was when it was read.
+    Changed,
+    /// There is a file of that name already.
+    Exists(PathBuf),
+    /// Anything else, a sentence.
+    Refused(String),
+}
+
+impl App {
+    /// The sheet being edited, while its editor is open.
+    pub fn open_sheet(&self) -> Option<&Sheet> {
+        self.workbench.top().filter(|_| matches!(self.over, Some(Over::Workbench)))
+    }
+
+    fn sheet(&mut self) -> Option<&mut Sheet> {
+        self.workbench.top_mut()
+    }
+
+    /// The sheet of the system in the lab, if it has one.
+    pub(super) fn own_sheet(&self) -> Option<&Sheet> {
+        let lab = self.lab.as_ref()?;
+        self.workbench.of(&lab.loaded.name, self.file().as_deref())
+    }
+
+    /// The file of the loaded system, where it has one of its own.
+    pub fn file(&self) -> Option<PathBuf> {
+        let name = &self.lab.as_ref()?.loaded.name;
+        if is_path(name) {
+            return Some(PathBuf::from(name));
+        }
+        let entry = self.picker.entries.iter().find(|entry| entry.name == *name)?;
+        match &entry.origin {
+            Origin::User(path) => Some(path.clone()),
+            Origin::Shipped => None,
+        }
+    }
+
+    /// A line on what is wrong with the file while its editor is closed.
+    pub fn banner(&self) -> Option<String> {
+        let sheet = self.own_sheet().filter(|_| self.over.is_none())?;
+        let flaw = sheet.flaws.first().filter(|_| sheet.state == State::Wrong)?;
+        let (row, column) = (flaw.from.row + 1, flaw.from.column + 1);
+        Some(format!("{}:{row}:{column}: {}; what was right goes on", sheet.title, flaw.message))
+    }
+
+    /// Whether the answer to a check is still wanted.
+    pub fn awaits(&self, ticket: u64) -> bool {
+        self.own_sheet().is_some_and(|sheet| sheet.awaits(ticket))
+    }
+
+    /// The texts of all systems that are not saved.
+    pub fn unsaved(&self) -> Vec<Unsaved> {
+        self.workbench.unsaved()
+    }
+
+    /// Opens the file of the loaded system.
+    pub(super) fn edit_file(&mut self) -> Vec<Effect> {
+        if self.ready_sheet().is_some() {
+            self.over = Some(Over::Workbench);
+        }
+        Vec::new()
+    }
+
+    /// The sheet of the system in the lab, as it was left.
+    fn ready_sheet(&mut self) -> Option<&mut Sheet> {
+        let place = self.file();
+        Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
+    }
+
+    /// Ends the program; where a text would be lost only when asked twice.
+    pub(super) fn quit(&mut self) -> Vec<Effect> {
+        let Some(told) = self.loss().filter(|_| !self.workbench.keeps) else {
+            return vec![Effect::Quit];
+        };
+        if self.notice.as_ref().is_some_and(|notice| notice.text == told) {
+            return vec![Effect::Quit];
+        }
+        self.say(told)
+    }
+
+    /// The program was about to end, and a text could not be kept.
+    pub fn stay(&mut self) {
+        self.workbench.keeps = false;
+        self.notice = self.loss().map(Notice::error);
+    }
+
+    /// A sentence on what would be lost.
+    fn loss(&self) -> Option<String> {
+        let text = self.workbench.unsaved().into_iter().next()?;
+        Some(format!("{} has changes that are not saved; quit again to lose them.", text.title))
+    }
+
+    /// The text that was not saved is the one that ran: it is checked at once. Whether there is such a text.
+    pub(super) fn wake(&mut self) -> bool {
+        let modified = self.own_sheet().is_some_and(Sheet::is_modified);
+        modified && self.ready_sheet().is_some()
+    }
+
+    /// Tells of a text of the system in the lab that was not saved.
+    pub(super) fn remind(&mut self) {
+        if let Some(sheet) = self.own_sheet().filter(|sheet| sheet.is_modified()) {
+            let told = format!("{} has changes that are not saved; E goes to them.", sheet.title);
+            self.notice = Some(Notice::info(told));
+        }
+    }
+
+    /// A key that stands for itself.
+    pub(super) fn type_on_sheet(&mut self, key: Key) {
+        let page = usize::from(self.drawn.rows).saturating_sub(1);
+        if let Some(sheet) = self.sheet() {
+            sheet.press(key, page);
+        }
+    }
+
+    /// Pasted text; whether all of it found room.
+    pub(super) fn paste_on_sheet(&mut self, text: &str) -> bool {
+        let Some(sheet) = self.sheet() else { return true };
+        match &mut sheet.asking {
+            Some(Asking::Words(input) | Asking::Name(input)) => paste(input, text),
+            None => {
+                let whole = sheet.editor.paste(text);
+                sheet.touch();
+                whole
+            }
+        }
+    }
+
+    /// Something done to the text as a whole.
+    pub(super) fn work(&mut self, work: Work) -> Vec<Effect> {
+        let Some(sheet) = self.sheet() else { return Vec::new() };
+        let changed = match work {
+            Work::Save => return self.save_file(),
+            Work::Find => {
+                sheet.asking = Some(Asking::Words(Input::new(sheet.sought.clone())));
+                false
+            }
+            Work::FindNext => return self.find(),
+            Work::Mistake(sign) => {
+                if !sheet.step(sign) {
+                    return self.say("There is no mistake.");
+                }
+                false
+            }
+            Work::Cut => sheet.editor.cut(),
+            Work::Copy => {
+                sheet.editor.copy();
+                self.notice = Some(Notice::info("Copied; Ctrl-v puts it in."));
+                return Vec::new();
+            }
+            Work::PutBack => sheet.editor.put_back(),
+            Work::Undo => {
+                if !sheet.editor.undo() {
+                    return self.say("There is nothing to take back.");
+                }
+                true
+            }
+            Work::Redo => {
+                if !sheet.editor.redo() {
+                    return self.say("There is nothing to do again.");
+                }
+                true
+            }
+            Work::Reread => {
+                let Some(place) = &sheet.place else {
+                    // what is shipped has not changed
+                    let text = sheet.on_disk.clone();
+                    self.changed_on_disk(&text, true);
+                    return Vec::new();
+                };
+                return vec![Effect::Reread(place.clone())];
+            }
+        };
+        if changed && let Some(sheet) = self.sheet() {
+            sheet.touch();
+        }
+        Vec::new()
+    }
+
+    /// Esc: leaves what is asked for, else the workbench; the text stays.
+    pub(super) fn leave_sheet(&mut self) {
+        match self.sheet() {
+            Some(sheet) if sheet.asking.is_some() => sheet.asking = None,
+            _ => {
+                self.over = None;
+                if let Some(sheet) = self.sheet().filter(|sheet| sheet.is_modified()) {
+                    let text = format!("{} is not saved; E goes back to it.", sheet.title);
+                    self.notice = Some(Notice::info(text));
+                }
+            }
+        }
+    }
+
+    /// Enter, where something is asked for.
+    pub(super) fn accept_on_sheet(&mut self) -> Vec<Effect> {
+        let Some(sheet) = self.sheet() else { return Vec::new() };
+        match sheet.asking.take() {
+            None => Vec::new(),
+            Some(Asking::Words(input)) => {
+                input.value().clone_into(&mut sheet.sought);
+                if sheet.sought.is_empty() { Vec::new() } else { self.find() }
+            }
+            Some(Asking::Name(input)) => {
+                let name = input.value().trim().to_owned();
+                if name.is_empty() || name.ends_with('/') {
+                    sheet.asking = Some(Asking::Name(input));
+                    return self.say("Give the copy a name, as my-pendulum or ./pendulum.toml.");
+                }
+                let text = sheet.editor.text();
+                vec![Effect::SaveCopy { name, text }]
+            }
+        }
+    }
+
+    fn find(&mut self) -> Vec<Effect> {
+        let Some(sheet) = self.sheet() else { return Vec::new() };
+        let sought = sheet.sought.clone();
+        if sought.is_empty() {
+            sheet.asking = Some(Asking::Words(Input::default()));
+            return Vec::new();
+        }
+        if sheet.editor.find(&sought) {
+            return Vec::new();
+        }
+        self.say(format!("`{sought}` stands nowhere."))
+    }
+
+    fn save_file(&mut self) -> Vec<Effect> {
+        let Some(sheet) = self.sheet() else { return Vec::new() };
+        let text = sheet.editor.text();
+        match &sheet.place {
+            Some(place) => {
+                let known = (!sheet.overrule).then(|| sheet.on_disk.clone());
+                vec![Effect::Save { place: place.clone(), text, known }]
+            }
+            None => {
+                let copy = format!("my-{}", sheet.name);
+                sheet.asking = Some(Asking::Name(Input::new(copy)));
+                Vec::new()
+            }
+        }
+    }
+
+    /// A text was saved, or was not.
+    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), NotSaved>) {
+        let Some(sheet) = self.workbench.top_mut() else { return };
+        sheet.overrule = outcome == Err(NotSaved::Changed);
+        self.notice = Some(match outcome {
+            Ok((place, text)) => {
+                let shown = place.display().to_string();
+                sheet.on_disk = text;
+                if sheet.place.as_ref() != Some(&place) {
+                    // from now on the copy is what is open
+                    let here = |lab: &&mut Lab| lab.loaded.name == sheet.name;
+                    let name = if is_path(&shown) { shown.clone() } else { format!("./{shown}") };
+                    if let Some(lab) = self.lab.as_mut().filter(here) {
+                        lab.loaded.name.clone_from(&name);
+                    }
+                    (sheet.name, sheet.title) = (name, shown.clone());
+                    sheet.place = Some(place);
+                }
+                sheet.unlooked = sheet.state == State::Changed;
+                match (sheet.saved_as(), sheet.state) {
+                    (Some(told), State::Wrong) => Notice::error(told),
+                    (told, _) => Notice::info(told.unwrap_or_default()),
+                }
+            }
+            Err(NotSaved::Changed) => Notice::error(format!(
+                "{} was changed by another program: Ctrl-s again writes over it, Ctrl-o reads it.",
+                sheet.title
+            )),
+            Err(NotSaved::Exists(place)) => {
+                sheet.asking = Some(Asking::Name(Input::new(place.display().to_string())));
+                Notice::error(format!("{} exists already; give another name.", place.display()))
+            }
+            Err(NotSaved::Refused(why)) => Notice::error(why),
+        });
+    }
+
+    /// The file holds this text now; `asked` says that it was read because the user wanted it.
+    pub(super) fn changed_on_disk(&mut self, text: &str, asked: bool) {
+        if let Some(sheet) = self.own_sheet().filter(|sheet| !asked && sheet.is_modified()) {
+            if sheet.on_disk != text {
+                let told = format!(
+                    "{} was changed by another program; what stands here is not saved.",
+                    sheet.title
+                );
+                self.notice = Some(Notice::error(told));
+            }
+            return;
+        }
+        let Some(sheet) = self.ready_sheet() else { return };
+        text.clone_into(&mut sheet.on_disk);
+        if sheet.editor.text() != text {
+            sheet.editor.become_text(text);
+            sheet.touch_at_once(!asked);
+        }
+        sheet.overrule = false;
+    }
+
+    /// The watched file has gone, or is there again.
+    pub(super) fn found_on_disk(&mut self, there: bool) {
+        let Some(lab) = &self.lab else { return };
+        let title = &lab.loaded.document.path;
+        self.notice = Some(if there {
+            Notice::info(format!("{title} is there again."))
+        } else {
+            Notice::error(format!("{title} is no longer there; what it held goes on."))
+        });
+    }
+
+    /// Time has passed.
+    pub(super) fn tick_sheet(&mut self, elapsed: Duration) -> Option<Effect> {
+        self.workbench.tick(elapsed)
+    }
+
+    /// The screen was drawn: the cursor is kept on it.
+    pub(super) fn follow_cursor(&mut self) {
+        let (rows, columns) = (self.drawn.rows.into(), self.drawn.columns.into());
+        if matches!(self.over, Some(Over::Workbench))
+            && let Some(sheet) = self.sheet()
+        {
+            sheet.scroll = sheet.follow(rows, columns);
+        }
+    }
+
+    /// A text was checked, and where it was right its system runs already.
+    pub(super) fn checked(&mut self, checked: Checked) -> Vec<Effect> {
+        let Checked { ticket, outcome, took } = checked;
+        let Some(sheet) = self.sheet().filter(|sheet| sheet.awaits(ticket)) else {
+            return Vec::new();
+        };
+        let found = sheet.end_check();
+        match (outcome, found) {
+            (Ok(loaded), found) => {
+                if let Found::Newest = found {
+                    sheet.flaws.clear();
+                    sheet.state = State::Runs(Some(took));
+                }
+                let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
+                if !resumes && !matches!(self.over, Some(Over::Workbench)) {
+                    let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
+                    let told = format!("{title}: built anew in {time:.0} ms; the motion goes on.");
+                    self.notice = Some(Notice::info(told));
+                }
+                self.rebuilt(loaded)
+            }
+            // what was wrong with a text that has changed since is no longer so
+            (Err(_), Found::Older) => Vec::new(),
+            (Err(mistakes), Found::Newest) => {
+                sheet.is_wrong(&mistakes);
+                let saved = sheet.saved_as().filter(|_| sheet.unlooked);
+                sheet.unlooked = false;
+                if let Some(told) = saved {
+                    self.notice = Some(Notice::error(told));
+                }
+                self.take_up()
+            }
+        }
+    }
+}
+
+/// What can be done to the text beside typing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Work {
+    /// Save it.
+    Save,
+    /// Look for words.
+    Find,
+    /// Look for them again.
+    FindNext,
+    /// To the next mistake (+1) or the one before (−1).
+    Mistake(i8),
+    /// Cut what is selected, or the line.
+    Cut,
+    /// Keep it without cutting it.
+    Copy,
+    /// Put in what was cut.
+    PutBack,
+    /// Take back the last change.
+    Undo,
+    /// Make it again.
+    Redo,
+    /// Read the file anew.
+    Reread,
+}

@@ -1,0 +1,160 @@
+//! How it ends where the end is not its own: signals, dead lines, panics on them; and how it comes back after a stop.
+//!
+//! Times are measured; what a loaded machine adds to one of them is told from what the program takes by trying again.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use rustix::process::Signal;
+
+use super::session::{Session, Setup};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
+
+/// How often something is tried that has to be done in time.
+const TRIES: usize = 6;
+
+/// The least time of several tries, which stop once one was short enough.
+#[track_caller]
+fn in_time(bar: Duration, mut run: impl FnMut() -> Duration) {
+    let mut times = Vec::new();
+    while times.len() < TRIES {
+        times.push(run());
+        if times.last().is_some_and(|time| *time < bar) {
+            return;
+        }
+    }
+    panic!("never within {bar:?}: {times:?}");
+}
+
+fn pendulum() -> Session {
+    let mut lab = Setup::new(PROGRAM, &["pendulum"]).size(120, 40).start();
+    lab.shows("running");
+    lab
+}
+
+#[test]
+fn a_signal_ends_a_moving_lab_in_a_fifth_of_a_second() {
+    let signals =
+        [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131)];
+    for (signal, status) in signals {
+        in_time(Duration::from_millis(200), || {
+            let mut lab = pendulum();
+            lab.signal(signal);
+            let (ended, took) = lab.ends();
+            assert_eq!(ended, status, "{signal:?}");
+            lab.assert_restored();
+            took
+        });
+    }
+}
+
+#[test]
+fn a_line_that_dies_in_a_panic_leaves_nobody_behind() {
+    let mut panicked = 0;
+    in_time(Duration::from_secs(1), || {
+        let mut page = Setup::page().size(200, 60).start();
+        page.shows("clock");
+        // A terminal that takes nothing holds the panic up where the screen is restored; then it is closed.
+        page.press("f");
+        page.stalled(|page| {
+            std::thread::sleep(Duration::from_millis(500));
+            page.press("p");
+            std::thread::sleep(Duration::from_millis(50));
+        });
+        let start = Instant::now();
+        let status = page.hang_up().wait().expect("a child of ours");
+        let took = start.elapsed();
+        assert_eq!(status.signal(), None, "no abort: {status:?}");
+        assert!([101, 129].contains(&status.exit_code()), "{status:?}");
+        panicked += u32::from(status.exit_code() == 101);
+        // where the line died before the key was read it has still to be tried
+        if panicked == 0 { Duration::from_secs(60) } else { took }
+    });
+}
+
+#[test]
+fn after_a_stop_everything_is_painted_and_nothing_is_asked() {
+    let mut lab = pendulum();
+    lab.press(" ");
+    lab.shows("paused");
+    lab.quiet(Duration::from_millis(300));
+    let picture = |screen: &vt100::Screen| -> Vec<String> {
+        let rows: Vec<String> = screen.rows(0, 120).collect();
+        rows.into_iter().filter(|row| !row.trim_end().ends_with(" fps")).collect()
+    };
+    let before = picture(lab.screen());
+    lab.press("\x1a");
+    lab.stops();
+    lab.assert_restored();
+    let from = lab.sent.len();
+    lab.signal(Signal::CONT);
+    lab.until("the whole picture came again", |lab| {
+        let mut fresh = vt100::Parser::new(40, 120, 0);
+        fresh.process(&lab.sent[from..]);
+        picture(fresh.screen()) == before
+    });
+    for question in ["\x1b[6n", "\x1b[c", "\x1b[>c", "\x1b[5n", "\x1b]11;?"] {
+        assert!(!lab.sent().contains(question), "{question:?}");
+    }
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+}
+
+/// What a process has taken of the processor, while it is there or its end was not looked at.
+#[cfg(target_os = "linux")]
+fn spent(id: &str) -> Option<(Duration, bool)> {
+    let stat = std::fs::read_to_string(Path::new("/proc").join(id).join("stat")).ok()?;
+    // behind the name, which may hold anything: state, …, and as the 12th and 13th user and system time in hundredths
+    let fields: Vec<&str> = stat.rsplit_once(") ")?.1.split(' ').collect();
+    let ticks: u64 = fields.get(11)?.parse::<u64>().ok()? + fields.get(12)?.parse::<u64>().ok()?;
+    Some((Duration::from_millis(10 * ticks), fields[0] == "Z"))
+}
+
+/// Closes the terminal under a lab; how long it then lived, and what it took of the processor.
+#[cfg(target_os = "linux")]
+fn closed(line: &str) -> (Duration, Duration) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = folder.path().join("id");
+    let mut lab = Setup::new("sh", &["-c", line]).argument(PROGRAM).argument(&report).start();
+    lab.shows("Phase");
+    let id = std::fs::read_to_string(&report).expect("its number");
+    let id = id.trim();
+    let (before, _) = spent(id).expect("it runs");
+    let start = Instant::now();
+    let mut child = lab.hang_up();
+    let mut last = before;
+    while let Some((now, ended)) = spent(id) {
+        last = now;
+        if ended {
+            break;
+        }
+        assert!(start.elapsed() < Duration::from_secs(20), "it does not end");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let lived = start.elapsed();
+    child.wait().expect("a child of ours");
+    (lived, last.saturating_sub(before))
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_dead_line_ends_it_soon_and_without_a_loop() {
+    let lines = [
+        // as a terminal is closed
+        "echo $$ > \"$1\"; exec \"$0\" pendulum",
+        // nobody is told
+        "trap '' HUP; echo $$ > \"$1\"; exec \"$0\" pendulum",
+        // in a session of its own
+        "trap '' HUP; setsid --wait sh -c 'echo $$ > \"$1\"; exec \"$0\" pendulum' \"$0\" \"$1\"",
+    ];
+    for line in lines {
+        let mut spent = Duration::MAX;
+        in_time(Duration::from_secs(2), || {
+            let (lived, took) = closed(line);
+            spent = spent.min(took);
+            lived
+        });
+        assert!(spent < Duration::from_millis(200), "{spent:?} of the processor: {line}");
+    }
+}
