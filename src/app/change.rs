@@ -115,8 +115,11 @@ impl Lab {
 
     /// Takes another method.
     pub(super) fn integrate_by(&mut self, name: &'static str) -> Vec<Effect> {
-        if let Some(before) = self.method().filter(|before| *before != name) {
-            self.history.note(Change::Method([before, name]));
+        match self.method() {
+            // it would only begin its measures anew
+            Some(before) if before == name => return Vec::new(),
+            Some(before) => self.history.note(Change::Method([before, name])),
+            None => {}
         }
         self.asked.method = Some(name);
         vec![Effect::Tell(Command::Method(name.to_owned()))]

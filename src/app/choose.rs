@@ -7,7 +7,7 @@ use super::plot::Lens;
 use super::{
     App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Over, Pane, Plot, Purpose,
 };
-use crate::integrate::{METHODS, Stepping};
+use crate::integrate::METHODS;
 use crate::model::ViewKind;
 
 impl App {
@@ -189,17 +189,7 @@ impl App {
                 }
                 effects
             }
-            Purpose::Step => {
-                let name = lab.method().unwrap_or_default();
-                let adaptive =
-                    METHODS.iter().any(|m| m.name == name && m.stepping == Stepping::Adaptive);
-                if adaptive {
-                    self.say(format!(
-                        "{name} chooses its own steps; this one is for methods of fixed step."
-                    ));
-                }
-                self.lab.as_mut().map_or(Vec::new(), |lab| lab.step_by(value))
-            }
+            Purpose::Step => lab.step_by(value),
             Purpose::Tolerance => lab.tolerate(value),
         }
     }

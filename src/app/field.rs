@@ -30,6 +30,8 @@ pub struct Field {
     pub purpose: Purpose,
     /// What is typed so far, with the cursor.
     pub input: Input,
+    /// Whether the text is still the one it began with, marked as a whole: what is typed takes its place.
+    pub whole: bool,
     /// What is wrong with what was typed when it was last to be accepted.
     pub mistake: Option<String>,
 }
@@ -37,14 +39,32 @@ pub struct Field {
 impl Field {
     /// A field that holds a text to begin with.
     pub fn new(purpose: Purpose, text: String) -> Self {
-        Self { purpose, input: Input::new(text), mistake: None }
+        let whole = !text.is_empty();
+        Self { purpose, input: Input::new(text), whole, mistake: None }
     }
 
     /// Handles a key of editing; whatever it was, the last complaint is answered.
     pub fn press(&mut self, key: Key) {
-        if edit(&mut self.input, key) {
+        let replaces = match key.code {
+            Code::Char(c) => !key.ctrl && !key.alt && !c.is_control(),
+            code => matches!(code, Code::Backspace | Code::Delete),
+        };
+        let emptied = std::mem::take(&mut self.whole) && replaces;
+        if emptied {
+            self.input.reset();
+        }
+        if edit(&mut self.input, key) || emptied {
             self.mistake = None;
         }
+    }
+
+    /// Takes pasted text in as if it were typed; whether all of it found room.
+    pub(super) fn paste(&mut self, text: &str) -> bool {
+        if std::mem::take(&mut self.whole) {
+            self.input.reset();
+        }
+        self.mistake = None;
+        paste(&mut self.input, text)
     }
 
     /// The number typed, positive where the purpose asks for it.
@@ -117,4 +137,33 @@ pub(super) fn paste(input: &mut Input, text: &str) -> bool {
     let cursor = at + typed.chars().count();
     *input = Input::new(before + &typed + &after).with_cursor(cursor);
     characters.next().is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(text: &str, keys: &[Key]) -> String {
+        let mut field = Field::new(Purpose::Step, text.to_owned());
+        for key in keys {
+            field.press(*key);
+        }
+        field.input.value().to_owned()
+    }
+
+    /// What a field begins with is marked as a whole, as in any other field of a form.
+    #[test]
+    fn what_is_typed_takes_the_place_of_the_old_value() {
+        let [three, dot] = ['3', '.'].map(|c| Key::plain(Code::Char(c)));
+        assert_eq!(typed("1.06", &[three, dot]), "3.");
+        assert_eq!(typed("1.06", &[Key::plain(Code::Backspace), three]), "3");
+        assert_eq!(typed("1.06", &[Key::plain(Code::Delete)]), "");
+        assert_eq!(typed("1.06", &[]), "1.06");
+        let [left, end] = [Code::Left, Code::End].map(Key::plain);
+        assert_eq!(typed("1.06", &[left, three]), "1.036");
+        assert_eq!(typed("1.06", &[end, three]), "1.063");
+        let mut field = Field::new(Purpose::Step, "1.06".to_owned());
+        assert!(field.paste("0.5") && field.paste("1"));
+        assert_eq!(field.input.value(), "0.51");
+    }
 }

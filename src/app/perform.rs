@@ -7,6 +7,7 @@ use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
 use crate::experiment::{Command, Status};
+use crate::integrate::{METHODS, Stepping};
 
 impl App {
     /// Carries out an action; where it means nothing it does nothing.
@@ -327,6 +328,10 @@ impl App {
     fn open_field(&mut self, purpose: Purpose) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let method = lab.snapshot.as_ref().map(|s| &s.method);
+        let idle = lab.method().and_then(|name| idle(purpose, name));
+        if let Some(sentence) = idle {
+            return self.say(sentence);
+        }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
             Purpose::Step => method.map(|m| m.step),
@@ -334,6 +339,20 @@ impl App {
         };
         self.over = Some(Over::Field(Field::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
+    }
+}
+
+/// Why a method has no use for what would be typed.
+fn idle(purpose: Purpose, method: &str) -> Option<String> {
+    let stepping = METHODS.iter().find(|m| m.name == method)?.stepping;
+    match (purpose, stepping) {
+        (Purpose::Step, Stepping::Adaptive) => {
+            Some(format!("{method} chooses its steps itself; its tolerance is set by a."))
+        }
+        (Purpose::Tolerance, Stepping::Fixed) => {
+            Some(format!("{method} has no tolerance; its step is set by s."))
+        }
+        _ => None,
     }
 }
 

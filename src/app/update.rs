@@ -112,7 +112,7 @@ impl App {
         let text = beginning(text, LONGEST_PASTE);
         let whole = match &mut self.over {
             Some(Over::Workbench) => self.paste_on_sheet(text),
-            Some(Over::Field(field)) => paste(&mut field.input, text),
+            Some(Over::Field(field)) => field.paste(text),
             Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Over::Menu(menu)) => {
                 menu.selected = 0;

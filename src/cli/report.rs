@@ -41,10 +41,11 @@ pub(super) struct Invariant {
     pub(super) reason: String,
     /// Its value at the start.
     pub(super) initial: f64,
-    /// Its value at the end.
+    /// Its value at the end; with blows it may be another, and drift is what there is beside them.
     #[serde(rename = "final")]
     pub(super) last: f64,
-    /// Its greatest distance from the initial value, relative to the size of its terms.
+    /// Its greatest distance from the initial value, relative to the size of its terms at the start
+    /// (and later, while it is kept but for rounding); what blows give does not count.
     pub(super) max_drift: f64,
     /// `exact`, `bounded`, `secular`, `broken by the physics`, `open`.
     pub(super) verdict: &'static str,

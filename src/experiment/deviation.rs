@@ -43,6 +43,7 @@ impl Deviation {
             shown: shown.to_owned(),
             reason,
             value: now,
+            initial: 0.0,
             reference: 0.0,
             reference_time: self.since,
             drift: now,

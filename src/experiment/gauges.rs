@@ -20,6 +20,9 @@ use crate::system::{ChannelKind, System};
 /// The gauge that is constant by the law of the energy's change.
 const LEDGER: &str = "energy ledger";
 
+/// A value is kept but for rounding while its drift is below this: half of all digits.
+const KEPT: f64 = 1e-8;
+
 /// All gauges of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Gauges {
@@ -47,9 +50,15 @@ struct Needle {
     expression: Expr,
     /// Whether its reference jumps with a blow.
     jumps: bool,
+    /// Its value when the reference was taken.
+    initial: f64,
+    /// What distances are measured from: the initial value, and what blows have added to it.
     reference: f64,
-    /// The greatest size of its terms seen since the reference.
+    /// The greatest size of its terms seen since the reference: what rounding is relative to.
     size: f64,
+    /// The same, as long as the value was kept but for rounding: what drift is relative to. The size of what a method
+    /// has ruined measures nothing.
+    scale: f64,
     /// The greatest distance from the reference since then.
     farthest: f64,
     /// The distances, with their signs.
@@ -149,7 +158,8 @@ impl Gauges {
             if let Some(reference) = known(needle) {
                 needle.reference = reference.from;
                 needle.size = needle.size.max(reference.from.abs());
-                needle.farthest = reference.max_drift * needle.size;
+                needle.scale = needle.scale.max(reference.from.abs());
+                needle.farthest = reference.max_drift * needle.scale;
             }
         }
     }
@@ -228,7 +238,7 @@ impl Gauges {
             // where its terms cannot be told apart, the value itself is the measure
             let size = if size.is_finite() { size } else { now.values[needle.channel].abs() };
             if size.is_finite() {
-                needle.size = needle.size.max(size);
+                needle.grow(size);
             }
         }
     }
@@ -293,18 +303,30 @@ impl Needle {
             channel,
             expression,
             jumps: name != LEDGER,
+            initial: f64::NAN,
             reference: f64::NAN,
             size: 0.0,
+            scale: 0.0,
             farthest: 0.0,
             distances: History::new(),
         }
     }
 
     fn refer(&mut self, values: &[f64]) {
-        self.reference = values[self.channel];
+        self.initial = values[self.channel];
+        self.reference = self.initial;
         self.size = self.reference.abs();
+        self.scale = self.size;
         self.farthest = 0.0;
         self.distances = History::new();
+    }
+
+    /// Its terms have been as large as this.
+    fn grow(&mut self, size: f64) {
+        self.size = self.size.max(size);
+        if self.scale == 0.0 || self.farthest <= KEPT * self.scale {
+            self.scale = self.size;
+        }
     }
 
     fn show(&self, values: &[f64], reference_time: f64, floor: f64) -> Gauge {
@@ -312,7 +334,7 @@ impl Needle {
         let verdict = match &self.broken {
             Some(law) => Verdict::Broken(law.clone()),
             None => match Verdict::of(&self.distances, floor * self.size) {
-                Verdict::Secular(slope) => Verdict::Secular(slope / self.size),
+                Verdict::Secular(slope) => Verdict::Secular(slope / self.scale),
                 other => other,
             },
         };
@@ -322,6 +344,7 @@ impl Needle {
             shown: self.shown.clone(),
             reason: self.reason.clone(),
             value,
+            initial: self.initial,
             reference: self.reference,
             reference_time,
             drift: self.relative((value - self.reference).abs()),
@@ -333,6 +356,6 @@ impl Needle {
 
     /// A distance over the size of the terms.
     fn relative(&self, distance: f64) -> f64 {
-        if distance == 0.0 || self.size == 0.0 { 0.0 } else { distance / self.size }
+        if distance == 0.0 || self.scale == 0.0 { 0.0 } else { distance / self.scale }
     }
 }

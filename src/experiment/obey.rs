@@ -137,7 +137,7 @@ impl Experiment {
         }
         if self.motion.method().stepping == Stepping::Adaptive {
             let name = self.motion.method().name;
-            self.tell(format!("{name} chooses its steps itself; its tolerance can be set"));
+            return self.tell(format!("{name} chooses its steps itself; its tolerance can be set"));
         }
         let settings = Settings { step: Some(step), ..self.motion.settings() };
         self.change_method(self.motion.method(), settings);
@@ -149,7 +149,7 @@ impl Experiment {
         }
         if self.motion.method().stepping == Stepping::Fixed {
             let name = self.motion.method().name;
-            self.tell(format!("{name} has no tolerance; its step can be set"));
+            return self.tell(format!("{name} has no tolerance; its step can be set"));
         }
         let settings = Settings { tolerance: Some(tolerance), ..self.motion.settings() };
         self.change_method(self.motion.method(), settings);

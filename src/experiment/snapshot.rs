@@ -104,11 +104,14 @@ pub struct Gauge {
     pub reason: String,
     /// Its value now.
     pub value: f64,
-    /// The value that drift is measured from.
+    /// Its value when the reference was taken.
+    pub initial: f64,
+    /// The value that drift is measured from: the initial one, and what blows have added to it.
     pub reference: f64,
     /// When that was taken.
     pub reference_time: f64,
-    /// |value − reference| over the size of its terms.
+    /// |value − reference| over the size of its terms: the sum of their magnitudes, the greatest for as long as nothing
+    /// but rounding had changed the value.
     pub drift: f64,
     /// The greatest drift since the reference.
     pub max_drift: f64,

@@ -84,7 +84,7 @@ impl fmt::Display for Fault {
             FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
         }
         for (name, value) in &self.place {
-            write!(f, ", {name} = {value}")?;
+            write!(f, ", {name} = {}", short(*value))?;
         }
         f.write_str(match self.kind {
             FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
@@ -103,3 +103,12 @@ impl fmt::Display for Fault {
         })
     }
 }
+
+/// A number in no more digits than it has.
+fn short(value: f64) -> String {
+    let plain = value.to_string();
+    if plain.len() <= LONGEST { plain } else { format!("{value:e}") }
+}
+
+/// A number written out is no longer than this; an `f64` has 17 digits, a sign and a point.
+const LONGEST: usize = 24;

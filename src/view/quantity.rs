@@ -52,6 +52,24 @@ impl<'a> Quantities<'a> {
         self.snapshot.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN))
     }
 
+    /// The bounds of a channel that is more than rounding beside others of its kind and unit; else theirs.
+    fn extent(&self, channel: usize) -> (f64, f64) {
+        let (lo, hi) = self.bounds(channel);
+        let channels = self.lab.loaded.system.channels();
+        let Some(own) = channels.get(channel) else { return (lo, hi) };
+        let size = |channel: usize| {
+            let (lo, hi) = self.bounds(channel);
+            lo.abs().max(hi.abs())
+        };
+        let alike = channels.iter().enumerate().filter(|(_, other)| {
+            std::mem::discriminant(&other.kind) == std::mem::discriminant(&own.kind)
+                && other.unit == own.unit
+        });
+        let greatest =
+            alike.map(|(index, _)| size(index)).filter(|s| s.is_finite()).fold(0.0, f64::max);
+        if size(channel) < ROUNDING * greatest { (-greatest, greatest) } else { (lo, hi) }
+    }
+
     /// After what a channel repeats.
     pub(super) fn period(&self, channel: usize) -> Option<f64> {
         self.lab.loaded.system.period(channel, &self.snapshot.parameters)
@@ -83,12 +101,13 @@ impl<'a> Quantities<'a> {
         range: Option<[f64; 2]>,
         lens: (Lens, usize),
     ) -> Axis {
-        let (lo, hi) = self.bounds(channel);
+        let (lo, hi) = self.extent(channel);
         let period = self.period(channel);
         let scale = match (range, period) {
             (Some([lo, hi]), _) => Scale::linear(lo, hi),
             (None, Some(period)) if lo < -period / 2.0 || hi > period / 2.0 => {
-                Scale::linear(-period / 2.0, period / 2.0)
+                let middle = turn_of(lo, hi, period);
+                Scale::linear(middle - period / 2.0, middle + period / 2.0)
             }
             _ => {
                 let (lo, hi) = nice_range(lo, hi);
@@ -103,6 +122,16 @@ impl<'a> Quantities<'a> {
         let scale = if unit == "rad" { scale.angle() } else { scale };
         Axis::new(self.name(channel), unit, through(scale, lens))
     }
+}
+
+/// What is smaller than this beside its like is zero but for rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// The middle of the turn in which all values between two lie: a motion about the top is not torn in two. Where they take
+/// most of a turn, or more, zero.
+fn turn_of(lo: f64, hi: f64, period: f64) -> f64 {
+    let half = period / 2.0;
+    if hi - lo < 0.8 * period { (f64::midpoint(lo, hi) / half).round() * half } else { 0.0 }
 }
 
 /// Where a number comes from.

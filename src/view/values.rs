@@ -151,11 +151,14 @@ pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
         return;
     }
     let room = usize::from(area.width - 1);
-    let skipped = field.input.visual_scroll(room);
+    let skipped = if field.whole { 0 } else { field.input.visual_scroll(room) };
     let text: String = field.input.value().chars().skip(skipped).take(room).collect();
     let role = if field.mistake.is_some() { Role::Bad } else { Role::Text };
     canvas.left(area, role, &format!("{text:<room$}"));
     canvas.tint(area, Role::Title);
+    if field.whole {
+        canvas.tint(columns(area, 0, text.chars().count() as u16), Role::Selected);
+    }
     let cursor = area.x + (field.input.visual_cursor().saturating_sub(skipped)).min(room) as u16;
     canvas.point(Position::new(cursor, area.y));
 }

@@ -98,6 +98,7 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
         shown: shown.to_owned(),
         reason: "∂L/∂t = 0".to_owned(),
         value,
+        initial: value,
         reference: value,
         reference_time: 0.0,
         drift: 2.5e-16,

@@ -8,7 +8,7 @@ pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
     let invariant = |gauge: &Gauge| Invariant {
         name: gauge.name.clone(),
         reason: gauge.reason.clone(),
-        initial: gauge.reference,
+        initial: gauge.initial,
         last: gauge.value,
         max_drift: gauge.max_drift,
         verdict: gauge.verdict.word(),

@@ -125,14 +125,17 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
         step = step.next();
         (first, last) = span(step);
     }
-    // Between two marks of a coarse step there may lie a whole range: then one mark of a finer step says where it is.
-    while first > last && first.abs() < 1e15 {
+    // Between two marks of a coarse step there may lie a whole range, and one mark says nothing of its length: then marks
+    // of a finer step stand, every one, second or third of them.
+    let fewest = most.min(2) as f64;
+    while last - first + 1.0 < fewest && first.abs() < 1e15 {
         step = step.previous();
         (first, last) = span(step);
     }
-    if last - first + 1.0 > most as f64 {
-        first = f64::midpoint(first, last).floor();
-        last = first;
+    let stride = ((last - first) / (most as f64 - 1.0).max(0.5)).ceil().max(1.0);
+    let through_zero = -(-first / stride).floor() * stride;
+    if first <= 0.0 && last >= 0.0 && last - through_zero >= stride * (fewest - 1.0) {
+        first = through_zero;
     }
     // A range far from zero in very small steps would need more digits than a number has.
     if first.abs().max(last.abs()) > 1e15 {
@@ -140,6 +143,7 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     }
     let exponent = common_exponent(lo.abs().max(hi.abs()));
     let marks = (first as i64..=last as i64)
+        .step_by(stride as usize)
         .map(|count| (count, step.times(count)))
         .filter(|(_, value)| (lo..=hi).contains(value))
         .map(|(count, value)| Tick {

@@ -79,10 +79,37 @@ fn what_swings_is_bounded_at_any_rate_and_shape() {
     assert_eq!(verdict(6000, |_| 1e-9 * white()), Verdict::Bounded);
 }
 
+/// A value that was lost once is not bounded: it does not swing, and it does not come back.
 #[test]
-fn what_jumps_once_and_stays_is_not_a_trend() {
-    assert_eq!(verdict(6000, |t| if t < 100.0 { 0.0 } else { 1e-5 }), Verdict::Bounded);
-    assert_eq!(verdict(6000, |t| 1e-5 * (1.0 - (-t / 10.0).exp())), Verdict::Bounded);
+fn what_leaves_for_another_level_is_secular() {
+    for start in [3.0, 100.0, 300.0, 500.0] {
+        let jump = |t: f64| if t < start { 0.0 } else { 1e-5 };
+        let rate = secular(&verdict(6000, jump)).expect("a jump that stays");
+        assert!((0.0..1e-5 / 100.0).contains(&rate), "{rate}");
+        let uneven = |t: f64| jump(t) + 2e-6 * (3.0 * t).sin();
+        assert_eq!(secular(&verdict(6000, uneven)).is_some(), start > 50.0, "{start}");
+    }
+    assert!(secular(&verdict(6000, |t| -1e-5 * (1.0 - (-t / 10.0).exp()))).unwrap() < 0.0);
+    // an uneven loss: much, a little, much
+    let lost = |t: f64| {
+        [(40.0, 3.0), (220.0, 0.3), (430.0, 4.0)]
+            .iter()
+            .filter(|l| t > l.0)
+            .map(|l| l.1)
+            .sum::<f64>()
+    };
+    let uneven = |t: f64| -1e-6 * (lost(t) + 0.2 * (1.3 * t).sin());
+    assert!(secular(&verdict(6000, uneven)).is_some_and(|rate| rate < 0.0));
+}
+
+/// What swings unevenly about a level is bounded, however it begins.
+#[test]
+fn what_begins_at_its_extreme_and_stays_away_is_bounded() {
+    let swing = |t: f64| 1.0 + 0.5 * t.sin() + 0.3 * (2.7 * t).sin() * (0.31 * t).cos();
+    let away = |t: f64| 1e-5 * swing(t) * (1.0 - (-t).exp());
+    for count in [300, 1000, 6000, 60_000] {
+        assert_eq!(verdict(count, away), Verdict::Bounded, "{count}");
+    }
 }
 
 #[test]

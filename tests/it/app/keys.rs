@@ -51,7 +51,9 @@ fn states(place: Place) -> Vec<App> {
         Place::Lab => vec![with_blows(&["push"]), with_frame(), lab("")],
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
-        Place::Experiment => vec![lab("Right Wait Right u"), lab("4")],
+        Place::Experiment => {
+            vec![lab("Right Wait Right u"), lab("4"), lab(": m e t h o d Space r k 4 Enter")]
+        }
         Place::Space => vec![lab("Tab Tab Tab"), lab("Tab Tab Tab + Down Down")],
         Place::Plot => vec![lab("Tab Tab Tab Tab + Right")],
         Place::Values => vec![lab("Down Right")],

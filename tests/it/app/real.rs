@@ -164,7 +164,7 @@ fn a_reset_keeps_the_parameters_and_a_full_one_does_not() {
 fn a_new_reference_measures_drift_from_here_and_says_so() {
     // Its energy drifts at once, so that there is something to be taken back.
     let mut real = Real::of("pendulum");
-    real.press("s Ctrl-u . 2 Enter : m e t h o d Space r k 4 Enter");
+    real.press(": m e t h o d Space r k 4 Enter s . 2 Enter");
     assert_eq!(real.seen().method.name, "rk4");
     real.run(300);
     assert!(real.seen().gauges[0].drift > 1e-12, "{}", real.seen().gauges[0].drift);
@@ -187,16 +187,17 @@ fn a_new_reference_measures_drift_from_here_and_says_so() {
 fn the_method_its_step_and_its_tolerance_are_taken_back() {
     let mut real = Real::of("pendulum");
     let start = real.state();
-    real.press(": m e t h o d Space r k 4 Enter s Ctrl-u . 0 1 Enter a Ctrl-u 1 e - 9 Enter");
+    real.press(": m e t h o d Space d o p 8 5 3 Enter a 1 e - 9 Enter");
+    real.press(": m e t h o d Space r k 4 Enter s . 0 1 Enter");
     let end = real.state();
     assert_eq!(real.seen().method.name, "rk4");
     assert_eq!(
         (real.seen().setup.settings.step, real.seen().setup.settings.tolerance),
         (Some(0.01), Some(1e-9))
     );
-    real.press("u u u");
+    real.press("u u u u");
     assert_eq!(real.state(), start);
-    real.press("U U U");
+    real.press("U U U U");
     assert_eq!(real.state(), end);
 }
 

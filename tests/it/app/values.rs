@@ -56,10 +56,27 @@ fn a_bad_value_is_told_and_nothing_is_lost() {
 
 #[test]
 fn steps_and_tolerances_must_be_positive() {
-    for keys in ["s Ctrl-u 0 Enter", "s Ctrl-u - 1 Enter", "a Ctrl-u 0 Enter", "a Ctrl-u 2 Enter"] {
+    for keys in ["s 0 Enter", "s - 1 Enter", "a 0 Enter", "a 2 Enter"] {
         let mut app = in_lab();
+        if keys.starts_with('s') {
+            press(&mut app, ": m e t h o d Space r k 4 Enter");
+        }
         assert_eq!(press(&mut app, keys), [], "{keys}");
         assert!(matches!(app.over, Some(Over::Field(f)) if f.mistake.is_some()), "{keys}");
+    }
+}
+
+/// Of what a method has no use for nothing is asked, and it is said what it has use for.
+#[test]
+fn a_method_is_asked_only_for_what_it_uses() {
+    for (keys, told) in [
+        ("s", "taylor chooses its steps itself; its tolerance is set by a."),
+        (": m e t h o d Space r k 4 Enter a", "rk4 has no tolerance; its step is set by s."),
+    ] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        assert!(app.over.is_none(), "{keys}");
+        assert_eq!(app.notice.map(|notice| notice.text).as_deref(), Some(told));
     }
 }
 

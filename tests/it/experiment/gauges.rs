@@ -1,6 +1,7 @@
 //! What gauges watch and say.
 
-use phaselab::experiment::{Growth, Verdict};
+use phaselab::experiment::{Gauge, Growth, Verdict};
+use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
 use super::{build, gauge, run, shipped};
@@ -100,4 +101,73 @@ fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     assert!(wrong.max_drift > 0.6);
     assert_eq!(gauge(&snapshot, "energy").verdict, Verdict::Exact(Growth::Level));
     assert!(wrong.history.len() >= 64 && wrong.history.iter().all(|x| x.is_finite()));
+}
+
+/// A shipped preset under a method with a fixed step, carried to a time; its gauge of the energy.
+fn energy_under(preset: &str, method: &str, step: f64, time: f64) -> Gauge {
+    let document = Catalog::with_folder(None).find(preset).expect("it is shipped");
+    let mut system = build(&document.text, |setup| {
+        method.clone_into(&mut setup.method);
+        setup.settings = Settings { step: Some(step), tolerance: None };
+    });
+    run(&mut system, time);
+    gauge(&system.snapshot(), "energy")
+}
+
+/// A step far too long leads into close encounters that are none, and loses energy unevenly. Neither is bounded, and
+/// the terms' size after the harm is no measure of it.
+#[test]
+fn what_a_method_ruins_is_neither_bounded_nor_small() {
+    for (preset, time, least) in [
+        ("restricted-three-body", 20.0, 0.3),
+        ("double-pendulum", 25.0, 0.05),
+        ("double-pendulum", 60.0, 0.2),
+        ("swinging-atwood", 60.0, 0.1),
+    ] {
+        let energy = energy_under(preset, "rk4", 0.05, time);
+        assert!(energy.drift > least, "{preset}: {energy:?}");
+        let Verdict::Secular(rate) = energy.verdict else { panic!("{preset}: {energy:?}") };
+        assert_eq!(rate > 0.0, energy.value > energy.reference, "{preset}: {rate}");
+    }
+}
+
+#[test]
+fn what_a_symplectic_method_swings_is_bounded() {
+    for (preset, method, step, time) in [
+        ("henon-heiles", "leapfrog", 0.2, 60.0),
+        ("henon-heiles", "yoshida4", 0.2, 200.0),
+        ("swinging-atwood", "gauss4", 0.05, 60.0),
+        ("heavy-top", "gauss4", 0.05, 25.0),
+        ("pendulum", "gauss4", 0.1, 60.0),
+    ] {
+        let energy = energy_under(preset, method, step, time);
+        assert_eq!(energy.verdict, Verdict::Bounded, "{preset} under {method}: {energy:?}");
+        assert!(energy.max_drift > 1e-10, "{preset} under {method}: {energy:?}");
+    }
+}
+
+/// Rounding is relative to the greatest terms a motion has met, and so is its drift: a comet's energy at its perihelion
+/// is the difference of terms a thousand times as large as those where it began.
+#[test]
+fn terms_may_grow_while_a_value_is_kept() {
+    let text = "title = \"Comet\"\n[coordinates]\nr = { initial = 1 }\n\
+                phi = { initial = 0, velocity = 0.03 }\n[lagrangian]\n\
+                L = \"1/2*r'^2 + 1/2*r^2*phi'^2 + 1/r\"\n";
+    let mut comet = build(text, |_| ());
+    run(&mut comet, 10.0);
+    let energy = gauge(&comet.snapshot(), "energy");
+    assert!(energy.max_drift < 1e-14, "{energy:?}");
+    assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
+}
+
+/// What a blow gives is no drift, and the value at the start is told as it was.
+#[test]
+fn a_blow_moves_the_reference_and_not_the_initial_value() {
+    let mut rotor = shipped("kicked-rotor");
+    let first = gauge(&rotor.snapshot(), "energy");
+    run(&mut rotor, 5.5);
+    let energy = gauge(&rotor.snapshot(), "energy");
+    assert_eq!((energy.initial, energy.reference_time), (first.value, first.reference_time));
+    assert!((energy.reference - energy.initial).abs() > 1e-3, "{energy:?}");
+    assert!(energy.max_drift < 1e-14, "{energy:?}");
 }

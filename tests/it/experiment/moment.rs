@@ -93,11 +93,12 @@ fn every_method_is_taken_up_as_it_is() {
         assert_eq!(present(&taken).1, present(&left).1, "{method}");
         assert_eq!(taken.snapshot().method.name, method);
     }
-    let mut left = shipped("planet");
+    let mut left = shipped("henon-heiles");
     left.obey(Command::Method("leapfrog".to_owned()));
     left.obey(Command::StepSize(0.01));
+    assert_eq!(left.snapshot().method.name, "leapfrog");
     left.advance(1.234, PLENTY);
-    let mut taken = shipped("planet");
+    let mut taken = shipped("henon-heiles");
     taken.obey(Command::TakeUp(Box::new(kept(&left))));
     assert_eq!(present(&taken).1, present(&left).1);
     assert_eq!(taken.snapshot().setup.settings.step, Some(0.01));
