@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
-use super::gauges::sentence;
+use super::gauges::finding;
 use super::glyphs::Glyphs;
 use super::help::keys;
 use super::number::{brief, fitted};
@@ -264,7 +264,7 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
         return gauge.map_or_else(String::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);
-            format!("{name} ({}): {}", gauge.reason, sentence(&gauge.verdict))
+            format!("{name} ({}): {}", gauge.reason, finding(gauge, canvas.look.glyphs))
         });
     }
     let Some(facts) = lab.selected().and_then(|target| lab.facts(target)) else {

@@ -6,9 +6,10 @@ use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
 use super::canvas::{Canvas, columns, row};
+use super::glyphs::Glyphs;
 use super::layout::split_rows;
-use super::number::{self, fitted};
-use super::plot::Scale;
+use super::number::{self, fitted, readable};
+use super::plot::{Marker, Scale};
 use super::strip::History;
 use super::theme::Role;
 use super::values::window;
@@ -80,7 +81,7 @@ fn reason_below(
     count: usize,
     gauge: &Gauge,
 ) -> (Rect, Vec<String>) {
-    let text = format!("{}; {}", gauge.reason, sentence(&gauge.verdict));
+    let text = format!("{}; {}", gauge.reason, finding(gauge, canvas.look.glyphs));
     let lines = words(&canvas.text(&text), usize::from(area.width.saturating_sub(3)));
     let spare = usize::from(area.height).saturating_sub(count.min(MOST_ABOVE));
     if lines.len() > spare {
@@ -120,7 +121,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
 }
 
 /// A sentence on a verdict.
-pub(super) fn sentence(verdict: &Verdict) -> String {
+fn sentence(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Open => "too short a motion to tell".to_owned(),
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
@@ -140,8 +141,7 @@ pub(super) fn sentence(verdict: &Verdict) -> String {
 
 /// The name, why it is conserved, and at the right the verdict.
 fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
-    let (text, role) = word(&gauge.verdict);
-    canvas.left(columns(area, area.width.saturating_sub(VERDICT), VERDICT), role, text);
+    verdict(canvas, columns(area, area.width.saturating_sub(VERDICT), VERDICT), gauge);
     let area = columns(area, 0, area.width.saturating_sub(VERDICT + 1));
     let used = name(canvas, area, gauge, here);
     canvas.left(columns(area, used + 2, area.width), Role::Dim, &gauge.reason);
@@ -165,14 +165,39 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
 
 /// Name, value, drift and verdict where there is one row for them all.
 fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
-    let (text, role) = word(&gauge.verdict);
     let at = area.width.saturating_sub(VERDICT);
-    canvas.left(columns(area, at, VERDICT), role, text);
+    verdict(canvas, columns(area, at, VERDICT), gauge);
     let at = at.saturating_sub(DRIFT + 1);
     drift(canvas, columns(area, at, DRIFT), gauge);
     let at = at.saturating_sub(VALUE + 1);
     value(canvas, columns(area, at, VALUE), gauge, 4);
     name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
+}
+
+/// The word for the verdict; behind it the sign of what happens, where blows have changed the value.
+fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
+    let (text, role) = word(&gauge.verdict);
+    let used = canvas.left(area, role, text);
+    if given_by_blows(gauge) != 0.0 && used + 2 <= area.width {
+        let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
+        canvas.left(columns(area, used + 1, 1), Role::Warn, &sign);
+    }
+}
+
+/// By how much blows have changed the value since the reference was taken.
+fn given_by_blows(gauge: &Gauge) -> f64 {
+    gauge.reference - gauge.initial
+}
+
+/// What there is to say of a gauge's drift.
+pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
+    let sentence = sentence(&gauge.verdict);
+    match given_by_blows(gauge) {
+        0.0 => sentence,
+        given => {
+            format!("{sentence}; blows have changed it by {}", readable(given, 6, glyphs).trim())
+        }
+    }
 }
 
 fn name(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) -> u16 {

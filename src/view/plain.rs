@@ -4,7 +4,7 @@
 
 use super::bars::status_words;
 use super::document::Document;
-use super::gauges::{sentence, word};
+use super::gauges::{finding, word};
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
 use crate::app::keymap::{KEYS, Place};
@@ -62,7 +62,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
             readable(gauge.value, 8, q.look.glyphs),
             drift(gauge.drift),
             brief(gauge.reference_time, 6, q.look.glyphs),
-            sentence(&gauge.verdict),
+            finding(gauge, q.look.glyphs),
             gauge.reason
         ));
     }

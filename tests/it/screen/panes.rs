@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::{App, Event, Lens, Notice, Plot};
-use phaselab::experiment::{Growth, Status, Verdict};
+use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::integrate::{Happening, Kind};
 use phaselab::model::{Shape, ViewKind};
 use phaselab::system::ChannelKind;
@@ -718,5 +718,28 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
         let Some(row) = row else { continue };
         let whole = rows[row..row + 3].join(" ").contains("symmetry axis");
         assert!(whole || rows[row].contains('…') || rows[row + 1].contains('…'), "{rows:#?}");
+    }
+}
+
+/// What is exact between blows, but changed by them, does not look like what never changed.
+#[test]
+fn what_blows_have_changed_is_marked() {
+    let mut seen = snapshot(&pendulum(), 2.0);
+    let gauge = Gauge { verdict: Verdict::Exact(Growth::Level), ..seen.gauges[0].clone() };
+    let struck = Gauge { reference: gauge.initial + 0.25, ..gauge.clone() };
+    let ascii = Look { glyphs: Glyphs::Ascii, ..rich() };
+    for (gauge, marked) in [(gauge, false), (struck, true)] {
+        seen.gauges = [gauge].into();
+        let mut app = in_lab();
+        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        for (look, sign) in [(&rich(), "exact ◆"), (&ascii, "exact *")] {
+            for size in [(80, 24), (120, 40)] {
+                let text = rows(&screen(&app, look, size)).join("\n");
+                assert_eq!(text.contains(sign), marked, "{text}");
+            }
+        }
+        press(&mut app, "9");
+        let text = rows(&screen(&app, &rich(), (120, 200))).join(" ");
+        assert_eq!(text.contains("blows have changed it by 0.25"), marked, "{text}");
     }
 }
