@@ -740,6 +740,7 @@ fn what_blows_have_changed_is_marked() {
         }
         press(&mut app, "9");
         let text = rows(&screen(&app, &rich(), (120, 200))).join(" ");
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(text.contains("blows have changed it by 0.25"), marked, "{text}");
     }
 }
