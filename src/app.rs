@@ -107,6 +107,8 @@ pub struct App {
     asked: Option<(String, bool)>,
     /// The session to go on with once its system is there.
     resuming: Option<Saved>,
+    /// The session as it was when the lab was left for the list of systems.
+    left: Option<Saved>,
 }
 
 /// A whole screen.
@@ -171,6 +173,7 @@ impl App {
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
+            left: None,
         };
         let first = match open {
             Some(name) => {

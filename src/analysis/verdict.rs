@@ -63,7 +63,7 @@ impl Verdict {
         if drifts.peak() <= floor {
             return Verdict::Exact(growth(whole));
         }
-        match trend(whole).or_else(|| departure(whole)) {
+        match trend(whole).or_else(|| departure(whole, floor)) {
             Some(slope) => Verdict::Secular(slope),
             None => Verdict::Bounded,
         }
@@ -103,7 +103,7 @@ const CLEARANCE: f64 = 6.0;
 
 /// The mean rate of a level that was left for another: the means of the first and the last quarter lie farther apart
 /// than what swings within a quarter. So it is with an uneven loss, or a jump that stays.
-fn departure(stretches: &[Stretch]) -> Option<f64> {
+fn departure(stretches: &[Stretch], floor: f64) -> Option<f64> {
     let quarter = stretches.len() / 4;
     let mut swings: Vec<f64> = stretches
         .chunks_exact(quarter)
@@ -119,8 +119,11 @@ fn departure(stretches: &[Stretch]) -> Option<f64> {
     let (first, last) = (&stretches[..quarter], &stretches[stretches.len() - quarter..]);
     let moved = mean(last) - mean(first);
     let between = last[0].start - first[0].start;
-    (moved.abs() > LEAVE * swing).then_some(moved / between)
+    (moved.abs() > LEAVE * swing && moved.abs() > FAR * floor).then_some(moved / between)
 }
+
+/// How far beyond what rounding may cause: a random walk of rounding, too, ends somewhere else than it began.
+const FAR: f64 = 8.0;
 
 /// How many swings a level that is left lies away. An even loss moves three of them, the uneven losses of chaotic motion
 /// under a Runge–Kutta method 1.4 to 5; the energy under a symplectic method less than 0.7.

@@ -161,12 +161,12 @@ const SHIFT_RIGHT: Key = Key::shift(Code::Right);
 /// All keys.
 #[rustfmt::skip]
 pub const KEYS: &[Binding] = &[
-    row(Place::Always, &[Key::ctrl('c')], Action::Quit, "", "leave phaselab"),
-    row(Place::Always, &[Key::ctrl('z')], Action::Suspend, "", "stop phaselab until the shell's fg"),
+    row(Place::Always, &[Key::ctrl('c')], Action::Quit, "", "leave, whatever is being typed"),
+    row(Place::Always, &[Key::ctrl('z')], Action::Suspend, "", "stop until the shell's fg"),
     row(Place::Always, &[Key::ctrl('l')], Action::Repaint, "", "draw the screen anew"),
 
     row(Place::Anywhere, &[c('?'), Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
-    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave phaselab at once"),
+    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave at once; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),

@@ -123,7 +123,7 @@ impl Menu {
         // Of equals what can be done comes first, and then the order of the list.
         found.sort_by_key(|(index, fit)| {
             let item = &self.items[*index];
-            (std::cmp::Reverse(fit.score), item.refusal.is_some())
+            (item.refusal.is_some(), std::cmp::Reverse(fit.score))
         });
         found
     }

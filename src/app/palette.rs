@@ -222,7 +222,7 @@ impl Lab {
     /// A line for each pane.
     fn pane_lines(&self) -> Vec<Item> {
         let line = |pane: Pane| Item {
-            label: format!("focus: {}", self.name_of(pane)),
+            label: format!("focus: {}{}", self.kind_of(pane), self.name_of(pane)),
             about: "a pane of the lab".to_owned(),
             keys: String::new(),
             refusal: None,
@@ -232,6 +232,16 @@ impl Lab {
     }
 
     /// What a pane is called: its title, or the quantities it shows.
+    fn kind_of(&self, pane: Pane) -> &'static str {
+        match pane {
+            Pane::Plot(index) if matches!(self.plots.get(index), Some(Plot::Phase { .. })) => {
+                "phase plane, "
+            }
+            _ => "",
+        }
+    }
+
+    /// What a pane shows, in words.
     pub fn name_of(&self, pane: Pane) -> String {
         let Pane::Plot(index) = pane else {
             let name = match pane {
@@ -250,7 +260,9 @@ impl Lab {
         match plot {
             None => "nothing".to_owned(),
             Some(Plot::Space(_)) => "motion in space".to_owned(),
-            Some(Plot::Phase { x, y, .. }) => format!("{} against {}", shown(y), shown(x)),
+            Some(Plot::Phase { x, y, .. }) => {
+                format!("{} against {}", shown(y), shown(x))
+            }
             Some(Plot::Potential { .. }) => "potential".to_owned(),
             Some(Plot::Time { y, .. }) => {
                 let names: Vec<&str> = y.iter().map(shown).collect();

@@ -178,7 +178,7 @@ impl App {
     /// The session to be kept, once a system moves in the lab.
     pub fn saved(&self) -> Option<Saved> {
         if self.page == Page::Picker {
-            return None;
+            return self.left.clone();
         }
         let lab = self.lab.as_ref()?;
         let runs = |sheet: &Sheet| sheet.is_modified() && sheet.state != SheetState::Left;

@@ -165,6 +165,20 @@ impl App {
         self.begin(answered == Some(true))
     }
 
+    /// The system whose file is told to be wrong.
+    pub fn failed_system(&self) -> Option<&str> {
+        match &self.over {
+            Some(Over::Message(failure)) => Some(&failure.name),
+            _ => None,
+        }
+    }
+
+    /// Asks for that system anew: its file has changed.
+    pub fn again(&mut self) -> Vec<Effect> {
+        let name = self.failed_system().map(str::to_owned);
+        name.map(|name| self.ask(name, true)).into_iter().collect()
+    }
+
     fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {
         if self.answered(&failure.name) == Some(true) {
             self.scroll = 0;
@@ -182,6 +196,12 @@ impl App {
 
     /// Shows a page from its beginning.
     pub(super) fn go(&mut self, page: Page) {
+        if page == Page::Picker {
+            self.left = self.saved();
+            // what was told of the motion that is left says nothing of another
+            self.notice = None;
+            self.news.clear();
+        }
         (self.page, self.over, self.scroll) = (page, None, 0);
         if page == Page::Plain {
             self.read();

@@ -44,6 +44,8 @@ impl Deviation {
             reason,
             value: now,
             initial: 0.0,
+            scale: 1.0,
+            farthest: self.farthest,
             reference: 0.0,
             reference_time: self.since,
             drift: now,

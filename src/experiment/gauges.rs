@@ -23,6 +23,13 @@ const LEDGER: &str = "energy ledger";
 /// A value is kept but for rounding while its drift is below this: half of all digits.
 const KEPT: f64 = 1e-8;
 
+/// Sizes are measured at every so many samples.
+const MEASURED: u64 = 16;
+
+/// Where a motion begins near rest its terms grow from almost nothing: a drift that is as small as this beside the terms
+/// that are there now is no harm either.
+const SMALL: f64 = 1e-6;
+
 /// All gauges of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Gauges {
@@ -61,6 +68,8 @@ struct Needle {
     scale: f64,
     /// The greatest distance from the reference since then.
     farthest: f64,
+    /// What it was at the last blow, which makes other terms of the old ones.
+    settled: f64,
     /// The distances, with their signs.
     distances: History,
 }
@@ -154,12 +163,16 @@ impl Gauges {
         let Some(since) = self.needles.iter().find_map(known).map(|r| r.since) else { return };
         self.reference_time = since;
         self.reference_steps = 0;
+        // the sizes are known; they are measured again when it is their turn
+        self.samples = MEASURED;
         for needle in &mut self.needles {
             if let Some(reference) = known(needle) {
                 needle.reference = reference.from;
+                needle.initial = reference.initial.unwrap_or(reference.from);
                 needle.size = needle.size.max(reference.from.abs());
-                needle.scale = needle.scale.max(reference.from.abs());
-                needle.farthest = reference.max_drift * needle.scale;
+                needle.scale = reference.scale.unwrap_or(needle.scale.max(reference.from.abs()));
+                needle.size = needle.size.max(needle.scale);
+                needle.farthest = reference.farthest.unwrap_or(reference.max_drift * needle.scale);
             }
         }
     }
@@ -171,6 +184,7 @@ impl Gauges {
             let jump = after[needle.channel] - before[needle.channel];
             if jump.is_finite() {
                 needle.reference += jump;
+                needle.settled = needle.farthest;
             }
         }
     }
@@ -180,7 +194,7 @@ impl Gauges {
         self.look(now);
         self.samples += 1;
         // sizes change slowly, and cost more than all else
-        if self.samples.is_power_of_two() || self.samples.is_multiple_of(16) {
+        if self.samples.is_power_of_two() || self.samples.is_multiple_of(MEASURED) {
             self.measure(now);
         }
         for needle in &mut self.needles {
@@ -308,6 +322,7 @@ impl Needle {
             size: 0.0,
             scale: 0.0,
             farthest: 0.0,
+            settled: 0.0,
             distances: History::new(),
         }
     }
@@ -318,14 +333,16 @@ impl Needle {
         self.size = self.reference.abs();
         self.scale = self.size;
         self.farthest = 0.0;
+        self.settled = 0.0;
         self.distances = History::new();
     }
 
     /// Its terms have been as large as this.
     fn grow(&mut self, size: f64) {
         self.size = self.size.max(size);
-        if self.scale == 0.0 || self.farthest <= KEPT * self.scale {
-            self.scale = self.size;
+        let since = self.farthest - self.settled;
+        if self.scale == 0.0 || since <= KEPT * self.scale || since <= SMALL * size {
+            self.scale = self.scale.max(size);
         }
     }
 
@@ -345,6 +362,8 @@ impl Needle {
             reason: self.reason.clone(),
             value,
             initial: self.initial,
+            scale: self.scale,
+            farthest: self.farthest,
             reference: self.reference,
             reference_time,
             drift: self.relative((value - self.reference).abs()),

@@ -7,6 +7,8 @@
 //! What the file says itself is not part of a moment: only what was changed since. So a value changed in the file wins
 //! over the one that was there before, and a value turned by hand is kept.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
@@ -45,7 +47,7 @@ pub struct Moment {
 }
 
 /// Rows recorded of a motion, and the names of their channels.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
     trail: Trail,
@@ -109,6 +111,15 @@ pub struct Reference {
     pub since: f64,
     /// The greatest drift.
     pub max_drift: f64,
+    /// What its value was then, before any blow; as `from` where it is not told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<f64>,
+    /// What drift is relative to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+    /// The greatest distance, which is the greatest drift times that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub farthest: Option<f64>,
 }
 
 impl Moment {
@@ -144,9 +155,16 @@ impl Moment {
     }
 }
 
+/// A past is long; commands that carry it are told in a line.
+impl fmt::Debug for Past {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Past of {} rows", self.trail.len())
+    }
+}
+
 impl Past {
-    /// Its rows before a time, with these channels; what one of them was not recorded of is not a number.
-    fn rows<'a>(&'a self, channels: &[Channel], time: f64) -> impl Iterator<Item = Vec<f64>> + 'a {
+    /// Makes one of its rows before a time a row of these channels; what one of them was not recorded of is not a number.
+    fn row(&self, channels: &[Channel], time: f64) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
         // where several have a name, the first is the first, and so on
         let place = |(at, channel): (usize, &Channel)| {
             let earlier = channels[..at].iter().filter(|other| other.name == channel.name).count();
@@ -154,11 +172,11 @@ impl Past {
             places.nth(earlier)
         };
         let places: Vec<Option<usize>> = channels.iter().enumerate().map(place).collect();
-        self.trail.rows().take_while(move |row| row[0] < time).map(move |row| {
+        move |row| {
             let value = |place: &Option<usize>| place.and_then(|i| row.get(i + 1).copied());
             let values = places.iter().map(|place| value(place).unwrap_or(f64::NAN));
-            std::iter::once(row[0]).chain(values).collect()
-        })
+            (row[0] < time).then(|| std::iter::once(row[0]).chain(values).collect())
+        }
     }
 }
 
@@ -176,6 +194,9 @@ impl Whereabouts {
             from: gauge.reference,
             since: gauge.reference_time,
             max_drift: gauge.max_drift,
+            initial: Some(gauge.initial),
+            scale: Some(gauge.scale),
+            farthest: Some(gauge.farthest),
         };
         Some(Whereabouts {
             time: state.time,
@@ -292,8 +313,8 @@ impl Experiment {
         let same = own.len() == present.coordinates.len()
             && own.clone().all(|c| present.coordinates.contains(&c.name));
         if let Some(past) = past.filter(|_| same) {
-            let rows = past.rows(self.motion.system().channels(), present.time);
-            self.recorder.precede(rows);
+            let row = past.row(self.motion.system().channels(), present.time);
+            self.recorder.precede(&past.trail, row);
         }
     }
 

@@ -9,12 +9,13 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::Trail;
+use super::trail::THINNINGS;
 
 /// Rows in a sealed chunk.
 const CHUNK: usize = 128;
 
 /// How many chunks are kept of each thinning; the first are the newest rows, all of them.
-const CHUNKS: [usize; 4] = [64, 32, 32, 32];
+const CHUNKS: [usize; THINNINGS] = [64, 32, 32, 32];
 
 /// The most numbers kept, for systems of very many channels: 48 MB.
 const NUMBERS: usize = 6_000_000;
@@ -92,12 +93,31 @@ impl Recorder {
         }
     }
 
-    /// Puts rows of the same channels before all that are recorded; the times that are due stay as they are.
-    pub(super) fn precede(&mut self, rows: impl Iterator<Item = Vec<f64>>) {
+    /// Puts an earlier trail before all that is recorded, thinned as it is and no further. `row` makes a row of this
+    /// recorder's channels of one of the trail's, and drops those that do not belong. The times that are due stay.
+    pub(super) fn precede(&mut self, earlier: &Trail, row: impl Fn(&[f64]) -> Option<Vec<f64>>) {
         let later = self.trail();
         self.sealed = Default::default();
         self.open = Arc::default();
-        rows.for_each(|row| self.insert(row[0], &row[1..]));
+        let mut chunks = earlier.sealed.iter();
+        for level in (0..THINNINGS).rev() {
+            for chunk in chunks.by_ref().take(earlier.thinned[level]) {
+                let rows: Vec<Vec<f64>> =
+                    chunk.chunks_exact(earlier.width).filter_map(&row).collect();
+                if rows.len() == CHUNK {
+                    for row in &rows {
+                        self.widen(&row[1..]);
+                    }
+                    self.sealed[level].push_back(Arc::new(rows.concat()));
+                } else {
+                    for row in &rows {
+                        self.insert(row[0], &row[1..]);
+                    }
+                }
+            }
+        }
+        let rest = earlier.open.chunks_exact(earlier.width.max(1)).filter_map(row);
+        rest.for_each(|row| self.insert(row[0], &row[1..]));
         later.rows().for_each(|row| self.insert(row[0], &row[1..]));
     }
 
@@ -114,7 +134,8 @@ impl Recorder {
     /// What is recorded.
     pub(super) fn trail(&self) -> Trail {
         let sealed = self.sealed.iter().rev().flatten().cloned().collect();
-        Trail { sealed, open: Arc::clone(&self.open), width: self.width }
+        let thinned = std::array::from_fn(|level| self.sealed[level].len());
+        Trail { sealed, thinned, open: Arc::clone(&self.open), width: self.width }
     }
 
     /// The least and greatest value of every channel; (0, 0) where none was finite.
@@ -213,6 +234,29 @@ mod tests {
         recorder.restart(0.0);
         assert_eq!(recorder.bounds()[0], (0.0, 0.0));
         assert!(recorder.trail().is_empty());
+    }
+
+    #[test]
+    fn a_past_taken_up_again_and_again_is_thinned_no_further() {
+        let first = filled(120_000);
+        let trail = first.trail();
+        let mut again = filled(0);
+        for _ in 0..5 {
+            let before = again.trail();
+            again = filled(0);
+            let past = if before.is_empty() { &trail } else { &before };
+            again.precede(past, |row| Some(row.to_vec()));
+        }
+        assert_eq!(numbers(&again), numbers(&first));
+        assert_eq!(again.bounds()[0], (numbers(&first)[0], 119_999.0));
+        // what does not belong is dropped, and what is recorded later comes behind
+        let mut cut = filled(0);
+        cut.insert(1e9, &[7.0]);
+        cut.precede(&trail, |row| (row[1] < 1e5).then(|| row.to_vec()));
+        let kept = numbers(&cut);
+        assert_eq!(kept.last(), Some(&7.0));
+        assert!(kept[..kept.len() - 1].iter().all(|&x| x < 1e5) && kept.len() > 7000);
+        assert!(kept[..kept.len() - 1].windows(2).all(|pair| pair[0] < pair[1]));
     }
 
     #[test]

@@ -106,6 +106,10 @@ pub struct Gauge {
     pub value: f64,
     /// Its value when the reference was taken.
     pub initial: f64,
+    /// What its drift is relative to, see `drift`.
+    pub scale: f64,
+    /// The greatest distance from the reference since it was taken.
+    pub farthest: f64,
     /// The value that drift is measured from: the initial one, and what blows have added to it.
     pub reference: f64,
     /// When that was taken.

@@ -3,6 +3,9 @@
 
 use std::sync::Arc;
 
+/// How often rows are thinned at most, and once more for those that are not.
+pub(super) const THINNINGS: usize = 4;
+
 /// Two are equal where their rows are, bit by bit.
 impl PartialEq for Trail {
     fn eq(&self, other: &Self) -> bool {
@@ -17,6 +20,8 @@ impl PartialEq for Trail {
 #[derive(Clone, Debug, Default)]
 pub struct Trail {
     pub(super) sealed: Vec<Arc<Vec<f64>>>,
+    /// How many of the sealed chunks are thinned so often; those of the last, the most thinned, come first.
+    pub(super) thinned: [usize; THINNINGS],
     pub(super) open: Arc<Vec<f64>>,
     pub(super) width: usize,
 }
@@ -25,7 +30,7 @@ impl Trail {
     /// A trail of given rows, each `width` numbers: time, then the channels.
     pub fn from_rows(width: usize, rows: &[Vec<f64>]) -> Trail {
         let open = rows.iter().flat_map(|row| row.iter().copied().take(width)).collect();
-        Trail { sealed: Vec::new(), open: Arc::new(open), width }
+        Trail { open: Arc::new(open), width, ..Trail::default() }
     }
 
     /// How many rows there are.

@@ -17,7 +17,7 @@ use crate::view::{Detail, Look};
 
 /// The most that one frame lets pass. Where the terminal or the machine cannot keep up the demo waits for it, so that
 /// nothing is missed.
-const LONGEST: Duration = Duration::from_millis(250);
+const LONGEST: Duration = Duration::from_secs(1);
 
 /// A script being performed on the terminal.
 pub(super) struct Demo {

@@ -54,6 +54,9 @@ const EVEN: usize = 3;
 const SPENT: Duration = Duration::from_millis(15);
 const CHARACTERS: usize = 64;
 
+/// Who goes back within this of a chapter's beginning means the chapter before, in microseconds.
+const AT_ONCE: f64 = 1e6;
+
 /// How far the arrows go, in microseconds.
 const LEAP: f64 = 5e6;
 
@@ -141,7 +144,7 @@ impl Projector {
                 'l' => return Wish::Repaint,
                 _ => {}
             },
-            Key { code, .. } => match code {
+            Key { code, shift, .. } => match code {
                 Code::Char('q') | Code::Esc => return Wish::Quit,
                 Code::Char(' ' | 'p') if self.is_over() => self.go(0.0),
                 Code::Char(' ' | 'p') => self.held = !self.held,
@@ -154,8 +157,18 @@ impl Projector {
                 Code::Home | Code::Char('0') => self.go(0.0),
                 Code::End => self.go(self.tape.end as f64),
                 Code::Tab => {
-                    let next = self.chapters().map(|(time, _)| time).find(|t| *t > self.time);
-                    self.go(next.unwrap_or(self.tape.end as f64));
+                    let to = if shift {
+                        // shortly after a chapter's beginning the one before is meant
+                        let before = self.time - AT_ONCE;
+                        let found = self.chapters().rfind(|(time, _)| *time < before);
+                        Some(found.map_or(0.0, |(time, _)| time))
+                    } else {
+                        let found = self.chapters().find(|(time, _)| *time > self.time);
+                        found.map(|(time, _)| time)
+                    };
+                    if let Some(time) = to {
+                        self.go(time);
+                    }
                 }
                 _ => {}
             },
@@ -220,7 +233,7 @@ impl Projector {
             format!("space {pause}  q quit"),
             "← → 5 s".to_owned(),
             "[ ] pace".to_owned(),
-            "Tab chapter".to_owned(),
+            "Tab S-Tab chapter".to_owned(),
             "c hide".to_owned(),
             format!("Home{rest}"),
         ];

@@ -144,8 +144,9 @@ impl Session {
             self.update(Event::Snapshot(snapshot));
         }
         let Some(store) = &mut self.store else { return Ok(()) };
-        let texts = self.app.unsaved().into_iter().map(placed).collect::<io::Result<_>>();
-        let texts = texts.and_then(|texts| store.keep_texts(texts));
+        // one whose place cannot be told is kept by the name it has
+        let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
+        let texts = store.keep_texts(self.app.unsaved().into_iter().map(place).collect());
         self.app.workbench.keeps = texts.is_ok() && store.place_of_texts().is_some();
         if let Some(mut saved) = self.app.saved() {
             saved.open = absolute(saved.open)?;
@@ -174,8 +175,11 @@ impl Session {
         if self.unsaved >= SAVING
             && let Err(error) = self.keep()
         {
-            self.app.notice = Some(Notice::error(error.to_string()));
-            self.unsaved = Duration::ZERO;
+            let told = error.to_string();
+            if self.warning.as_ref() != Some(&told) {
+                self.app.notice = Some(Notice::error(&told));
+                self.warning = Some(told);
+            }
         }
     }
 
@@ -251,6 +255,17 @@ impl Session {
 
     /// Looks at the file of the system in the lab; whether it has changed.
     fn watch(&mut self, elapsed: Duration) -> bool {
+        if let Some(watch) = &mut self.watch
+            && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
+        {
+            // a file that was wrong from the beginning
+            let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) else {
+                return false;
+            };
+            let effects = self.app.again();
+            self.perform(effects);
+            return true;
+        }
         let open = self.app.page != crate::app::Page::Picker;
         let Some((watch, place)) = self.watch.as_mut().zip(self.app.file().filter(|_| open)) else {
             return false;
@@ -499,8 +514,9 @@ impl Page for Session {
 
     fn last_words(&mut self) {
         if self.left.is_none() {
-            let recorded = self.finish_recording();
+            // the texts first: nothing could make them again
             let kept = self.keep();
+            let recorded = self.finish_recording();
             self.left = Some(Left { recorded, kept });
         }
     }

@@ -178,23 +178,27 @@ fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
 fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let (text, role) = word(&gauge.verdict);
     let used = canvas.left(area, role, text);
-    if given_by_blows(gauge) != 0.0 && used + 2 <= area.width {
+    if given_by_blows(gauge).is_some() && used + 2 <= area.width {
         let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
         canvas.left(columns(area, used + 1, 1), Role::Warn, &sign);
     }
 }
 
-/// By how much blows have changed the value since the reference was taken.
-fn given_by_blows(gauge: &Gauge) -> f64 {
-    gauge.reference - gauge.initial
+/// By how much blows have changed the value since the reference was taken, if by more than rounding.
+fn given_by_blows(gauge: &Gauge) -> Option<f64> {
+    let given = gauge.reference - gauge.initial;
+    (given.abs() > ROUNDING * gauge.scale).then_some(given)
 }
+
+/// A change as small as this beside the terms of a quantity is none.
+const ROUNDING: f64 = 1e-12;
 
 /// What there is to say of a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     let sentence = sentence(&gauge.verdict);
     match given_by_blows(gauge) {
-        0.0 => sentence,
-        given => {
+        None => sentence,
+        Some(given) => {
             format!("{sentence}; blows have changed it by {}", readable(given, 6, glyphs).trim())
         }
     }

@@ -99,6 +99,8 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
         reason: "∂L/∂t = 0".to_owned(),
         value,
         initial: value,
+        scale: value.abs(),
+        farthest: 3e-16 * value.abs(),
         reference: value,
         reference_time: 0.0,
         drift: 2.5e-16,

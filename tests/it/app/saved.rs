@@ -40,11 +40,19 @@ fn what_was_looked_at_is_looked_at_again() {
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
 }
 
+/// Who leaves by the list of systems goes on with the system that was left for it.
 #[test]
-fn nothing_is_kept_of_the_list_of_systems() {
+fn the_list_of_systems_keeps_what_was_left() {
     let mut app = in_lab();
+    let left = kept(&app);
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Picker);
+    assert_eq!(kept(&app), left);
+    // a system that is only previewed there is none of it
+    press(&mut app, "Down");
+    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
+    assert_eq!(kept(&app), left);
+    let (app, _) = App::new(catalog(), None);
     assert_eq!(app.saved(), None);
 }
 

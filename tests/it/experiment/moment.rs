@@ -81,6 +81,28 @@ fn a_constraint_that_was_let_go_stays_so() {
     }
 }
 
+/// What blows have added stays told as that, and drift stays relative to what it was relative to.
+#[test]
+fn a_gauge_goes_on_from_its_own_beginning() {
+    for (preset, method, time) in
+        [("kicked-rotor", "taylor", 5.5), ("restricted-three-body", "rk4", 3.0)]
+    {
+        let mut left = shipped(preset);
+        left.obey(Command::Method(method.to_owned()));
+        left.obey(Command::StepSize(0.05));
+        left.advance(time, PLENTY);
+        let mut taken = shipped(preset);
+        taken.obey(Command::TakeUp(Box::new(kept(&left))));
+        let (before, after) = (left.snapshot(), taken.snapshot());
+        let energy = &before.gauges[0];
+        assert!(energy.reference != energy.initial || energy.drift > 0.1, "{energy:?}");
+        for (a, b) in before.gauges.iter().zip(after.gauges.iter()) {
+            assert_eq!((a.initial, a.reference, a.scale), (b.initial, b.reference, b.scale));
+            assert_eq!((a.drift, a.max_drift), (b.drift, b.max_drift), "{a:?} {b:?}");
+        }
+    }
+}
+
 #[test]
 fn every_method_is_taken_up_as_it_is() {
     for method in ["taylor", "dop853", "gauss6", "rk4"] {

@@ -82,6 +82,21 @@ fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
 }
 
 #[test]
+fn a_watched_file_that_is_wrong_at_first_opens_once_it_is_right() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("own.toml");
+    fs::write(&place, FILE.replace("k = 4.0", "kk = 4.0")).expect("it can be written");
+    let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
+    lab.shows("own.toml has mistakes");
+    // another mistake, and then none
+    fs::write(&place, format!("unknown = 1\n{FILE}")).expect("it can be written");
+    lab.shows("`unknown`");
+    fs::write(&place, FILE).expect("it can be written");
+    lab.shows("running");
+    quits(lab);
+}
+
+#[test]
 fn what_is_shipped_has_no_file_to_be_watched() {
     let mut lab = Setup::new(PROGRAM, &["--watch", "pendulum"]).start();
     assert_eq!(lab.ends().0, 2);
