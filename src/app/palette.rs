@@ -231,7 +231,7 @@ impl Lab {
         self.panes().map(line).collect()
     }
 
-    /// What a pane is called: its title, or the quantities it shows.
+    /// What is said before the name of a pane where that is but two quantities.
     fn kind_of(&self, pane: Pane) -> &'static str {
         match pane {
             Pane::Plot(index) if matches!(self.plots.get(index), Some(Plot::Phase { .. })) => {
@@ -241,7 +241,7 @@ impl Lab {
         }
     }
 
-    /// What a pane shows, in words.
+    /// What a pane is called: its title, or the quantities it shows.
     pub fn name_of(&self, pane: Pane) -> String {
         let Pane::Plot(index) = pane else {
             let name = match pane {

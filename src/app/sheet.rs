@@ -121,24 +121,14 @@ impl Sheet {
     /// The file of a system, `place` being where it stands if that can be written to.
     pub(super) fn new(loaded: &Loaded, place: Option<PathBuf>) -> Self {
         let text = &loaded.document.text;
-        Self {
+        let known = Unsaved {
             name: loaded.name.clone(),
             title: loaded.document.path.clone(),
             place,
-            editor: Editor::new(text, TEXT_LIMIT),
-            flaws: Vec::new(),
-            state: State::Runs(None),
-            asking: None,
-            scroll: (0, 0),
-            on_disk: text.clone(),
-            revision: 0,
-            checking: None,
-            rest: None,
-            half: false,
-            overrule: false,
-            sought: String::new(),
-            unlooked: false,
-        }
+            text: text.clone(),
+            of: text.clone(),
+        };
+        Self { state: State::Runs(None), ..Self::of_unsaved(known) }
     }
 
     /// A text that was kept.

@@ -97,18 +97,17 @@ fn levels(canvas: &Canvas<'_>, raster: &mut Raster, frame: &Frame, landscape: &L
             raster.polyline(frame, curve.iter().copied(), pen);
         }
     };
-    let blank = Raster::new(frame.area, look.glyphs);
     let pen = Pen::shaded(look.theme.line(Role::Separatrix), SEPARATRIX);
     trace(raster, &landscape.separatrices, &pen);
+    let pen = Pen::shaded(look.theme.line(Role::Level), LEVELS);
+    if frame.area.area() > ROOMY && !look.glyphs.is_ascii() {
+        landscape.levels.iter().for_each(|level| trace(raster, level, &pen));
+        return;
+    }
+    let blank = Raster::new(frame.area, look.glyphs);
     let mut drawn = blank.clone();
     trace(&mut drawn, &landscape.separatrices, &plain);
-    let pen = Pen::shaded(look.theme.line(Role::Level), LEVELS);
-    let roomy = frame.area.area() > ROOMY && !look.glyphs.is_ascii();
     for level in &landscape.levels {
-        if roomy {
-            trace(raster, level, &pen);
-            continue;
-        }
         // Curves that fill the same cells are no curves any more.
         let mut alone = blank.clone();
         trace(&mut alone, level, &plain);
