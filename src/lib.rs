@@ -7,6 +7,7 @@
 
 pub mod analysis;
 pub mod app;
+pub mod cancel;
 pub mod cli;
 pub mod experiment;
 pub mod expr;

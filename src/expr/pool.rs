@@ -9,9 +9,13 @@ use super::function::FunctionId;
 use super::notation::{latex_name, unicode_name};
 use super::number::Number;
 use super::symbol::{Rank, Symbol, SymbolInfo};
+use crate::cancel::Cancel;
 
 /// The most nodes one pool may hold: a stranger's file must not fill the memory.
 pub const NODE_LIMIT: usize = 1_000_000;
+
+/// The token of cancelling is looked at whenever so many nodes were added.
+const NODES_PER_LOOK: usize = 64;
 
 /// A handle to an expression of one [`Pool`]. Equal handles mean equal canonical expressions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -72,6 +76,7 @@ pub struct Pool {
     names: FxHashMap<String, Symbol>,
     size: usize,
     full: bool,
+    cancel: Cancel,
 }
 
 impl Default for Pool {
@@ -91,6 +96,7 @@ impl Pool {
             names: FxHashMap::default(),
             size: 0,
             full: false,
+            cancel: Cancel::new(),
         };
         pool.intern(Node::Number(Number::ZERO));
         pool.intern(Node::Number(Number::ONE));
@@ -123,8 +129,18 @@ impl Pool {
         }
     }
 
-    /// Whether more was asked of the pool than [`NODE_LIMIT`]: what was built since is not to be
-    /// used, and the stage that built it must refuse.
+    /// Lets work on the pool be stopped by this token, and with it whatever is made from it.
+    pub fn set_cancel(&mut self, cancel: Cancel) {
+        self.cancel = cancel;
+    }
+
+    /// The token by which work on the pool is stopped.
+    pub fn cancel(&self) -> &Cancel {
+        &self.cancel
+    }
+
+    /// Whether more was asked of the pool than [`NODE_LIMIT`], or work on it was cancelled: what
+    /// was built since is not to be used, and the stage that built it must refuse.
     pub fn is_full(&self) -> bool {
         self.full
     }
@@ -250,7 +266,8 @@ impl Pool {
             return e;
         }
         let parts = node.parts();
-        if self.full || self.size > NODE_LIMIT {
+        let look = self.nodes.len().is_multiple_of(NODES_PER_LOOK);
+        if self.full || self.size > NODE_LIMIT || look && self.cancel.is_cancelled() {
             self.full = true;
             return Expr::ZERO;
         }

@@ -13,6 +13,7 @@ use super::program::{Program, Singular};
 use super::value::Values;
 use super::watch::{List, Watch};
 use super::{Channel, Form, Given, Observer, Occasions, State};
+use crate::cancel::Cancel;
 use crate::expr::{Double, Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{self, Model};
@@ -23,6 +24,7 @@ use crate::model::{self, Model};
 pub struct System {
     shared: Arc<Shared>,
     holding: Holding,
+    cancel: Cancel,
 }
 
 #[derive(Debug)]
@@ -108,7 +110,13 @@ impl System {
             return Err(CompileError::TooLarge);
         }
         let holding = holding.unwrap_or_default();
-        Ok(System { shared: Arc::new(Shared { moments, ..shared }), holding })
+        let cancel = equations.pool.cancel().clone();
+        Ok(System { shared: Arc::new(Shared { moments, ..shared }), holding, cancel })
+    }
+
+    /// The token by which work with this system is stopped: that of the pool it was made from.
+    pub fn cancel(&self) -> &Cancel {
+        &self.cancel
     }
 
     fn write(
@@ -418,7 +426,7 @@ impl System {
 
     /// The same system with other constraints held.
     pub(super) fn with_holding(&self, holding: Holding) -> System {
-        System { shared: Arc::clone(&self.shared), holding }
+        System { shared: Arc::clone(&self.shared), holding, cancel: self.cancel.clone() }
     }
 
     /// What programs are given for parameters: their values as the decimals they are written as,

@@ -38,6 +38,8 @@ pub enum FaultKind {
     StepUnderflow(f64),
     /// This event comes ever faster and would come without end.
     PilesUp(String),
+    /// Somebody asked that it stop.
+    Cancelled,
     /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
     Sticks,
 }
@@ -82,6 +84,7 @@ impl fmt::Display for Fault {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
             FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
+            FaultKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
         }
         for (name, value) in &self.place {
             write!(f, ", {name} = {}", short(*value))?;
@@ -92,7 +95,9 @@ impl fmt::Display for Fault {
                 ": a configuration in which constraints coincide or have no direction"
             }
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
-            FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => "",
+            FaultKind::ConstraintMissed(..)
+            | FaultKind::FreeVelocities(_)
+            | FaultKind::Cancelled => "",
             FaultKind::Contradiction => ": give fewer of them",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
