@@ -16,6 +16,7 @@ mod doctor;
 mod exit;
 mod failure;
 mod format;
+mod interrupt;
 mod lab;
 mod list;
 mod manual;
@@ -32,13 +33,17 @@ mod stderr;
 mod theme;
 
 use std::ffi::OsString;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::expr::nearest;
+use crate::preset::{Catalog, is_path};
+use crate::printable;
 
 use failure::Failure;
+use interrupt::Interrupt;
 
 pub use exit::{EXITS, Exit};
 
@@ -103,9 +108,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 stderr::tell(&message);
                 return Failure::WrongUse(message).code();
             }
-            // help asked for goes to standard output, and both may have nobody to read them
-            let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE));
+            return refused(&words, &error);
         }
     };
     match perform(arguments) {
@@ -122,32 +125,106 @@ fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
 }
 
 fn perform(arguments: Arguments) -> Result<(), Failure> {
-    match arguments.command {
-        Some(Command::List(arguments)) => list::perform(&arguments),
-        Some(Command::Derive(arguments)) => derive::perform(&arguments),
-        Some(Command::Check(arguments)) => check::perform(&arguments),
-        Some(Command::Bracket(arguments)) => bracket::perform(&arguments),
-        Some(Command::Run(arguments)) => run::perform(&arguments),
-        Some(Command::Record(arguments)) => record::perform(&arguments),
-        Some(Command::Script(arguments)) => demo::perform(&arguments),
-        Some(Command::Play(arguments)) => play::perform(&arguments),
-        Some(Command::Methods(arguments)) => methods::perform(&arguments),
-        Some(Command::Doctor(arguments)) => doctor::perform(&arguments),
-        Some(Command::Config(arguments)) => config::perform(&arguments),
-        Some(Command::Completions(arguments)) => completions::perform(&arguments),
-        Some(Command::Man(arguments)) => manual::perform(&arguments),
-        Some(Command::Theme(arguments)) => theme::perform(&arguments),
-        None => lab::perform(&arguments.lab),
+    let Some(command) = arguments.command else { return lab::perform(&arguments.lab) };
+    let interrupt = Interrupt::watch();
+    match command {
+        Command::List(arguments) => list::perform(&arguments),
+        Command::Derive(arguments) => derive::perform(&arguments),
+        Command::Check(arguments) => check::perform(&arguments),
+        Command::Bracket(arguments) => bracket::perform(&arguments),
+        Command::Run(arguments) => run::perform(&arguments, &interrupt),
+        Command::Record(arguments) => record::perform(&arguments),
+        Command::Script(arguments) => demo::perform(&arguments),
+        Command::Play(arguments) => play::perform(&arguments, &interrupt),
+        Command::Methods(arguments) => methods::perform(&arguments),
+        Command::Doctor(arguments) => doctor::perform(&arguments),
+        Command::Config(arguments) => config::perform(&arguments),
+        Command::Completions(arguments) => completions::perform(&arguments),
+        Command::Man(arguments) => manual::perform(&arguments),
+        Command::Theme(arguments) => theme::perform(&arguments),
     }
 }
 
-/// What is to be said where the first of several words is almost a command; by itself it would be
-/// a preset's name.
+/// Shows help, the version, or what is wrong with the words.
+fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        return match printed.map_err(|why| Failure::writing("standard output", &why)) {
+            Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
+            Err(failure) => {
+                stderr::tell(failure.message());
+                failure.code()
+            }
+        };
+    }
+    let said = error.render().to_string();
+    let shown = fit(&said, words);
+    if shown == said {
+        // in colour, where that is wanted; whether anybody hears it changes nothing
+        let _ = error.print();
+    } else {
+        stderr::show(&shown);
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE))
+}
+
+/// What is said of the words of a command line, with those in it that are fit to be shown, and not at any length.
+fn fit(said: &str, words: &[OsString]) -> String {
+    let mut text = said.to_owned();
+    for word in words.iter().filter_map(|word| word.to_str()) {
+        let parts = [Some(word), word.split_once('=').map(|(_, value)| value)];
+        for part in parts.into_iter().flatten() {
+            let shown = printable::quoted(part);
+            if shown != part {
+                text = text.replace(part, &shown);
+            }
+        }
+    }
+    let lines = text.split('\n').map(|line| match line.char_indices().nth(LONGEST_LINE) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
+    });
+    printable::lines(&lines.collect::<Vec<_>>().join("\n")).into_owned()
+}
+
+/// The most characters of a line about wrong words; help is not so wide.
+const LONGEST_LINE: usize = 400;
+
+/// What is to be said where the first of several words is no command: almost one, or nothing there is. By itself it would
+/// be a preset's name.
 fn misspelt(words: &[OsString]) -> Option<String> {
-    let [_, first, _, ..] = words else { return None };
+    let [_, first, second, ..] = words else { return None };
     let first = first.to_str().filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
     let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-    let near = nearest(first, names.iter().copied()).filter(|near| *near != first)?;
-    Some(format!("there is no command `{first}`; did you mean `{near}`?"))
+    if names.contains(&first) {
+        return None;
+    }
+    let shown = printable::quoted(first);
+    if let Some(near) = nearest(first, names.iter().copied()) {
+        return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
+    }
+    // an option behind a preset's name is the lab's, and what is wrong with it is told
+    if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
+        return None;
+    }
+    unknown(first)
+}
+
+/// What is to be said of a word that is neither a command nor a preset's name, with the nearest that is.
+fn unknown(word: &str) -> Option<String> {
+    let catalog = Catalog::load();
+    let presets = || catalog.entries().iter().map(|entry| entry.name.as_str());
+    if is_path(word) || presets().any(|preset| preset == word) {
+        return None;
+    }
+    let command = Arguments::command();
+    let commands: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let help = match nearest(word, commands.iter().copied().chain(presets())) {
+        Some(near) => format!("did you mean `{}`?", printable::line(near)),
+        None => {
+            format!("the commands are {}; `phaselab list` has the presets", commands.join(", "))
+        }
+    };
+    Some(format!("there is no command or preset `{}`; {help}", printable::quoted(word)))
 }

@@ -22,6 +22,7 @@ mod loader;
 mod log;
 pub mod options;
 mod panic;
+mod partial;
 mod product;
 mod projector;
 mod queue;
@@ -52,6 +53,7 @@ use crate::preset::{Catalog, Mistake};
 use crate::record::{Performance, Tape, still};
 use demo::Demo;
 use log::Log;
+pub(crate) use partial::remove_all as remove_partial_files;
 use session::{Left, Session};
 use store::Store;
 

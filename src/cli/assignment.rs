@@ -10,6 +10,7 @@ use crate::system::Given;
 
 use super::failure::Failure;
 use super::stderr;
+use crate::printable;
 
 /// A name and what it is set to, both as written.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -55,6 +56,7 @@ fn first_mistake(scope: &Scope) -> String {
 /// The parameters: the file's values, or those set.
 pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, Failure> {
     let mut values = model.parameter_values();
+    refuse_twice("--set", set)?;
     for assignment in set {
         let name = assignment.name.as_str();
         let index = model.parameter(name).ok_or_else(|| {
@@ -64,6 +66,20 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
         values[index] = number(&assignment.value).map_err(|why| wrong(assignment, &why))?;
     }
     Ok(values)
+}
+
+/// One of two values for the same name would be lost.
+fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), Failure> {
+    for (i, later) in set.iter().enumerate() {
+        if let Some(first) = set[..i].iter().find(|first| first.name == later.name) {
+            let [name, one, other] =
+                [&first.name, &first.value, &later.value].map(|text| printable::quoted(text));
+            let message =
+                format!("{option} gives {name} twice, {one} and {other}: keep one of them");
+            return Err(Failure::WrongUse(message));
+        }
+    }
+    Ok(())
 }
 
 /// The time of the initial values: `--init t=…`, else the file's.
@@ -81,12 +97,10 @@ pub(super) fn initial(
     set: &[Assignment],
 ) -> Result<Vec<Given>, Failure> {
     let mut all: Vec<Given> = Vec::new();
+    refuse_twice("--init", set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
-        let given = place(model, &assignment.name, value)?;
-        // the last of two equal ones counts
-        all.retain(|other| label(model, other) != label(model, &given));
-        all.push(given);
+        all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
         let has = |wanted: Given| all.iter().any(|g| label(model, g) == label(model, &wanted));
@@ -157,6 +171,7 @@ pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Chann
         None => (text.trim(), text.trim()),
     };
     if name.is_empty() {
+        let text = printable::quoted(text);
         return Err(Failure::WrongUse(format!("--observe {text}: a name stands before the =")));
     }
     let expression = expression(model, pool, written, "--observe")?;
@@ -184,19 +199,21 @@ pub(super) fn expression(
         })
         .collect();
     stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
+    let written = printable::quoted(written);
     Err(Failure::WrongUse(format!("{called}: `{written}` is no expression of this system")))
 }
 
 fn wrong(assignment: &Assignment, why: &str) -> Failure {
-    let Assignment { name, value } = assignment;
+    let [name, value] = [&assignment.name, &assignment.value].map(|text| printable::quoted(text));
     Failure::WrongUse(format!("{name}={value}: {why}"))
 }
 
 fn unknown(kind: &str, name: &str, names: &[&str]) -> Failure {
+    let shown = printable::quoted(name);
     let help = match nearest(name, names.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if names.is_empty() => "there are none".to_owned(),
         None => format!("there are {}", names.join(", ")),
     };
-    Failure::WrongUse(format!("there is no {kind} `{name}`; {help}"))
+    Failure::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
 }

@@ -1,6 +1,6 @@
 //! `phaselab bracket`: Poisson's bracket of any two expressions.
 
-use std::io::Write;
+use std::ffi::OsString;
 
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ Examples:
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
-    name: String,
+    name: OsString,
     /// The first expression.
     #[arg(value_name = "F", allow_hyphen_values = true)]
     f: String,
@@ -74,9 +74,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         Format::Latex => answer.latex(&equations),
         Format::Json => answer.json(&equations),
     };
-    let mut out = Output::open(None)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(arguments.format.form(), &text)
 }
 
 /// The point at which the value is wanted.

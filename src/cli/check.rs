@@ -1,20 +1,18 @@
 //! `phaselab check`: every mistake in files, and whether what they claim is true.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::analysis::false_claims;
-use crate::expr::nearest;
-use crate::integrate::{METHODS, method_named};
 use crate::mechanics;
-use crate::model::Model;
 use crate::preset::{Document, Mistake, Severity};
+use crate::printable;
+use crate::system::System;
 
 /// Tell every mistake in files, and whether what they claim is true.
 ///
@@ -57,14 +55,11 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if arguments.format == Format::Json {
-        let mut out = Output::open(None)?;
-        let text = format!("{:#}\n", json!({ "files": files }));
-        out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-        out.finish()?;
+        Output::print(Form::Json, &format!("{:#}\n", json!({ "files": files })))?;
     }
     match (errors, arguments.files.as_slice()) {
         (0, _) => Ok(()),
-        (n, [file]) => Err(Failure::WrongFile(open::count(n, &file.display().to_string()))),
+        (n, [file]) => Err(Failure::WrongFile(open::count(n, &printable::path(file)))),
         (n, files) => Err(Failure::WrongFile(open::count(n, &format!("{} files", files.len())))),
     }
 }
@@ -76,30 +71,20 @@ fn mistakes(document: &Document) -> Vec<Mistake> {
         Err(mistakes) => return mistakes,
     };
     let mut mistakes = checked.warnings;
-    mistakes.extend(unknown_method(&checked.model));
+    let unknown_method = open::unknown_method(&checked.model);
+    let is_known = unknown_method.is_none();
+    mistakes.extend(unknown_method);
     match mechanics::derive(&checked.model) {
-        Ok(equations) => mistakes.extend(false_claims(&checked.model, &equations)),
+        Ok(equations) => {
+            mistakes.extend(false_claims(&checked.model, &equations));
+            if is_known && let Ok(system) = System::compile(&checked.model, &equations, &[]) {
+                mistakes.extend(open::unfit_method(&checked.model, &system));
+            }
+        }
         Err(why) => mistakes.push(Mistake::error(0..0, why.to_string())),
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
     mistakes
-}
-
-/// The file's method, if the table has none of that name.
-fn unknown_method(model: &Model) -> Option<Mistake> {
-    let name = &model.run.method;
-    if method_named(name).is_some() {
-        return None;
-    }
-    let place = model.run.method_place.clone().unwrap_or_default();
-    let mistake = Mistake::error(place, format!("there is no method `{name}`"));
-    let names = METHODS.iter().map(|method| method.name);
-    Some(match nearest(name, names.clone().chain(["auto"])) {
-        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-        None => {
-            mistake.with_help(format!("there are auto {}", names.collect::<Vec<_>>().join(" ")))
-        }
-    })
 }
 
 fn object(document: &Document, mistakes: &[Mistake]) -> Value {

@@ -1,11 +1,9 @@
 //! `phaselab completions SHELL`: what a shell needs to complete commands, options and the names of presets.
 
-use std::io::Write;
-
 use clap_complete::Shell;
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 
 /// Print what a shell needs to complete commands, options and the names of presets.
 ///
@@ -24,9 +22,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
-    let mut out = Output::open(None)?;
-    out.write_all(script(arguments.shell).as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(Form::Text, &script(arguments.shell))
 }
 
 /// The whole script.

@@ -1,12 +1,12 @@
 //! `phaselab config`: where the configuration stands, what it may say, and whether it is right.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::preset::Document;
+use crate::printable;
 use crate::shell::{Options, config};
 
 /// Show where the configuration stands and what it may say, or look for mistakes in it.
@@ -43,7 +43,7 @@ enum Command {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.command {
         Command::PrintDefault => print(&config::default_text()),
-        Command::Path => print(&format!("{}\n", path()?.display())),
+        Command::Path => print(&format!("{}\n", printable::path(&path()?))),
         Command::Check { file: Some(path) } => {
             let document = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
             read(&document).map(|_| ())
@@ -51,7 +51,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         Command::Check { file: None } => match find()? {
             Some(document) => read(&document).map(|_| ()),
             None => {
-                stderr::tell(&format!("there is no configuration at {}", path()?.display()));
+                let path = printable::path(&path()?);
+                stderr::tell(&format!("there is no configuration at {path}"));
                 Ok(())
             }
         },
@@ -67,7 +68,7 @@ pub(super) fn options() -> Result<Options, Failure> {
 fn find() -> Result<Option<Document>, Failure> {
     config::find().map_err(|why| match config::path() {
         Some(path) => Failure::reading(&path, &why),
-        None => Failure::CouldNot(why.to_string()),
+        None => Failure::CouldNot(printable::why(&why)),
     })
 }
 
@@ -78,14 +79,9 @@ fn path() -> Result<PathBuf, Failure> {
 }
 
 fn read(document: &Document) -> Result<Options, Failure> {
-    config::read(document).map_err(|mistakes| {
-        stderr::show(&document.report(&mistakes, stderr::has_colour()));
-        Failure::WrongFile(open::count(mistakes.len(), &document.path))
-    })
+    config::read(document).map_err(|mistakes| open::refuse(document, &mistakes))
 }
 
 fn print(text: &str) -> Result<(), Failure> {
-    let mut out = Output::open(None)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(Form::Text, text)
 }

@@ -6,7 +6,7 @@ mod json;
 mod latex;
 mod text;
 
-use std::io::Write;
+use std::ffi::OsString;
 
 use super::failure::Failure;
 use super::format::Format;
@@ -29,7 +29,7 @@ Examples:
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
-    name: String,
+    name: OsString,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -45,7 +45,5 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         Format::Latex => latex::write(&model, &equations),
         Format::Json => json::write(&model, &equations, &classes),
     };
-    let mut out = Output::open(None)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(arguments.format.form(), &text)
 }

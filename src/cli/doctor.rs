@@ -1,11 +1,11 @@
 //! `phaselab doctor`: what the laboratory takes the terminal for, and why; the glyphs for a look at them.
 
-use std::io::{IsTerminal, Write, stdout};
+use std::io::{IsTerminal, stdout};
 
 use rustix::termios::tcgetwinsize;
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use crate::shell::diagnosis;
 use crate::view::card::card;
 use crate::view::glyphs::Glyphs;
@@ -33,9 +33,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         let size = tcgetwinsize(rustix::stdio::stdout()).ok().filter(|_| near);
         findings(&variables, size.map(|size| (size.ws_col, size.ws_row)))
     };
-    let mut output = Output::open(None)?;
-    output.write_all(text.as_bytes()).map_err(|error| output.failed(&error))?;
-    output.finish()
+    Output::print(Form::Coloured, &text)
 }
 
 fn findings(variables: &dyn Fn(&str) -> Option<String>, size: Option<(u16, u16)>) -> String {

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use super::exit;
+use crate::printable;
 
 /// Why a command stops before its end.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -29,12 +30,13 @@ impl Failure {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return Failure::NobodyReads;
         }
-        Failure::CouldNotWrite(format!("cannot write {what}: {}", plain(error)))
+        Failure::CouldNotWrite(format!("cannot write {what}: {}", printable::why(error)))
     }
 
     /// A file that cannot be read.
     pub(super) fn reading(path: &Path, error: &io::Error) -> Failure {
-        Failure::WrongUse(format!("cannot read {}: {}", path.display(), plain(error)))
+        let (path, why) = (printable::path(path), printable::why(error));
+        Failure::WrongUse(format!("cannot read {path}: {why}"))
     }
 
     /// The exit code, one of [`super::EXITS`].
@@ -60,14 +62,5 @@ impl Failure {
             | Failure::WrongFile(text)
             | Failure::CouldNotWrite(text) => text,
         }
-    }
-}
-
-/// The system's sentence without its number.
-fn plain(error: &io::Error) -> String {
-    let text = error.to_string();
-    match text.find(" (os error") {
-        Some(end) => text[..end].to_lowercase(),
-        None => text,
     }
 }

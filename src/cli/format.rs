@@ -2,6 +2,8 @@
 
 use clap::ValueEnum;
 
+use super::output::Form;
+
 /// The three ways.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub(super) enum Format {
@@ -12,4 +14,14 @@ pub(super) enum Format {
     Latex,
     /// One object, its expressions in the syntax of files.
     Json,
+}
+
+impl Format {
+    /// The form of its output.
+    pub(super) fn form(self) -> Form {
+        match self {
+            Format::Text | Format::Latex => Form::Text,
+            Format::Json => Form::Json,
+        }
+    }
 }

@@ -1,12 +1,10 @@
 //! `phaselab [PRESET|FILE]`: the laboratory on the screen, and `--demo`: a demo in it.
 
-use std::io::Write;
-
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use super::{config, play, record};
 use crate::preset::{Catalog, Origin, is_path};
 use crate::record::Performance;
@@ -126,6 +124,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.demo {
         return perform_demo(arguments);
     }
+    if let Some(message) = arguments.name.as_deref().and_then(super::unknown) {
+        return Err(Failure::WrongUse(message));
+    }
     if arguments.options.is_on("watch") {
         watchable(arguments.name.as_deref())?;
     }
@@ -153,9 +154,7 @@ fn perform_demo(arguments: &Arguments) -> Result<(), Failure> {
         Err(refusal) => return how_it_ended(Err(refusal)),
     };
     if let (Ending::Quit, Some(picture)) = (ending, outcome.map_err(wrong)?) {
-        let mut out = Output::open(None)?;
-        out.write_all(picture.as_bytes()).map_err(|error| out.failed(&error))?;
-        out.finish()?;
+        Output::print(Form::Coloured, &picture)?;
     }
     how_it_ended(Ok(ending))
 }

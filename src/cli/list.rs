@@ -1,12 +1,10 @@
 //! `phaselab list`: the presets by the chapters of the notes, and by topic within a chapter.
 
-use std::io::Write;
-
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use crate::preset::{Catalog, Entry, Origin};
 
 /// List the presets by chapter and topic.
@@ -36,6 +34,16 @@ enum Format {
     Names,
 }
 
+impl Format {
+    /// The form of its output.
+    fn form(self) -> Form {
+        match self {
+            Format::Text | Format::Names => Form::Text,
+            Format::Json => Form::Json,
+        }
+    }
+}
+
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let catalog = Catalog::load();
     let text = match arguments.format {
@@ -49,9 +57,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
             format!("{:#}\n", json!({ "presets": presets }))
         }
     };
-    let mut out = Output::open(None)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(arguments.format.form(), &text)
 }
 
 /// What the chapters of *The Principles of Dynamics* are about, from the introduction on.

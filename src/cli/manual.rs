@@ -7,7 +7,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 
 use super::exit::EXITS;
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use crate::app::keymap::{KEYS, Place};
 use crate::shell::options::OPTIONS;
 
@@ -61,7 +61,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         [] => whole(),
         words => of_command(words)?,
     };
-    let mut out = Output::open(None)?;
+    let mut out = Output::open(None, Form::Text)?;
     page.and_then(|page| out.write_all(&page)).map_err(|error| out.failed(&error))?;
     out.finish()
 }

@@ -1,12 +1,10 @@
 //! `phaselab methods`: the table of integrators.
 
-use std::io::Write;
-
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use crate::integrate::{METHODS, Method, Preserves, Stepping};
 
 /// List the integrators: order, what they preserve, what they need.
@@ -33,6 +31,16 @@ enum Format {
     Json,
 }
 
+impl Format {
+    /// The form of its output.
+    fn form(self) -> Form {
+        match self {
+            Format::Text => Form::Text,
+            Format::Json => Form::Json,
+        }
+    }
+}
+
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let text = match arguments.format {
         Format::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
@@ -41,9 +49,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
             format!("{:#}\n", json!({ "methods": methods }))
         }
     };
-    let mut out = Output::open(None)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(arguments.format.form(), &text)
 }
 
 fn text(method: &Method) -> String {

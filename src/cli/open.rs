@@ -1,15 +1,24 @@
 //! From a name on the command line to a model and what follows from it.
 
+use std::ffi::OsStr;
+
 use crate::analysis::flaws;
+use crate::experiment::choose_method;
+use crate::expr::nearest;
+use crate::integrate::{METHODS, method_named};
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
-use crate::preset::{Catalog, Document};
+use crate::preset::{Catalog, Document, Mistake};
+use crate::system::System;
 
 use super::failure::Failure;
 use super::stderr;
 
+/// What a file says where the best method that fits is to be taken.
+const AUTO: &str = "auto";
+
 /// Finds the document behind a preset's name or a file's path.
-pub(super) fn find(name: &str) -> Result<Document, Failure> {
+pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, Failure> {
     Catalog::load().find(name).map_err(|why| Failure::WrongUse(why.to_string()))
 }
 
@@ -17,10 +26,7 @@ pub(super) fn find(name: &str) -> Result<Document, Failure> {
 pub(super) fn read(document: &Document) -> Result<Model, Failure> {
     match document.read() {
         Ok(checked) => Ok(checked.model),
-        Err(mistakes) => {
-            stderr::show(&document.report(&mistakes, stderr::has_colour()));
-            Err(Failure::WrongFile(count(mistakes.len(), &document.path)))
-        }
+        Err(mistakes) => Err(refuse(document, &mistakes)),
     }
 }
 
@@ -31,11 +37,37 @@ pub(super) fn derive(document: &Document, model: &Model) -> Result<Equations, Fa
     let equations =
         derived.map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
     let mistakes = flaws(model, &equations);
-    if mistakes.is_empty() {
-        return Ok(equations);
+    if mistakes.is_empty() { Ok(equations) } else { Err(refuse(document, &mistakes)) }
+}
+
+/// The file's method, if the table has none of that name.
+pub(super) fn unknown_method(model: &Model) -> Option<Mistake> {
+    let name = &model.run.method;
+    if name == AUTO || method_named(name).is_some() {
+        return None;
     }
-    stderr::show(&document.report(&mistakes, stderr::has_colour()));
-    Err(Failure::WrongFile(count(mistakes.len(), &document.path)))
+    let place = model.run.method_place.clone().unwrap_or_default();
+    let mistake = Mistake::error(place, format!("there is no method `{name}`"));
+    let names = METHODS.iter().map(|method| method.name);
+    Some(match nearest(name, names.clone().chain([AUTO])) {
+        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+        None => {
+            mistake.with_help(format!("there are {AUTO} {}", names.collect::<Vec<_>>().join(" ")))
+        }
+    })
+}
+
+/// The file's method, if it is none for this system.
+pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Mistake> {
+    let why = choose_method(system, &model.run.method).err()?;
+    let place = model.run.method_place.clone().unwrap_or_default();
+    Some(Mistake::error(place, why.to_string()))
+}
+
+/// Shows mistakes of a file where they stand.
+pub(super) fn refuse(document: &Document, mistakes: &[Mistake]) -> Failure {
+    stderr::show(&document.report(mistakes, stderr::has_colour()));
+    Failure::WrongFile(count(mistakes.len(), &document.path))
 }
 
 /// `2 mistakes in pendulum.toml`.

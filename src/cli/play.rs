@@ -1,14 +1,14 @@
 //! `phaselab play`: a cast or a script on the terminal.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::{lab, open, record};
 use crate::preset::{Document, demo, is_path};
 use crate::record::{Script, Tape};
 use crate::shell::{self, Options};
+use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
 ///
@@ -32,9 +32,11 @@ pub(super) struct Arguments {
 /// The greatest cast that is read.
 const LIMIT: u64 = 64 << 20;
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
     let tape = tape(&arguments.file)?;
     let request = lab::request(None, Options::default())?;
+    // the terminal is given back first
+    interrupt.stand_aside();
     lab::how_it_ended(shell::show(tape, &request))
 }
 
@@ -42,19 +44,17 @@ fn tape(path: &Path) -> Result<Tape, Failure> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
         return recorded(&own);
     }
-    let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(LIMIT + 1).read_to_end(&mut bytes));
-    read.map_err(|why| Failure::reading(path, &why))?;
+    let (bytes, _) = file::read(path, LIMIT).map_err(|why| Failure::reading(path, &why))?;
+    let shown = printable::path(path);
     if bytes.len() as u64 > LIMIT {
-        let what = format!("{}: a cast may have 64 MiB; this one has more", path.display());
+        let what = format!("{shown}: a cast may have 64 MiB; this one has more");
         return Err(Failure::WrongFile(what));
     }
     if bytes.trim_ascii_start().starts_with(b"{") {
         let text = String::from_utf8_lossy(&bytes);
-        let wrong = |why| Failure::WrongFile(format!("{}: {why}", path.display()));
-        return Tape::read(&text).map_err(wrong);
+        return Tape::read(&text).map_err(|why| Failure::WrongFile(format!("{shown}: {why}")));
     }
-    recorded(&Document::open(path).map_err(|why| Failure::reading(path, &why))?)
+    recorded(&Document::from_bytes(shown, &bytes))
 }
 
 /// What a script comes to.

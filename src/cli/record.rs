@@ -1,15 +1,17 @@
 //! `phaselab record`: a script becomes a cast, byte for byte the same on every machine.
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
 use super::failure::Failure;
-use super::output::Output;
-use super::{open, stderr};
+use super::open;
+use super::output::{Form, Output};
 use crate::expr::nearest;
 use crate::preset::{Document, Mistake, demo, demos};
+use crate::printable;
 use crate::record::cast::{self, Version};
 use crate::record::script::read_size;
 use crate::record::{Recording, Script, account, play, still};
@@ -29,7 +31,7 @@ Examples:
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
-    name: String,
+    name: OsString,
     /// The script; the preset's own demo where it is left out.
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
@@ -67,10 +69,11 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
         Some(path) => Document::open(path).map_err(|why| Failure::reading(path, &why))?,
-        None => own_demo(&arguments.name, "give one with --script")?,
+        None => own_demo(&printable::os(&arguments.name), "give one with --script")?,
     };
     let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
-    let recording = recorded(&script, &source, &system, &arguments.name, arguments.size)?;
+    let name = printable::os(&arguments.name);
+    let recording = recorded(&script, &source, &system, &name, arguments.size)?;
     if arguments.format != Format::Account {
         hold(&source, &recording)?;
     }
@@ -81,7 +84,11 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
             return hold(&source, &recording);
         }
     }
-    let mut out = Output::open(arguments.output.as_deref())?;
+    let form = match arguments.format {
+        Format::V3 | Format::V2 => Form::Json,
+        Format::Account => Form::Text,
+    };
+    let mut out = Output::open(arguments.output.as_deref(), form)?;
     let written = match arguments.format {
         Format::V3 => cast::write(&recording, Version::Three, &mut out).map(|_| ()),
         Format::V2 => cast::write(&recording, Version::Two, &mut out).map(|_| ()),
@@ -97,7 +104,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
     let form = path
         .to_string_lossy()
         .parse()
-        .map_err(|why| Failure::WrongUse(format!("--still {}: {why}", path.display())))?;
+        .map_err(|why| Failure::WrongUse(format!("--still {}: {why}", printable::path(path))))?;
     let screen = match at {
         None => &recording.last,
         Some(name) => {
@@ -107,13 +114,17 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are {}", names().collect::<Vec<_>>().join(", ")),
             };
-            let unknown = || Failure::WrongUse(format!("there is no marker `{name}`; {}", help()));
+            let unknown = || {
+                let name = printable::quoted(name);
+                Failure::WrongUse(format!("there is no marker `{name}`; {}", help()))
+            };
             &marker.ok_or_else(unknown)?.screen
         }
     };
     let palette = recording.look.theme.palette();
     let text = still::write(screen, palette, form, &recording.title);
-    let mut out = Output::open(Some(path))?;
+    let written = if form == still::Form::Ansi { Form::Coloured } else { Form::Text };
+    let mut out = Output::open(Some(path), written)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()
 }
@@ -122,6 +133,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
 pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, Failure> {
     demo(name).ok_or_else(|| {
         let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
+        let name = printable::quoted(name);
         Failure::WrongUse(format!("`{name}` has no demo of its own: {instead}{near}"))
     })
 }
@@ -157,6 +169,5 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Failu
 
 /// Shows mistakes where they stand.
 pub(super) fn told(source: &Document, mistakes: &[Mistake]) -> Failure {
-    stderr::show(&source.report(mistakes, stderr::has_colour()));
-    Failure::WrongFile(open::count(mistakes.len(), &source.path))
+    open::refuse(source, mistakes)
 }

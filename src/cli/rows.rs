@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::decimal::shortest;
 use super::report::{Closing, Header, Status};
+use crate::printable;
 
 /// How rows are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
@@ -124,12 +125,12 @@ fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
         writeln!(out, "# {name}: {}", fields.collect::<Vec<_>>().join(" "))?;
     }
     let mut names = csv::WriterBuilder::new().from_writer(Vec::new());
-    names.write_record(&header.columns)?;
+    names.write_record(header.columns.iter().map(|name| printable::line(name).into_owned()))?;
     let names = names.into_inner().map_err(csv::IntoInnerError::into_error)?;
     out.write_all(&names)
 }
 
 /// A `#` line must stay one line.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    printable::line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }

@@ -5,23 +5,27 @@ mod invariants;
 mod progress;
 mod times;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
 use super::failure::Failure;
-use super::output::Output;
+use super::interrupt::Interrupt;
+use super::output::{Form, Output};
 use super::report::{Closing, Header, Status};
 use super::rows::{Format, Rows};
 use super::{open, stderr};
 use crate::experiment::{self, Experiment, Progress, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
+use crate::printable;
 use crate::system::System;
 
-use progress::{Bar, Interrupt};
+use progress::Bar;
 use times::Times;
 
 /// Integrate without a screen.
@@ -38,7 +42,7 @@ Examples:
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
-    name: String,
+    name: OsString,
     /// Sets a parameter.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     set: Vec<Assignment>,
@@ -76,13 +80,15 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// The most steps between two looks at the clock and at signals.
+/// The most steps between two looks at the clock and at signals, and how long they are to take at most: where steps take
+/// long there are fewer.
 const STEPS_PER_LOOK: u64 = 4096;
+const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 
 /// How many times the gauges are looked at, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
@@ -93,7 +99,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
     let settings = settings(arguments, &model)?;
 
+    if arguments.method.is_none()
+        && let Some(mistake) = open::unknown_method(&model)
+    {
+        return Err(open::refuse(&document, &[mistake]));
+    }
+
     let mut equations = open::derive(&document, &model)?;
+    equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
     let columns: Vec<_> = observed
         .map(|text| assignment::column(&model, &mut equations.pool, text))
@@ -104,7 +117,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
     }
-    let name = arguments.method.as_deref().unwrap_or(&model.run.method);
+    let name = match &arguments.method {
+        Some(name) => name,
+        None => match open::unfit_method(&model, &system) {
+            None => &model.run.method,
+            Some(mistake) => return Err(open::refuse(&document, &[mistake])),
+        },
+    };
     let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
@@ -122,21 +141,28 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| Failure::WrongUse(why.to_string()))?;
-    let interrupt = Interrupt::watch();
-    let out = Output::open(arguments.output.as_deref())?;
-    Run { experiment, times, columns: system.columns(), interrupt }.write(
-        arguments.format,
-        out,
-        &header,
-    )
+    let form = match arguments.format {
+        Format::Csv => Form::Text,
+        Format::Json | Format::Jsonl => Form::Json,
+    };
+    let out = Output::open(arguments.output.as_deref(), form)?;
+    let run =
+        Run { experiment, times, columns: system.columns(), interrupt, steps: STEPS_PER_LOOK };
+    match (run.write(arguments.format, out, &header), interrupt.signal()) {
+        // whatever else went wrong meanwhile
+        (Err(_), Some(signal)) => Err(Failure::Signal(signal)),
+        (written, _) => written,
+    }
 }
 
 /// A run about to be written.
-struct Run {
+struct Run<'i> {
     experiment: Experiment,
     times: Times,
     columns: usize,
-    interrupt: Interrupt,
+    interrupt: &'i Interrupt,
+    /// How many steps are taken before the next look at the clock and at signals.
+    steps: u64,
 }
 
 /// How a run ended before its time.
@@ -147,19 +173,57 @@ enum End {
     Write(std::io::Error),
 }
 
-impl Run {
-    /// Writes all rows, and what is known at the end.
-    fn write(mut self, format: Format, mut out: Output, header: &Header) -> Result<(), Failure> {
-        let begun = Rows::begin(format, &mut out, header);
-        let ended = begun.and_then(|mut rows| {
-            let end = self.rows(&mut rows);
-            if let Err(End::Write(error)) = end {
-                return Err(error);
+/// The rows so far, of which whoever ends the run takes hold.
+#[derive(Clone)]
+struct Table(Arc<Mutex<Option<Rows<Output>>>>);
+
+impl Table {
+    fn rows(&self) -> MutexGuard<'_, Option<Rows<Output>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends them where a step does not come to its end: what is known of the end is that it was stopped.
+    fn end_within_a_step(&self, interrupt: &Interrupt) {
+        // whoever holds them is writing, and cannot be helped
+        let Some(rows) = self.0.try_lock().ok().and_then(|mut rows| rows.take()) else { return };
+        let message =
+            "stopped by a signal within a step; what should be constant was not looked at";
+        let closing = Closing {
+            invariants: Vec::new(),
+            events: Vec::new(),
+            status: Status::Stopped,
+            message: Some(message.to_owned()),
+        };
+        if let Ok(out) = rows.end(&closing) {
+            if out.is_file() {
+                interrupt.saves();
             }
-            rows.end(&self.closing(end.as_ref().err()))?;
-            Ok(end)
-        });
-        let end = ended.map_err(|error| out.failed(&error))?;
+            // nobody is left to be told of a failure
+            let _ = out.finish();
+        }
+    }
+}
+
+impl Run<'_> {
+    /// Writes all rows, and what is known at the end.
+    fn write(mut self, format: Format, out: Output, header: &Header) -> Result<(), Failure> {
+        let name = out.name().to_owned();
+        let failed = |error: &std::io::Error| Failure::writing(&name, error);
+        let table = Table(Arc::default());
+        let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
+        self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
+        *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
+        let end = self.rows(&table).err();
+        if let Some(End::Write(error)) = &end {
+            return Err(failed(error));
+        }
+        let closing = self.closing(end.as_ref());
+        // where they are gone somebody else has ended them, and is about to end the process
+        let Some(rows) = table.rows().take() else { return self.gone() };
+        let out = rows.end(&closing).map_err(|error| failed(&error))?;
+        if out.is_file() {
+            self.interrupt.saves();
+        }
         out.finish()?;
         let chronicle = self.experiment.happenings();
         if chronicle.forgotten() > 0 && format != Format::Csv {
@@ -167,38 +231,55 @@ impl Run {
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
         match end {
-            Err(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
-            Err(End::Signal(signal)) => Err(Failure::Signal(signal)),
+            Some(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
+            Some(End::Signal(signal)) => Err(Failure::Signal(signal)),
             _ => Ok(()),
         }
     }
 
-    fn rows(&mut self, rows: &mut Rows<&mut Output>) -> Result<(), End> {
+    /// A signal has ended the run meanwhile.
+    fn gone(&self) -> Result<(), Failure> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(Failure::Signal(signal)))
+    }
+
+    fn rows(&mut self, table: &Table) -> Result<(), End> {
         let mut bar = Bar::new(self.times.start(), self.times.end());
         let mut row = vec![0.0; self.columns + 1];
         for time in self.times.rows() {
             self.reach(time, &mut bar)?;
             row[0] = time;
             row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
-            rows.row(&row).map_err(End::Write)?;
+            match &mut *table.rows() {
+                Some(rows) => rows.row(&row).map_err(End::Write)?,
+                None => return self.interrupted(),
+            }
         }
         let end = self.times.end();
         self.reach(end, &mut bar)
     }
 
+    fn interrupted(&self) -> Result<(), End> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(End::Signal(signal)))
+    }
+
     fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), End> {
         loop {
-            let progress = self.experiment.advance(time, STEPS_PER_LOOK);
+            let begun = Instant::now();
+            let progress = self.experiment.advance(time, self.steps);
+            self.steps = if begun.elapsed() > BETWEEN_LOOKS {
+                (self.steps / 2).max(1)
+            } else {
+                (self.steps * 2).min(STEPS_PER_LOOK)
+            };
             bar.show(self.experiment.time());
+            // a step that a signal has cancelled is no fault of the motion
+            self.interrupted()?;
             if let experiment::Status::Faulted(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
             // the moment itself still has its row
             if progress == Progress::Ended && self.experiment.time() != time {
                 return Err(End::Event);
-            }
-            if let Some(signal) = self.interrupt.signal() {
-                return Err(End::Signal(signal));
             }
             if matches!(progress, Progress::Arrived | Progress::Ended) {
                 return Ok(());
@@ -215,6 +296,7 @@ impl Run {
             Some(End::Event) | None => match self.experiment.status() {
                 experiment::Status::Ended(name) => {
                     let time = self.experiment.time();
+                    let time = printable::number(time);
                     (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
                 }
                 _ => (Status::Completed, None),
@@ -229,10 +311,13 @@ impl Run {
 /// Step and tolerance: as asked for, else as the file says.
 fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
     let wrong = |what: String| Err(Failure::WrongUse(what));
+    let told = printable::number;
     match (arguments.step, arguments.tolerance) {
-        (Some(step), _) if step <= 0.0 => wrong(format!("--step {step}: a step is above zero")),
+        (Some(step), _) if step <= 0.0 => {
+            wrong(format!("--step {}: a step is above zero", told(step)))
+        }
         (_, Some(eps)) if eps <= 0.0 || eps >= 1.0 => {
-            wrong(format!("--tolerance {eps}: a tolerance lies between 0 and 1"))
+            wrong(format!("--tolerance {}: a tolerance lies between 0 and 1", told(eps)))
         }
         (step, tolerance) => Ok(Settings {
             step: step.or(model.run.step),
@@ -263,7 +348,7 @@ fn refuse_twins(system: &System) -> Result<(), Failure> {
         if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
             let message = format!(
                 "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
-                column.name
+                printable::quoted(&column.name)
             );
             return Err(Failure::WrongUse(message));
         }
@@ -293,5 +378,48 @@ fn header(
         parameters: named.map(|(p, &value)| (p.name.clone(), Value::from(value))).collect(),
         method: about,
         columns: std::iter::once("t".to_owned()).chain(columns).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a file holds of a table whose run is stuck within a step.
+    fn ended(format: Format) -> String {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("out");
+        let form = if format == Format::Csv { Form::Text } else { Form::Json };
+        let out = Output::open(Some(&path), form).expect("it can be written");
+        let header = Header {
+            phaselab: "0",
+            title: "it".to_owned(),
+            parameters: Map::new(),
+            method: Map::new(),
+            columns: vec!["t".to_owned(), "x".to_owned()],
+        };
+        let mut rows = Rows::begin(format, out, &header).expect("written");
+        rows.row(&[0.0, 1.0]).expect("written");
+        let table = Table(Arc::new(Mutex::new(Some(rows))));
+        table.clone().end_within_a_step(&Interrupt::default());
+        assert!(table.rows().is_none(), "nobody writes behind the end");
+        std::fs::read_to_string(path).expect("it is there")
+    }
+
+    #[test]
+    fn a_step_without_an_end_does_not_cost_the_rows_before_it() {
+        assert!(ended(Format::Csv).contains("\n0.0,1.0\n# stopped: stopped by a signal within a step"));
+        let read: Value = serde_json::from_str(&ended(Format::Json)).expect("JSON");
+        assert_eq!(read["rows"], serde_json::json!([[0.0, 1.0]]));
+        assert_eq!(read["status"], "stopped");
+        assert_eq!(ended(Format::Jsonl).lines().count(), 3);
+    }
+
+    #[test]
+    fn whoever_is_writing_is_not_disturbed() {
+        let table = Table(Arc::default());
+        let rows = table.rows();
+        table.end_within_a_step(&Interrupt::default());
+        drop(rows);
     }
 }

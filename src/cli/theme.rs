@@ -1,11 +1,11 @@
 //! `phaselab theme list`: the themes of the laboratory, with their colours where a terminal shows them.
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 
 use ratatui::style::{Color, Style};
 
 use super::failure::Failure;
-use super::output::Output;
+use super::output::{Form, Output};
 use crate::view::colour::ColourDepth;
 use crate::view::sgr;
 use crate::view::theme::{CURVES, PALETTES, Role, Theme};
@@ -37,9 +37,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         ColourDepth::None
     };
-    let mut out = Output::open(None)?;
-    out.write_all(text(depth).as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(Form::Coloured, &text(depth))
 }
 
 /// A line for each theme.

@@ -6,8 +6,9 @@
 //! used is listed with its mistake. Never here: whether a shipped preset is right (tests hold it).
 
 mod entry;
+mod folder;
 
-use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +18,7 @@ use include_dir::{Dir, DirEntry, include_dir};
 
 use super::Document;
 use crate::expr::nearest;
+use crate::printable;
 
 pub use entry::{Entry, Origin};
 
@@ -26,13 +28,14 @@ static SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
 #[derive(Clone, Debug)]
 pub struct Catalog {
     entries: Vec<Entry>,
+    cut: bool,
 }
 
 /// Why there is no document behind a name.
 #[derive(Debug, thiserror::Error)]
 pub enum NotFound {
     /// No preset of that name.
-    #[error("there is no preset `{name}`{}", .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{n}`?")))]
+    #[error("there is no preset `{}`{}", printable::quoted(.name), .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{}`?", printable::line(n))))]
     Name {
         /// What was asked for.
         name: String,
@@ -40,7 +43,7 @@ pub enum NotFound {
         near: Option<String>,
     },
     /// The file cannot be read.
-    #[error("cannot read {}: {reason}", .path.display())]
+    #[error("cannot read {}: {}", printable::path(.path), printable::why(.reason))]
     File {
         /// The file.
         path: PathBuf,
@@ -63,16 +66,22 @@ impl Catalog {
     /// The shipped presets and those in a folder and the folders in it, if it exists.
     pub fn with_folder(user: Option<&Path>) -> Catalog {
         let mut entries = Vec::new();
+        let mut cut = false;
         if let Some(folder) = user {
-            let mut files = Vec::new();
-            collect(folder, &mut BTreeSet::new(), &mut files);
-            entries.extend(files.iter().map(|path| Entry::of_user(folder, path)));
+            let found = folder::presets(folder);
+            cut = found.cut;
+            entries.extend(found.files.iter().map(|path| Entry::of_user(folder, path)));
         }
         let own: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
         let shipped = shipped(&SHIPPED).into_iter().map(|(path, text)| Entry::shipped(path, text));
         entries.extend(shipped.filter(|entry| !own.contains(&entry.name)));
         entry::sort(&mut entries);
-        Catalog { entries }
+        Catalog { entries, cut }
+    }
+
+    /// Whether the user's folder holds more than is looked at: thousands of files, or links and folders deep below it.
+    pub fn is_cut(&self) -> bool {
+        self.cut
     }
 
     /// The presets, by topic in the order of the notes, and by chapter within a topic.
@@ -85,18 +94,20 @@ impl Catalog {
     ///
     /// # Errors
     /// Where there is none, with the nearest name.
-    pub fn find(&self, wanted: &str) -> Result<Document, NotFound> {
+    pub fn find(&self, wanted: impl AsRef<OsStr>) -> Result<Document, NotFound> {
+        let wanted = wanted.as_ref();
         if is_path(wanted) {
             let path = Path::new(wanted);
             return Document::open(path)
                 .map_err(|reason| NotFound::File { path: path.to_owned(), reason });
         }
-        match self.entries.iter().find(|entry| entry.name == wanted) {
+        match self.entries.iter().find(|entry| wanted == entry.name.as_str()) {
             Some(entry) => entry.document(),
             None => {
+                let name = printable::os(wanted);
                 let names = self.entries.iter().map(|entry| entry.name.as_str());
-                let near = nearest(wanted, names).map(str::to_owned);
-                Err(NotFound::Name { name: wanted.to_owned(), near })
+                let near = nearest(&name, names).map(str::to_owned);
+                Err(NotFound::Name { name, near })
             }
         }
     }
@@ -119,9 +130,10 @@ pub fn demos() -> Vec<&'static str> {
 }
 
 /// Whether what a user writes is a file's path.
-pub fn is_path(wanted: &str) -> bool {
+pub fn is_path(wanted: impl AsRef<OsStr>) -> bool {
+    let wanted = wanted.as_ref();
     let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
-    wanted.contains('/') || wanted.contains(std::path::MAIN_SEPARATOR) || ends
+    wanted.as_encoded_bytes().iter().any(|&byte| std::path::is_separator(byte.into())) || ends
 }
 
 /// The files of the embedded folder with their paths below `presets/`.
@@ -137,25 +149,6 @@ fn shipped(folder: &Dir<'static>) -> Vec<(&'static Path, &'static str)> {
         }
     }
     all
-}
-
-/// The presets in a folder, sorted, so that the same folder gives the same list everywhere. A
-/// folder is entered once, whatever links lead back to it.
-fn collect(folder: &Path, seen: &mut BTreeSet<PathBuf>, files: &mut Vec<PathBuf>) {
-    let Ok(real) = folder.canonicalize() else { return };
-    let Ok(listing) = std::fs::read_dir(folder) else { return };
-    if !seen.insert(real) {
-        return;
-    }
-    let mut paths: Vec<PathBuf> = listing.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.sort();
-    for path in paths {
-        if path.is_dir() {
-            collect(&path, seen, files);
-        } else if is_preset(&path) && path.is_file() {
-            files.push(path);
-        }
-    }
 }
 
 fn is_preset(path: &Path) -> bool {

@@ -1,16 +1,16 @@
 //! The text of one preset, from the binary or from disk: read within limits, kept with the name it
 //! is reported under. Not here: what the text means.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use super::{Checked, Mistake, TEXT_LIMIT, read, report};
+use crate::{file, printable};
 
 /// A preset's text with its name.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// What reports call it: the path of a file, `presets/…` for a shipped one.
+    /// What reports call it: the path of a file, fit to be shown; `presets/…` for a shipped one.
     pub path: String,
     /// The text; what is not UTF-8 in it replaced by `�`.
     pub text: String,
@@ -26,6 +26,11 @@ impl Document {
 
     /// Bytes already at hand.
     pub fn from_bytes(path: impl Into<String>, bytes: &[u8]) -> Document {
+        if bytes.len() > TEXT_LIMIT {
+            let mut document = Document::new(path, "");
+            document.unreadable = Some(too_long(bytes.len() as u64));
+            return document;
+        }
         let text = String::from_utf8_lossy(bytes);
         let mut document = Document::new(path, text);
         if let Err(error) = std::str::from_utf8(bytes) {
@@ -38,22 +43,16 @@ impl Document {
         document
     }
 
-    /// Reads a file, no more of it than a preset may have.
+    /// Reads a file or a pipe, no more of it than a preset may have.
     ///
     /// # Errors
-    /// Those of opening and reading it.
+    /// Those of opening and reading it; where it is neither.
     pub fn open(path: &Path) -> io::Result<Document> {
-        let shown = path.display().to_string();
-        let file = File::open(path)?;
-        let size = file.metadata()?;
-        if size.is_dir() {
-            return Err(io::Error::from(io::ErrorKind::IsADirectory));
-        }
-        let mut bytes = Vec::new();
-        file.take(TEXT_LIMIT as u64 + 1).read_to_end(&mut bytes)?;
+        let shown = printable::path(path);
+        let (bytes, size) = file::read(path, TEXT_LIMIT as u64)?;
         if bytes.len() > TEXT_LIMIT {
             let mut document = Document::new(shown, "");
-            document.unreadable = Some(too_long(size.len().max(bytes.len() as u64)));
+            document.unreadable = Some(too_long(size));
             return Ok(document);
         }
         Ok(Document::from_bytes(shown, &bytes))

@@ -2,11 +2,12 @@
 //! much of the file is saved as can be, so that the other mistakes can be told as well.
 
 use toml::Spanned;
-use toml::de::{DeTable, Error};
+use toml::de::{DeTable, DeValue, Error};
 
 use super::Mistakes;
 use super::mistake::Mistake;
 use crate::model::Place;
+use crate::printable;
 
 /// The file as a table; what is not TOML is left out or patched, after a complaint.
 pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Mistakes) -> Spanned<DeTable<'f>> {
@@ -30,7 +31,37 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Mistakes) -> Spanned<DeTab
             Loses::Track => mistakes.lose_track(),
         }
     }
+    steering(table.get_ref(), mistakes);
     table
+}
+
+/// Complains of every name and text in which a character would steer the terminal that shows it; no more is said of it.
+fn steering(table: &DeTable<'_>, mistakes: &mut Mistakes) {
+    for (key, value) in table {
+        if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
+            let message = format!("the character U+{:04X} may not stand in a name", c as u32);
+            mistakes.push(Mistake::error(key.span(), message));
+            mistakes.lose_key(key.get_ref());
+            mistakes.lose_value(key.span());
+        }
+        steering_value(value, mistakes);
+    }
+}
+
+fn steering_value(value: &Spanned<DeValue<'_>>, mistakes: &mut Mistakes) {
+    match value.get_ref() {
+        DeValue::String(text) => {
+            let layout = |c: char| matches!(c, '\n' | '\r' | '\t');
+            if let Some(c) = text.chars().find(|&c| printable::is_steering(c) && !layout(c)) {
+                let message = format!("the character U+{:04X} may not stand in a text", c as u32);
+                mistakes.push(Mistake::error(value.span(), message));
+                mistakes.lose_value(value.span());
+            }
+        }
+        DeValue::Array(items) => items.iter().for_each(|item| steering_value(item, mistakes)),
+        DeValue::Table(table) => steering(table, mistakes),
+        _ => {}
+    }
 }
 
 /// What is not there to be checked after a slip.

@@ -5,6 +5,7 @@ use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Sni
 
 use super::{Mistake, Severity};
 use crate::model::Place;
+use crate::printable;
 
 /// A line longer than this is not shown: nobody could read it, and it takes long to draw.
 const LONGEST_LINE: usize = 4096;
@@ -13,27 +14,29 @@ const LONGEST_LINE: usize = 4096;
 const FARTHEST: usize = 65_536;
 
 /// Draws mistakes found in `text`, the content of `path`, each followed by an empty line. Without
-/// colour the frame around the file's own lines is ASCII.
+/// colour the frame around the file's own lines is ASCII. What would steer a terminal is written out.
 pub fn report(text: &str, path: &str, mistakes: &[Mistake], colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    let path = printable::line(path);
     let mut drawn = String::new();
     for mistake in mistakes {
         let level = match mistake.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let title = level.primary_title(mistake.message.as_str());
+        let title = level.primary_title(printable::line(&mistake.message));
         let place = one_line(text, &mistake.place);
         let mut group =
             if line_end(text, place.start) - line_start(text, place.start) > LONGEST_LINE {
-                title.element(origin(text, path, place.start))
+                title.element(origin(text, &path, place.start))
             } else {
-                title.element(snippet(text, path, place, mistake))
+                title.element(snippet(text, &path, &place, mistake))
             };
         if let Some(help) = &mistake.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+            group = group.element(Level::HELP.message(printable::line(help)));
         }
-        drawn.push_str(&renderer.render(&[group]));
+        let rendered = renderer.render(&[group]);
+        drawn.push_str(&in_the_file(rendered, text, &path, place.start));
         drawn.push_str("\n\n");
     }
     drawn
@@ -41,27 +44,79 @@ pub fn report(text: &str, path: &str, mistakes: &[Mistake], colour: bool) -> Str
 
 /// The lines in question, and no others: the cost of drawing is that of the text handed over.
 fn snippet<'t>(
-    text: &'t str,
+    text: &str,
     path: &'t str,
-    place: Place,
+    place: &Place,
     mistake: &'t Mistake,
 ) -> Snippet<'t, Annotation<'t>> {
     let also = mistake.also.as_ref().map(|(place, what)| (one_line(text, place), what));
     let also = also.filter(|(other, _)| other.start.abs_diff(place.start) < FARTHEST);
-    let other = also.as_ref().map_or(&place, |(other, _)| other);
+    let other = also.as_ref().map_or(place, |(other, _)| other);
     let first = place.start.min(other.start);
-    let window = line_start(text, first)..line_end(text, place.end.max(other.end));
-    let within = |place: &Place| place.start - window.start..place.end - window.start;
-    let snippet = Snippet::source(&text[window.clone()])
+    let window =
+        Window::of(text, line_start(text, first)..line_end(text, place.end.max(other.end)));
+    let (within, beside) = (window.within(place), window.within(other));
+    let snippet = Snippet::source(window.shown)
         .line_start(line_number(text, first))
         .path(path)
-        .annotation(AnnotationKind::Primary.span(within(&place)));
+        .annotation(AnnotationKind::Primary.span(within));
     match &also {
-        Some((other, what)) => {
-            snippet.annotation(AnnotationKind::Context.span(within(other)).label(what.as_str()))
+        Some((_, what)) => {
+            snippet.annotation(AnnotationKind::Context.span(beside).label(printable::line(what)))
         }
         None => snippet,
     }
+}
+
+/// Lines of a file as they are shown, and where their characters went.
+struct Window {
+    shown: String,
+    /// Where it begins in the file.
+    start: usize,
+    /// Of each character that is written out: where it ends in the file, and in what is shown.
+    moved: Vec<(usize, usize)>,
+}
+
+impl Window {
+    fn of(text: &str, part: Place) -> Window {
+        let mut window = Window { shown: String::new(), start: part.start, moved: Vec::new() };
+        let lines = &text[part.clone()];
+        for (at, c) in lines.char_indices() {
+            let layout = matches!(c, '\n' | '\t');
+            let line_end = c == '\r' && lines[at + 1..].starts_with('\n');
+            if !printable::is_steering(c) || layout {
+                window.shown.push(c);
+                continue;
+            }
+            if !line_end {
+                printable::push_escape(&mut window.shown, c);
+            }
+            window.moved.push((part.start + at + c.len_utf8(), window.shown.len()));
+        }
+        window
+    }
+
+    /// A place of the file among what is shown.
+    fn within(&self, place: &Place) -> Place {
+        let shown = |at: usize| {
+            let before = self.moved.partition_point(|(end, _)| *end <= at);
+            let (end, shown) = before.checked_sub(1).map_or((self.start, 0), |i| self.moved[i]);
+            shown + (at - end)
+        };
+        // within a character that is written out its beginning stands for it
+        shown(place.start)..shown(place.end)
+    }
+}
+
+/// The column is that of the file, whatever stands before it in longer words.
+fn in_the_file(rendered: String, text: &str, path: &str, at: usize) -> String {
+    let before = &text[line_start(text, at)..at];
+    let shown = Window::of(before, 0..before.len()).shown;
+    let told = |line: &str| {
+        let column = 1 + line.chars().count();
+        format!("{path}:{}:{column}", line_number(text, at))
+    };
+    if shown == before { rendered } else { rendered.replacen(&told(&shown), &told(before), 1) }
 }
 
 /// Line and column alone.

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::clock::{Micros, SECOND};
 use super::recording::{Event, Recording};
+use crate::printable;
 
 /// A cast in memory.
 #[derive(Clone, Debug)]
@@ -117,7 +118,7 @@ impl Tape {
                 "r" => {
                     let sides = data.split_once('x');
                     let size = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-                    let what = || format!("`{data}` is no size");
+                    let what = || format!("`{}` is no size", printable::quoted(data));
                     let size = size.ok_or_else(what).and_then(sized);
                     let (columns, rows) = size.map_err(|what| wrong(number, what))?;
                     Some(Turn::Resize(columns, rows))

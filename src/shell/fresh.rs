@@ -9,6 +9,10 @@ use std::io::{self, Write};
 use std::mem;
 use std::path::{Path, PathBuf};
 
+use super::partial;
+use super::whole::sync_folder;
+use crate::printable;
+
 /// A file that is being written under another name, line by line.
 #[derive(Debug)]
 pub(super) struct Fresh {
@@ -39,28 +43,35 @@ impl Fresh {
 
     fn within(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Fresh> {
         let stem = plain(stem);
-        let partial = folder.join(format!(".{stem}.{}.{ending}.partial", std::process::id()));
-        let file = File::create(&partial)
-            .map_err(|why| told(&folder.join(format!("{stem}.{ending}")), &why))?;
+        let place = folder.join(format!("{stem}.{ending}"));
+        let (file, partial) =
+            partial::create(&place, partial::USUAL).map_err(|why| told(&place, &why))?;
         Ok(Fresh { file, pending: Vec::new(), whole: 0, partial, stem, ending })
     }
 
     /// Gives it its name, which is returned. Where not all of it can be written it holds the whole lines that were, and the
     /// error says so; only a file without a line is none.
     pub(super) fn finish(mut self) -> io::Result<String> {
-        let written = self.settle();
+        let written = self.settle().and_then(|()| {
+            let name = PathBuf::from(format!("{}.{}", self.stem, self.ending));
+            self.file.sync_all().map_err(|why| told(&name, &why))
+        });
         if self.whole == 0 {
             return written.map(|()| NOTHING.to_owned());
         }
         match (written, self.name()) {
-            (Ok(()), Ok(name)) => Ok(name),
+            (Ok(()), Ok(name)) => {
+                sync_folder(&self.partial);
+                Ok(name)
+            }
             (Err(why), Ok(name)) => {
                 let what = format!("{why}; {name} holds what came before");
                 Err(io::Error::new(why.kind(), what))
             }
             (_, Err(why)) => {
-                let what = format!("{why}; it is in {}", self.partial.display());
+                let what = format!("{why}; it is in {}", printable::path(&self.partial));
                 // better under that name than not at all
+                partial::settled(&self.partial);
                 self.partial = PathBuf::new();
                 Err(io::Error::new(why.kind(), what))
             }
@@ -137,20 +148,24 @@ impl Write for Fresh {
 impl Drop for Fresh {
     /// The name it was written under goes, and with it what was not finished.
     fn drop(&mut self) {
-        let _ = fs::remove_file(&self.partial);
+        partial::remove(&self.partial);
     }
 }
 
 /// The last part of a name, without what a file's name should not hold.
 fn plain(name: &str) -> String {
     let last = Path::new(name).file_stem().map_or(String::new(), |s| s.to_string_lossy().into());
-    let kept: String = last.chars().filter(|c| !c.is_control() && !"/\\:".contains(*c)).collect();
+    let kept: String =
+        last.chars().filter(|&c| !printable::is_steering(c) && !"/\\:".contains(c)).collect();
     if kept.is_empty() { "phaselab".to_owned() } else { kept }
 }
 
 /// The error with the file's name.
 fn told(path: &Path, why: &io::Error) -> io::Error {
-    io::Error::new(why.kind(), format!("cannot write {}: {why}", path.display()))
+    io::Error::new(
+        why.kind(),
+        format!("cannot write {}: {}", printable::path(path), printable::why(why)),
+    )
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::colour::ColourDepth;
 use super::spot::Region;
 use super::theme::Role;
 use crate::app::Spot;
+use crate::printable;
 
 /// A buffer and how things look on it.
 pub(super) struct Canvas<'a> {
@@ -41,9 +42,9 @@ impl Canvas<'_> {
         self.look.theme[role]
     }
 
-    /// Text as this terminal may show it.
+    /// Text as this terminal may show it, without what would steer it.
     pub(super) fn text(&self, text: &str) -> String {
-        self.look.glyphs.text(text).into_owned()
+        self.look.glyphs.text(&printable::line(text)).into_owned()
     }
 
     /// A piece of a row in the style of a role.
@@ -54,7 +55,7 @@ impl Canvas<'_> {
     /// Writes text from a place on, cut with an ellipsis where there are more than `width` columns of it. Returns
     /// how many columns it took.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
-        let text = self.look.glyphs.text(text);
+        let text = self.text(text);
         let text = clipped(&text, width.into(), self.look.glyphs.pick("…", "~"));
         let inside = self.buffer.area.contains(at);
         let room = width.min(self.buffer.area.right().saturating_sub(at.x));

@@ -12,6 +12,8 @@ use ratatui::layout::{Position, Rect, Size};
 
 use pen::Pen;
 
+use crate::printable::is_steering;
+
 /// The marks round a frame, between which a terminal holds back what it shows.
 const SYNCHRONIZED: [&[u8]; 2] = [b"\x1b[?2026h", b"\x1b[?2026l"];
 
@@ -86,7 +88,7 @@ impl Frames {
         let cursor = draw(area, &mut self.next).filter(|at| area.contains(*at));
         // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
         for cell in &mut self.next.content {
-            if cell.symbol().contains(char::is_control) {
+            if cell.symbol().chars().any(is_steering) {
                 cell.set_symbol(" ");
             }
         }

@@ -7,10 +7,12 @@ mod derive;
 mod doctor;
 mod exit;
 mod help;
+mod hostile;
 mod list;
 mod manual;
 mod record;
 mod run;
+mod signals;
 mod write;
 
 use std::path::Path;

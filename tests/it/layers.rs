@@ -6,7 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms from the ground up, and the lower ones each may still not use.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 17] = [
+    ("printable", &[]),
+    ("file", &[]),
     ("cancel", &[]),
     ("expr", &[]),
     ("model", &[]),
@@ -28,11 +30,11 @@ const ROOMS: [(&str, &[&str]); 15] = [
 const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
     ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
     ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
-    ("files", &["std::fs", "fs::", "File::"], &["preset", "shell", "cli"]),
+    ("files", &["std::fs", "fs::", "File::"], &["file", "preset", "shell", "cli"]),
     (
         "the terminal",
         &["rustix::", "crossterm", "signal_hook::", "stdin(", "stdout(", "stderr(", "IsTerminal"],
-        &["shell", "cli"],
+        &["file", "shell", "cli"],
     ),
 ];
 

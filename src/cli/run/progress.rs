@@ -1,12 +1,11 @@
-//! How far a run is, where somebody watches; and whether it is asked to stop.
+//! How far a run is, where somebody watches.
 
 use std::io::{IsTerminal, stderr};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use signal_hook::consts::{SIGINT, SIGTERM};
+
+use crate::printable;
 
 /// A run shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -45,7 +44,7 @@ impl Bar {
             bar
         });
         bar.set_position((PARTS * (time - self.start) / self.length) as u64);
-        bar.set_message(format!("t = {time:.6}"));
+        bar.set_message(format!("t = {}", printable::number(time)));
     }
 }
 
@@ -53,31 +52,6 @@ impl Drop for Bar {
     fn drop(&mut self) {
         if let Some(bar) = &self.shown {
             bar.finish_and_clear();
-        }
-    }
-}
-
-/// The signals that end a run: what is written so far is completed.
-pub(super) struct Interrupt {
-    signal: Arc<AtomicUsize>,
-}
-
-impl Interrupt {
-    /// Watches for them from now on.
-    pub(super) fn watch() -> Interrupt {
-        let signal = Arc::new(AtomicUsize::new(0));
-        for number in [SIGINT, SIGTERM] {
-            // where it cannot be watched for, a signal ends the program as it always does
-            let _ = signal_hook::flag::register_usize(number, Arc::clone(&signal), number as usize);
-        }
-        Interrupt { signal }
-    }
-
-    /// The signal that came, if one did.
-    pub(super) fn signal(&self) -> Option<i32> {
-        match self.signal.load(Ordering::Relaxed) {
-            0 => None,
-            number => Some(number as i32),
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::cli::decimal::{divisions, multiples};
 use crate::cli::failure::Failure;
 use crate::model::RunSettings;
+use crate::printable;
 
 /// How long a run is where nobody says.
 const LENGTH: f64 = 10.0;
@@ -35,6 +36,7 @@ impl Times {
     ) -> Result<Times, Failure> {
         let start = run.start;
         let wrong = |message: String| Err(Failure::WrongUse(message));
+        let told = printable::number;
         let end = match (until, at.and_then(<[f64]>::last)) {
             (Some(until), _) => until,
             (None, Some(&last)) => last,
@@ -42,19 +44,34 @@ impl Times {
         };
         let mut pairs = at.unwrap_or_default().iter().zip(at.unwrap_or_default().iter().skip(1));
         if let Some((before, after)) = pairs.find(|(before, after)| after <= before) {
-            return wrong(format!("--at: times increase, but {after} follows {before}"));
+            return wrong(format!(
+                "--at: times increase, but {} follows {}",
+                told(*after),
+                told(*before)
+            ));
         }
         for &time in at.unwrap_or_default().iter().chain(&[end]) {
             if time < start {
-                return wrong(format!("the motion begins at {start}; {time} is before it"));
+                return wrong(format!(
+                    "the motion begins at {}; {} is before it",
+                    told(start),
+                    told(time)
+                ));
             }
             if time > end {
-                return wrong(format!("--at: {time} is after the end, --until {end}"));
+                return wrong(format!(
+                    "--at: {} is after the end, --until {}",
+                    told(time),
+                    told(end)
+                ));
             }
         }
         let rows = match (every, at) {
             (Some(gap), _) if gap <= 0.0 => {
-                return wrong(format!("--every {gap}: the time between two rows is above zero"));
+                return wrong(format!(
+                    "--every {}: the time between two rows is above zero",
+                    told(gap)
+                ));
             }
             (Some(gap), _) => Which::Every(gap),
             (None, Some(at)) => Which::At(at.to_vec()),

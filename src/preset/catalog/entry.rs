@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::NotFound;
 use crate::model::Info;
 use crate::preset::{Document, Mistake, Mistakes, Severity, draft, grammar};
+use crate::printable;
 
 /// Where a preset comes from.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -106,7 +107,7 @@ fn head(text: &str) -> Info {
 
 fn located(document: &Document, mistake: &Mistake) -> String {
     let (line, column) = document.line_and_column(mistake.place.start);
-    format!("{}:{line}:{column}: {}", document.path, mistake.message)
+    format!("{}:{line}:{column}: {}", document.path, printable::line(&mistake.message))
 }
 
 fn stem(path: &Path) -> String {

@@ -5,6 +5,7 @@ use toml::Spanned;
 use super::Check;
 use crate::model::RunSettings;
 use crate::preset::draft::DraftRun;
+use crate::printable;
 
 impl Check<'_> {
     /// The settings of a run, over those every model has.
@@ -23,7 +24,10 @@ impl Check<'_> {
         }
         let start = given(&written.start).unwrap_or(usual.start);
         if let Some(until) = written.until.as_ref().filter(|n| *n.get_ref() <= start) {
-            self.error(until.span(), format!("the run ends before its start, t = {start}"));
+            self.error(
+                until.span(),
+                format!("the run ends before its start, t = {}", printable::number(start)),
+            );
         }
         self.model.run = RunSettings {
             method: written.method.as_ref().map_or(usual.method, |m| m.get_ref().clone()),

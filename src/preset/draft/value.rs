@@ -5,6 +5,7 @@ use toml::de::{DeArray, DeValue};
 
 use super::table::Value;
 use super::{Formula, Mistake, Mistakes};
+use crate::printable::is_steering;
 
 /// What a value is, with its article.
 pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
@@ -139,9 +140,7 @@ fn shown<'t>(
     allowed: impl Fn(char) -> bool,
     mistakes: &mut Mistakes,
 ) -> Option<&'t str> {
-    let steering =
-        |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    match text.get_ref().chars().find(|&c| steering(c) && !allowed(c)) {
+    match text.get_ref().chars().find(|&c| is_steering(c) && !allowed(c)) {
         None => Some(text.get_ref()),
         Some(c) => {
             let message = format!("the character U+{:04X} may not stand in a text", c as u32);

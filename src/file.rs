@@ -1,0 +1,158 @@
+//! Files as they are read: what they are is looked at first, and no more is read than is wanted.
+//!
+//! In: a path and a limit. Out: bytes, or why there are none. A pipe that nobody writes to, a device
+//! without an end, a folder: each is refused instead of being waited for. Never here: what the bytes
+//! mean; writing.
+
+use std::fs::{File, FileType, Metadata, OpenOptions};
+use std::io::{self, Read};
+use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+use std::path::Path;
+
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::OFlags;
+
+/// How long a pipe may stay silent, in seconds: a program that writes into it is at work meanwhile.
+const SILENCE: i64 = 10;
+
+/// How long somebody is waited for who opens the other end of a pipe: so many looks, so far apart.
+const LOOKS: u32 = 20;
+const BETWEEN: Timespec = Timespec { tv_sec: 0, tv_nsec: 50_000_000 };
+
+/// The bytes of a file, and how long it is: never more than `most` and one, by which a file that is
+/// too long is known.
+///
+/// # Errors
+/// Those of opening and reading it; where it is no file; where a pipe stays silent.
+pub fn read(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
+    let (file, about) = open(path)?;
+    if about.file_type().is_fifo() {
+        let bytes = from_pipe(&file, most)?;
+        let size = bytes.len() as u64;
+        return Ok((bytes, size));
+    }
+    whole(file, &about, most)
+}
+
+/// The same of a regular file alone: nothing is waited for.
+///
+/// # Errors
+/// Those of opening and reading it; where it is no regular file.
+pub fn read_regular(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
+    let (file, about) = open(path)?;
+    if about.file_type().is_fifo() {
+        return Err(refusal("it is a pipe, not a file"));
+    }
+    whole(file, &about, most)
+}
+
+fn whole(file: File, about: &Metadata, most: u64) -> io::Result<(Vec<u8>, u64)> {
+    let mut bytes = Vec::new();
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    let size = about.len().max(bytes.len() as u64);
+    Ok((bytes, size))
+}
+
+/// Opens what can be read to an end, without waiting for anybody.
+fn open(path: &Path) -> io::Result<(File, Metadata)> {
+    // before it is opened: a device may do something when it is
+    readable(std::fs::metadata(path)?.file_type())?;
+    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+    let file = OpenOptions::new().read(true).custom_flags(flags.bits() as i32).open(path)?;
+    let about = file.metadata()?;
+    readable(about.file_type())?;
+    Ok((file, about))
+}
+
+fn readable(kind: FileType) -> io::Result<()> {
+    if kind.is_dir() {
+        Err(refusal("it is a folder, not a file"))
+    } else if kind.is_char_device() || kind.is_block_device() {
+        Err(refusal("it is a device, not a file"))
+    } else if kind.is_socket() {
+        Err(refusal("it is a socket, not a file"))
+    } else {
+        Ok(())
+    }
+}
+
+fn refusal(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, what)
+}
+
+/// All that is written into a pipe until its other end is closed.
+fn from_pipe(mut file: &File, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut chunk = [0; 8192];
+    let mut looks = 0;
+    while bytes.len() as u64 <= most {
+        match file.read(&mut chunk) {
+            // before its first byte, an end only says that nobody has opened the other end yet
+            Ok(0) if bytes.is_empty() && looks < LOOKS => {
+                looks += 1;
+                wait(&mut [], BETWEEN)?;
+            }
+            Ok(0) if bytes.is_empty() => {
+                return Err(refusal("it is a pipe that nothing was written into"));
+            }
+            Ok(0) => break,
+            Ok(count) => bytes.extend(&chunk[..count]),
+            Err(why) if why.kind() == io::ErrorKind::Interrupted => {}
+            Err(why) if why.kind() == io::ErrorKind::WouldBlock => {
+                let silence = Timespec { tv_sec: SILENCE, tv_nsec: 0 };
+                if wait(&mut [PollFd::new(&file, PollFlags::IN)], silence)? == 0 {
+                    let what = format!("it is a pipe that was silent for {SILENCE} s");
+                    return Err(io::Error::new(io::ErrorKind::TimedOut, what));
+                }
+            }
+            Err(why) => return Err(why),
+        }
+    }
+    bytes.truncate(usize::try_from(most.saturating_add(1)).unwrap_or(usize::MAX));
+    Ok(bytes)
+}
+
+fn wait(fds: &mut [PollFd<'_>], time: Timespec) -> io::Result<usize> {
+    match poll(fds, Some(&time)) {
+        Ok(ready) => Ok(ready),
+        Err(rustix::io::Errno::INTR) => Ok(1),
+        Err(why) => Err(why.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.toml");
+        fs::write(&path, "12345").expect("written");
+        for reads in [read, read_regular] {
+            assert_eq!(reads(&path, 5).expect("read"), (b"12345".to_vec(), 5));
+            assert_eq!(reads(&path, 3).expect("read"), (b"1234".to_vec(), 5));
+            let told = |path: &Path| reads(path, 5).expect_err("no file").to_string();
+            assert_eq!(told(folder.path()), "it is a folder, not a file");
+            assert_eq!(told(Path::new("/dev/zero")), "it is a device, not a file");
+        }
+    }
+
+    #[test]
+    fn a_pipe_is_read_where_somebody_writes_and_refused_where_nobody_does() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(made.expect("mkfifo can be started").success());
+        let told = |why: io::Error| why.to_string();
+        assert_eq!(told(read_regular(&path, 5).expect_err("no file")), "it is a pipe, not a file");
+        let nobody = "it is a pipe that nothing was written into";
+        assert_eq!(told(read(&path, 5).expect_err("nobody writes")), nobody);
+        let writer = path.clone();
+        let written = std::thread::spawn(move || fs::write(writer, "12345"));
+        assert_eq!(read(&path, 5).expect("read").0, b"12345");
+        written.join().expect("no panic").expect("written");
+    }
+}

@@ -1,0 +1,276 @@
+//! Signals: every command ends in a fifth of a second with 128 + n, wherever it is; a run with its rows so far.
+//!
+//! Times are measured; what a loaded machine adds to one of them is told from what the program takes by trying again.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process};
+
+use super::PENDULUM;
+
+/// How long an end may take.
+const BAR: Duration = Duration::from_millis(200);
+
+/// How often something is tried that has to be done in time.
+const TRIES: usize = 6;
+
+/// How long anything is waited for at all.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+const SIGNALS: [(Signal, i32); 4] =
+    [(Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131), (Signal::TERM, 143)];
+
+fn command(home: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("phaselab"));
+    command.env_clear().env("HOME", home).env("LANG", "C.UTF-8").current_dir(home);
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+fn signal(child: &Child, signal: Signal) {
+    let id = i32::try_from(child.id()).unwrap();
+    kill_process(Pid::from_raw(id).unwrap(), signal).unwrap();
+}
+
+/// Waits for a child's end; how it ended.
+fn end(child: &mut Child) -> Option<i32> {
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            return status.code();
+        }
+        if Instant::now() > deadline {
+            let _ = child.kill();
+            panic!("it never ends");
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Starts something, waits until `ready`, and has a signal end it in time. Returns the child of the last try.
+#[track_caller]
+fn ends(
+    mut start: impl FnMut() -> Child,
+    ready: impl Fn(&mut Child),
+    by: Signal,
+    code: i32,
+) -> Child {
+    let mut times = Vec::new();
+    while times.len() < TRIES {
+        let mut child = start();
+        ready(&mut child);
+        let begun = Instant::now();
+        signal(&child, by);
+        let ended = end(&mut child);
+        times.push(begun.elapsed());
+        assert_eq!(ended, Some(code), "{by:?}");
+        if begun.elapsed() < BAR {
+            return child;
+        }
+    }
+    panic!("never within {BAR:?}: {times:?}");
+}
+
+/// A pipe in a folder.
+fn pipe(home: &Path, name: &str) {
+    assert!(Command::new("mkfifo").arg(home.join(name)).status().unwrap().success());
+}
+
+/// Until signals are watched for: the thread that does has its name.
+fn watching(child: &mut Child) {
+    let tasks = format!("/proc/{}/task", child.id());
+    let deadline = Instant::now() + PATIENCE;
+    let watches = || {
+        let names = fs::read_dir(&tasks).into_iter().flatten().flatten();
+        let mut names = names.map(|task| fs::read_to_string(task.path().join("comm")));
+        names.any(|name| name.is_ok_and(|name| name.trim() == "signals"))
+    };
+    while !watches() {
+        assert!(Instant::now() < deadline, "nobody watches for signals");
+        thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn a_command_that_waits_for_its_file_is_ended() {
+    let home = tempfile::tempdir().unwrap();
+    pipe(home.path(), "in.toml");
+    // the other end is open, and nothing is ever written
+    let open = File::options().read(true).write(true).open(home.path().join("in.toml")).unwrap();
+    let commands: [&[&str]; 8] = [
+        &["check", "in.toml"],
+        &["derive", "in.toml"],
+        &["bracket", "in.toml", "x", "y"],
+        &["run", "in.toml"],
+        &["play", "./in.toml"],
+        &["script", "check", "in.toml"],
+        &["config", "check", "in.toml"],
+        &["record", "pendulum", "--script", "in.toml"],
+    ];
+    for (i, arguments) in commands.iter().enumerate() {
+        let (by, code) = SIGNALS[i % SIGNALS.len()];
+        ends(|| command(home.path(), arguments).spawn().unwrap(), watching, by, code);
+    }
+    drop(open);
+}
+
+/// A run whose output nobody takes, until nothing more can be written.
+fn stalled(home: &Path, format: &str) -> Child {
+    let arguments =
+        ["run", "system.toml", "--until", "1e9", "--every", "0.01", "--format", format];
+    command(home, &arguments).stdout(Stdio::piped()).spawn().unwrap()
+}
+
+/// Until it waits for its reader: it sleeps, and goes on sleeping.
+fn waiting(child: &mut Child) {
+    watching(child);
+    let file = format!("/proc/{}/task/{}/wchan", child.id(), child.id());
+    let stat = format!("/proc/{}/stat", child.id());
+    let sleeps = || {
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        let state = stat.rsplit_once(") ").and_then(|(_, rest)| rest.chars().next());
+        let channel = fs::read_to_string(&file).unwrap_or_default();
+        state == Some('S') && (channel.contains("pipe") || channel.trim() == "0" || channel.is_empty())
+    };
+    let deadline = Instant::now() + PATIENCE;
+    let mut asleep = 0;
+    while asleep < 20 {
+        assert!(Instant::now() < deadline, "it never waits");
+        asleep = if sleeps() { asleep + 1 } else { 0 };
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn a_run_whose_reader_is_stalled_is_ended() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    for (by, code) in SIGNALS {
+        ends(|| stalled(home.path(), "csv"), waiting, by, code);
+    }
+}
+
+#[test]
+fn a_run_into_a_pipe_without_a_reader_is_ended() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    pipe(home.path(), "out");
+    let start = || command(home.path(), &["run", "system.toml", "-o", "out"]).spawn().unwrap();
+    ends(start, waiting, Signal::TERM, 143);
+}
+
+/// Reads all that comes, so that nothing stalls.
+fn with_reader(home: &Path, format: &str) -> (Child, thread::JoinHandle<String>) {
+    let mut child = stalled(home, format);
+    let mut out = child.stdout.take().unwrap();
+    let reader = thread::spawn(move || {
+        let mut text = String::new();
+        out.read_to_string(&mut text).unwrap();
+        text
+    });
+    (child, reader)
+}
+
+#[test]
+fn a_run_that_is_ended_has_written_its_rows_and_its_end() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    for (format, (by, code)) in ["csv", "json", "jsonl"].into_iter().zip(SIGNALS) {
+        let (mut child, reader) = with_reader(home.path(), format);
+        watching(&mut child);
+        thread::sleep(Duration::from_millis(50));
+        signal(&child, by);
+        assert_eq!(end(&mut child), Some(code));
+        let text = reader.join().unwrap();
+        let stopped = "stopped by a signal";
+        match format {
+            "csv" => assert!(text.ends_with(&format!("# stopped: {stopped}\n")), "{text}"),
+            "json" => {
+                let read: serde_json::Value = serde_json::from_str(&text).unwrap();
+                assert_eq!((&read["status"], &read["message"]), (&"stopped".into(), &stopped.into()));
+                assert!(!read["invariants"].as_array().unwrap().is_empty());
+            }
+            _ => {
+                let last = text.lines().last().unwrap();
+                let read: serde_json::Value = serde_json::from_str(last).unwrap();
+                assert_eq!(read["status"], "stopped");
+            }
+        }
+    }
+}
+
+/// Whoever starts it under `nohup` wants it to go on when the terminal hangs up.
+#[test]
+fn nohup_is_heeded() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    let program = assert_cmd::cargo::cargo_bin("phaselab");
+    let mut child = Command::new("nohup")
+        .arg(program)
+        .args(["run", "system.toml", "--until", "1e9", "--every", "0.01", "-o", "/dev/null"])
+        .current_dir(home.path())
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    watching(&mut child);
+    signal(&child, Signal::HUP);
+    thread::sleep(Duration::from_millis(50));
+    assert_eq!(child.try_wait().unwrap(), None, "it goes on");
+    signal(&child, Signal::TERM);
+    assert_eq!(end(&mut child), Some(143));
+}
+
+#[test]
+fn a_signal_wins_over_a_full_disk() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    // few rows come, so that nothing is written before the signal
+    let long = ["run", "system.toml", "--until", "1e9", "--every", "1e8"];
+    let full = || File::options().write(true).open("/dev/full").unwrap();
+    let start = || command(home.path(), &long).stdout(full()).spawn().unwrap();
+    ends(start, watching, Signal::TERM, 143);
+}
+
+#[test]
+fn a_signal_leaves_no_half_of_a_file_and_a_kill_leaves_one_that_is_swept() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    let names = || {
+        let entries = fs::read_dir(home.path()).unwrap().flatten();
+        let mut names: Vec<_> = entries.map(|entry| entry.file_name()).collect();
+        names.sort();
+        names
+    };
+    let partial = |child: &mut Child| {
+        watching(child);
+        let deadline = Instant::now() + PATIENCE;
+        while names().len() < 2 {
+            assert!(Instant::now() < deadline, "no output within a minute");
+            thread::yield_now();
+        }
+    };
+    let long = ["run", "system.toml", "--until", "1e9", "--every", "0.1", "-o", "out.csv"];
+    let mut child = command(home.path(), &long).spawn().unwrap();
+    partial(&mut child);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(names().iter().any(|name| name.to_string_lossy().ends_with(".partial")));
+    let short = ["run", "system.toml", "--at", "0", "-o", "out.csv"];
+    assert_eq!(end(&mut command(home.path(), &short).spawn().unwrap()), Some(0));
+    assert_eq!(names(), ["out.csv", "system.toml"]);
+    // two signals: it is ended at once, and cleans up
+    fs::remove_file(home.path().join("out.csv")).unwrap();
+    let mut child = command(home.path(), &long).spawn().unwrap();
+    partial(&mut child);
+    signal(&child, Signal::INT);
+    signal(&child, Signal::TERM);
+    assert!([Some(130), Some(143)].contains(&end(&mut child)));
+    assert!(!names().iter().any(|name| name.to_string_lossy().ends_with(".partial")));
+}
