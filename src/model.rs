@@ -186,6 +186,8 @@ pub struct RunSettings {
     pub step: Option<f64>,
     /// The relative tolerance of an adaptive method.
     pub tolerance: Option<f64>,
+    /// Where the file gives the tolerance or the step, for whoever knows what a method takes.
+    pub settings_place: Option<Place>,
 }
 
 impl Default for RunSettings {
@@ -198,6 +200,7 @@ impl Default for RunSettings {
             until: None,
             step: None,
             tolerance: None,
+            settings_place: None,
         }
     }
 }

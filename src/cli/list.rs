@@ -5,7 +5,9 @@ use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::output::{Form, Output};
+use super::stderr;
 use crate::preset::{Catalog, Entry, Origin};
+use crate::printable;
 
 /// List the presets by chapter and topic.
 ///
@@ -46,10 +48,16 @@ impl Format {
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let catalog = Catalog::load();
+    if catalog.is_cut() {
+        let folder =
+            Catalog::user_folder().map_or(String::new(), |folder| printable::path(&folder));
+        stderr::tell(&format!("{folder} holds more than is looked at; not all of it is listed"));
+    }
     let text = match arguments.format {
         Format::Text => text(catalog.entries()),
         Format::Names => {
             let names: Vec<&str> = catalog.entries().iter().map(|e| e.name.as_str()).collect();
+            let names: Vec<_> = names.into_iter().map(printable::line).collect();
             names.join("\n") + "\n"
         }
         Format::Json => {
@@ -80,7 +88,7 @@ fn heading(entry: &Entry) -> (usize, &'static str) {
 
 fn text(entries: &[Entry]) -> String {
     let longest = |of: fn(&Entry) -> &str| {
-        entries.iter().map(|entry| of(entry).chars().count()).max().unwrap_or(0)
+        entries.iter().map(|entry| printable::line(of(entry)).chars().count()).max().unwrap_or(0)
     };
     let section = longest(|entry| &entry.info.chapter);
     let width = longest(|entry| &entry.name);
@@ -96,7 +104,7 @@ fn text(entries: &[Entry]) -> String {
         }
         if above != Some((chapter, entry.topic())) {
             let topic = if entry.topic().is_empty() { "others" } else { entry.topic() };
-            text.push_str(&format!("\n  {topic}\n"));
+            text.push_str(&format!("\n  {}\n", printable::line(topic)));
             above = Some((chapter, entry.topic()));
         }
         let about = match &entry.fault {
@@ -105,8 +113,9 @@ fn text(entries: &[Entry]) -> String {
             None => entry.info.summary.clone(),
         };
         let own = if matches!(entry.origin, Origin::User(_)) { " (your own)" } else { "" };
-        let place = &entry.info.chapter;
-        text.push_str(&format!("    {place:section$}  {:width$}  {about}{own}\n", entry.name));
+        let [place, name, about] =
+            [&entry.info.chapter, &entry.name, &about].map(|text| printable::line(text));
+        text.push_str(&format!("    {place:section$}  {name:width$}  {about}{own}\n"));
     }
     text
 }

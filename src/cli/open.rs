@@ -5,9 +5,9 @@ use std::ffi::OsStr;
 use crate::analysis::flaws;
 use crate::experiment::choose_method;
 use crate::expr::nearest;
-use crate::integrate::{METHODS, method_named};
+use crate::integrate::{METHODS, Settings, method_named};
 use crate::mechanics::{self, Equations};
-use crate::model::Model;
+use crate::model::{Model, Place};
 use crate::preset::{Catalog, Document, Mistake};
 use crate::system::System;
 
@@ -57,11 +57,20 @@ pub(super) fn unknown_method(model: &Model) -> Option<Mistake> {
     })
 }
 
-/// The file's method, if it is none for this system.
+/// The file's method, if it is none for this system, or takes no such tolerance or step.
 pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Mistake> {
-    let why = choose_method(system, &model.run.method).err()?;
-    let place = model.run.method_place.clone().unwrap_or_default();
-    Some(Mistake::error(place, why.to_string()))
+    let run = &model.run;
+    let at = |place: &Option<Place>, why: String| {
+        let place = place.as_ref().or(run.method_place.as_ref());
+        Mistake::error(place.cloned().unwrap_or_default(), why)
+    };
+    let method = match choose_method(system, &run.method) {
+        Ok(method) => method,
+        Err(why) => return Some(at(&run.method_place, why.to_string())),
+    };
+    let settings = Settings { step: run.step, tolerance: run.tolerance };
+    let why = (method.make)(system, &settings).err()?;
+    Some(at(&run.settings_place, why.to_string()))
 }
 
 /// Shows mistakes of a file where they stand.

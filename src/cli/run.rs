@@ -117,13 +117,13 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
     }
-    let name = match &arguments.method {
-        Some(name) => name,
-        None => match open::unfit_method(&model, &system) {
-            None => &model.run.method,
-            Some(mistake) => return Err(open::refuse(&document, &[mistake])),
-        },
-    };
+    // where all of it is the file's, what does not fit is the file's mistake
+    let of_file =
+        arguments.method.is_none() && (arguments.step, arguments.tolerance) == (None, None);
+    if of_file && let Some(mistake) = open::unfit_method(&model, &system) {
+        return Err(open::refuse(&document, &[mistake]));
+    }
+    let name = arguments.method.as_deref().unwrap_or(&model.run.method);
     let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
@@ -408,7 +408,9 @@ mod tests {
 
     #[test]
     fn a_step_without_an_end_does_not_cost_the_rows_before_it() {
-        assert!(ended(Format::Csv).contains("\n0.0,1.0\n# stopped: stopped by a signal within a step"));
+        assert!(
+            ended(Format::Csv).contains("\n0.0,1.0\n# stopped: stopped by a signal within a step")
+        );
         let read: Value = serde_json::from_str(&ended(Format::Json)).expect("JSON");
         assert_eq!(read["rows"], serde_json::json!([[0.0, 1.0]]));
         assert_eq!(read["status"], "stopped");

@@ -47,7 +47,10 @@ mod tests {
 
     #[test]
     fn the_systems_number_is_left_out() {
-        assert_eq!(without_number("cannot write x: No space (os error 28)"), "cannot write x: No space");
+        assert_eq!(
+            without_number("cannot write x: No space (os error 28)"),
+            "cannot write x: No space"
+        );
         for whole in ["x", "x (os error 28) y", "x (os error )", "x (os error 2"] {
             assert_eq!(without_number(whole), whole);
         }

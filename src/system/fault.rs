@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::printable;
+
 /// Something on the way that no number can stand for.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub struct Fault {
@@ -46,7 +48,7 @@ pub enum FaultKind {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let time = self.time;
+        let time = printable::number(self.time);
         match &self.kind {
             FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
             FaultKind::SingularConstraints => {

@@ -12,6 +12,7 @@ use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };
 use crate::preset::mistake::Mistake;
+use crate::printable::number;
 
 /// The absolute tolerance of a claimed number where the file gives none.
 const TOLERANCE: f64 = 1e-10;
@@ -132,7 +133,7 @@ impl Check<'_> {
     fn not_before_the_start(&mut self, at: Option<&Spanned<f64>>) {
         let start = self.model.run.start;
         if let Some(at) = at.filter(|at| *at.get_ref() < start) {
-            self.error(at.span(), format!("this is before the start, t = {start}"));
+            self.error(at.span(), format!("this is before the start, t = {}", number(start)));
         }
     }
 

@@ -8,6 +8,7 @@ use crate::expr::{Expr, nearest};
 use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
 use crate::preset::mistake::Mistake;
+use crate::printable::number;
 
 /// What an event can do, as messages list it.
 const ACTIONS: &str = "`mark`, `stop`, `release:CONSTRAINT` or `impulse:IMPULSE`";
@@ -75,6 +76,7 @@ impl Check<'_> {
         let (at, start) = (self.at_start(e), self.model.run.start);
         if at <= start {
             let place = if at < start { "before the start" } else { "the start itself" };
+            let start = number(start);
             let message = format!("this is {place}, t = {start}; it does not strike");
             self.mistakes.push(Mistake::warning(formula.span(), message));
         }

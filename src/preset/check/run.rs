@@ -37,6 +37,7 @@ impl Check<'_> {
             until: given(&written.until),
             step: given(&written.step),
             tolerance: given(&written.tolerance),
+            settings_place: written.tolerance.as_ref().or(written.step.as_ref()).map(Spanned::span),
         };
     }
 }

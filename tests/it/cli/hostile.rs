@@ -31,7 +31,11 @@ fn harmless(home: &Path, arguments: &[&OsStr], codes: &[i32]) -> Output {
         let steers = |c: char| is_steering(c) && !matches!(c, '\n' | '\t');
         assert_eq!(text.chars().find(|&c| steers(c)), None, "{arguments:?}: {text:?}");
     }
-    assert!(codes.contains(&code), "{arguments:?}: {code}, {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        codes.contains(&code),
+        "{arguments:?}: {code}, {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     output
 }
 
@@ -138,7 +142,8 @@ fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_plac
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(told.contains("\\u{9b}\\u{202e}") && told.contains("# \\u{9b}31m\\u{7f}"), "{told}");
 
-    let text = PENDULUM.replace("title = ", &format!("notes = 'x' # {before}\ntitle = 3 # {after}\n#"));
+    let text =
+        PENDULUM.replace("title = ", &format!("notes = 'x' # {before}\ntitle = 3 # {after}\n#"));
     fs::write(home.path().join("system.toml"), text).unwrap();
     let output = harmless(home.path(), &words(&["check", "system.toml"]), &[65]);
     let told = String::from_utf8(output.stderr).unwrap();
@@ -284,8 +289,7 @@ fn no_preset_or_folder_of_ones_own_steers_the_terminal() {
 fn no_cast_script_or_configuration_steers_the_terminal() {
     let home = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
-    let in_json: String =
-        STEERING.encode_utf16().map(|unit| format!("\\u{unit:04x}")).collect();
+    let in_json: String = STEERING.encode_utf16().map(|unit| format!("\\u{unit:04x}")).collect();
     let raw: String = STEERING.chars().filter(|&c| c > '\u{7f}').collect();
     let head = "{\"version\":2,\"width\":80,\"height\":24}\n";
     for cast in [
@@ -316,7 +320,12 @@ fn no_cast_script_or_configuration_steers_the_terminal() {
         harmless(home.path(), &words(&["config", "check", "config.toml"]), &[65]);
     }
     // what is said in a cast is said in JSON, and a title of a script is one of a cast
-    write("my.demo", &format!("Open pendulum\nSize 90x28\nFps 10\nCaption \"a{raw}b\"\nMarker \"a{raw}b\"\nWait 1s\n"));
+    write(
+        "my.demo",
+        &format!(
+            "Open pendulum\nSize 90x28\nFps 10\nCaption \"a{raw}b\"\nMarker \"a{raw}b\"\nWait 1s\n"
+        ),
+    );
     for arguments in [
         &["record", "pendulum", "--script", "my.demo"][..],
         &["record", "pendulum", "--script", "my.demo", "--format", "account"],

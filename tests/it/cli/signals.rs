@@ -121,8 +121,7 @@ fn a_command_that_waits_for_its_file_is_ended() {
 
 /// A run whose output nobody takes, until nothing more can be written.
 fn stalled(home: &Path, format: &str) -> Child {
-    let arguments =
-        ["run", "system.toml", "--until", "1e9", "--every", "0.01", "--format", format];
+    let arguments = ["run", "system.toml", "--until", "1e9", "--every", "0.01", "--format", format];
     command(home, &arguments).stdout(Stdio::piped()).spawn().unwrap()
 }
 
@@ -135,7 +134,8 @@ fn waiting(child: &mut Child) {
         let stat = fs::read_to_string(&stat).unwrap_or_default();
         let state = stat.rsplit_once(") ").and_then(|(_, rest)| rest.chars().next());
         let channel = fs::read_to_string(&file).unwrap_or_default();
-        state == Some('S') && (channel.contains("pipe") || channel.trim() == "0" || channel.is_empty())
+        state == Some('S')
+            && (channel.contains("pipe") || channel.trim() == "0" || channel.is_empty())
     };
     let deadline = Instant::now() + PATIENCE;
     let mut asleep = 0;
@@ -192,7 +192,10 @@ fn a_run_that_is_ended_has_written_its_rows_and_its_end() {
             "csv" => assert!(text.ends_with(&format!("# stopped: {stopped}\n")), "{text}"),
             "json" => {
                 let read: serde_json::Value = serde_json::from_str(&text).unwrap();
-                assert_eq!((&read["status"], &read["message"]), (&"stopped".into(), &stopped.into()));
+                assert_eq!(
+                    (&read["status"], &read["message"]),
+                    (&"stopped".into(), &stopped.into())
+                );
                 assert!(!read["invariants"].as_array().unwrap().is_empty());
             }
             _ => {
