@@ -180,10 +180,7 @@ fn fit(said: &str, words: &[OsString]) -> String {
             }
         }
     }
-    let lines = text.split('\n').map(|line| match line.char_indices().nth(LONGEST_LINE) {
-        Some((end, _)) => format!("{}…", &line[..end]),
-        None => line.to_owned(),
-    });
+    let lines = text.split('\n').map(|line| printable::shortened(line, LONGEST_LINE));
     printable::lines(&lines.collect::<Vec<_>>().join("\n")).into_owned()
 }
 

@@ -150,9 +150,10 @@ mod tests {
         assert_eq!(told(read_regular(&path, 5).expect_err("no file")), "it is a pipe, not a file");
         let nobody = "it is a pipe that nothing was written into";
         assert_eq!(told(read(&path, 5).expect_err("nobody writes")), nobody);
-        let writer = path.clone();
-        let written = std::thread::spawn(move || fs::write(writer, "12345"));
+        let mut shell = std::process::Command::new("sh");
+        let mut writer =
+            shell.args(["-c", "printf 12345 > \"$0\""]).arg(&path).spawn().expect("sh");
         assert_eq!(read(&path, 5).expect("read").0, b"12345");
-        written.join().expect("no panic").expect("written");
+        assert!(writer.wait().expect("it ends").success());
     }
 }

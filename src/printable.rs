@@ -139,9 +139,14 @@ pub fn json(text: &str) -> Cow<'_, str> {
 
 /// A piece of text as a sentence quotes it: on one line, and not at any length.
 pub fn quoted(text: &str) -> String {
-    match text.char_indices().nth(QUOTED) {
-        Some((end, _)) => format!("{}…", line(&text[..end])),
-        None => line(text).into_owned(),
+    line(&shortened(text, QUOTED)).into_owned()
+}
+
+/// Text of so many characters at most; where there were more it ends in `…`.
+pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
+        None => Cow::Borrowed(text),
     }
 }
 

@@ -32,6 +32,9 @@ impl FromStr for Assignment {
     }
 }
 
+/// The most characters of why a value is none: it quotes what is written.
+const LONGEST_REASON: usize = 400;
+
 /// A number on the command line; it may be written as in a file, `3*pi/4`.
 pub(super) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
@@ -50,7 +53,13 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
 
 fn first_mistake(scope: &Scope) -> String {
     let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
-    mistake.unwrap_or_else(|| "it is not a number".to_owned())
+    mistake.map_or_else(
+        || "it is not a number".to_owned(),
+        |why| {
+            let why = printable::shortened(&why, LONGEST_REASON);
+            printable::line(&why).into_owned()
+        },
+    )
 }
 
 /// The parameters: the file's values, or those set.

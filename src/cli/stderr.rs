@@ -15,9 +15,8 @@ pub(super) fn tell(message: &str) {
         return;
     }
     let message = without_number(message);
-    let end = message.char_indices().nth(LONGEST).map(|(end, _)| end);
-    let (message, more) = end.map_or((message, ""), |end| (&message[..end], "…"));
-    let _ = writeln!(stderr(), "phaselab: {}{more}", printable::lines(message));
+    let message = printable::shortened(message, LONGEST);
+    let _ = writeln!(stderr(), "phaselab: {}", printable::lines(&message));
 }
 
 /// The system's number of an error, at the end of its sentence, says nothing to a person.

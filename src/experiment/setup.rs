@@ -3,6 +3,7 @@
 use crate::expr::{Symbol, nearest};
 use crate::integrate::{METHODS, Method, Refusal, Settings};
 use crate::model::Model;
+use crate::printable;
 use crate::system::{Form, Given, System};
 
 /// Everything an experiment is told at its beginning.
@@ -75,7 +76,7 @@ pub fn with_given(system: &System, before: &[Given], index: usize, value: f64) -
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NoMethod {
     /// There is none of that name.
-    #[error("there is no method `{name}`{}", help(near.as_deref()))]
+    #[error("there is no method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
     Unknown {
         /// What was asked for.
         name: String,

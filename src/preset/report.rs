@@ -10,6 +10,9 @@ use crate::printable;
 /// A line longer than this is not shown: nobody could read it, and it takes long to draw.
 const LONGEST_LINE: usize = 4096;
 
+/// A sentence is cut here: what it quotes may be as long as a file.
+const LONGEST_SENTENCE: usize = 420;
+
 /// A second place farther away than this is not shown.
 const FARTHEST: usize = 65_536;
 
@@ -24,7 +27,7 @@ pub fn report(text: &str, path: &str, mistakes: &[Mistake], colour: bool) -> Str
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let title = level.primary_title(printable::line(&mistake.message));
+        let title = level.primary_title(sentence(&mistake.message));
         let place = one_line(text, &mistake.place);
         let mut group =
             if line_end(text, place.start) - line_start(text, place.start) > LONGEST_LINE {
@@ -33,13 +36,17 @@ pub fn report(text: &str, path: &str, mistakes: &[Mistake], colour: bool) -> Str
                 title.element(snippet(text, &path, &place, mistake))
             };
         if let Some(help) = &mistake.help {
-            group = group.element(Level::HELP.message(printable::line(help)));
+            group = group.element(Level::HELP.message(sentence(help)));
         }
         let rendered = renderer.render(&[group]);
         drawn.push_str(&in_the_file(rendered, text, &path, place.start));
         drawn.push_str("\n\n");
     }
     drawn
+}
+
+fn sentence(text: &str) -> String {
+    printable::line(&printable::shortened(text, LONGEST_SENTENCE)).into_owned()
 }
 
 /// The lines in question, and no others: the cost of drawing is that of the text handed over.
@@ -62,7 +69,7 @@ fn snippet<'t>(
         .annotation(AnnotationKind::Primary.span(within));
     match &also {
         Some((_, what)) => {
-            snippet.annotation(AnnotationKind::Context.span(beside).label(printable::line(what)))
+            snippet.annotation(AnnotationKind::Context.span(beside).label(sentence(what)))
         }
         None => snippet,
     }

@@ -12,7 +12,7 @@ use super::{PENDULUM, program, with_file};
 
 /// One of each kind: a title set, a clipboard written, C1's CSI and DCS, DEL, an override and an isolate, what has no width,
 /// a separator of lines, the byte order mark, a tag.
-const STEERING: &str = "\u{1b}]0;x\u{7}\u{1b}]52;c;eA==\u{7}\u{9b}2J\u{90}q\u{9c}\u{7f}\u{8}\u{202e}\u{2066}\u{200b}\u{200d}\u{2028}\
+const STEERING: &str = "\u{1b}]0;x\u{7}\u{1b}]52;c;eA\u{7}\u{9b}2J\u{90}q\u{9c}\u{7f}\u{8}\u{202e}\u{2066}\u{200b}\u{200d}\u{2028}\
                         \u{feff}\u{e0041}";
 
 fn command(home: &Path) -> Command {
@@ -39,7 +39,7 @@ fn harmless(home: &Path, arguments: &[&OsStr], codes: &[i32]) -> Output {
     output
 }
 
-fn words<'w>(words: &[&'w str]) -> Vec<&'w OsStr> {
+fn words<'w>(words: &'w [&'w str]) -> Vec<&'w OsStr> {
     words.iter().map(OsStr::new).collect()
 }
 
@@ -64,10 +64,10 @@ fn files(hostile: &str) -> Vec<String> {
         place("unit = \"rad\"", "unit = \"a@b\""),
         place("about = \"mass\"", "about = \"a@b\""),
         place("m = {", "\"a@b\" = {"),
-        place("twice = ", "\"a@b\" = "),
+        place("name = \"twice\"", "name = \"a@b\""),
         place("[[events]]\nname = \"top\"", "[[events]]\nname = \"a@b\""),
         place("1/2*m*theta'^2 +", "1/2*m*theta'^2 + \\\"@\\\" +"),
-        place("\"2*theta\"", "\"2*@theta\""),
+        place("= \"2*theta\"", "= \"2*@theta\""),
         place("method = \"auto\"", "method = \"a@b\""),
         place("[run]", "[\"a@b\"]\nx = 1\n[run]"),
         place("initial = 0.5", "initial = \"0.5@\""),
@@ -90,8 +90,9 @@ m = { value = 2.0, about = "mass" }
 [lagrangian]
 L = "1/2*m*theta'^2 + m*cos(theta)"
 
-[observables]
-twice = "2*theta"
+[[observables]]
+name = "twice"
+expression = "2*theta"
 
 [[events]]
 name = "top"
@@ -132,7 +133,7 @@ fn no_text_of_a_file_steers_the_terminal() {
 #[test]
 fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_place() {
     let home = tempfile::tempdir().unwrap();
-    let (before, after) = ("\u{9b}\u{202e}", "\u{9b}31m\u{7f}");
+    let (before, after) = ("\u{9b}\u{202e}", "\u{9b}31m\u{200b}");
     let text = PENDULUM.replace(
         "theta = { initial = 0.0,",
         &format!("theta = {{ initial = \"0.0 + '{before}' + nonsense\" }} # {after}\nphi = {{"),
@@ -140,7 +141,7 @@ fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_plac
     fs::write(home.path().join("system.toml"), text).unwrap();
     let output = harmless(home.path(), &words(&["check", "system.toml"]), &[65]);
     let told = String::from_utf8(output.stderr).unwrap();
-    assert!(told.contains("\\u{9b}\\u{202e}") && told.contains("# \\u{9b}31m\\u{7f}"), "{told}");
+    assert!(told.contains("\\u{9b}\\u{202e}") && told.contains("# \\u{9b}31m\\u{200b}"), "{told}");
 
     let text =
         PENDULUM.replace("title = ", &format!("notes = 'x' # {before}\ntitle = 3 # {after}\n#"));
