@@ -104,7 +104,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match parse(&words) {
         Ok(arguments) => arguments,
         Err(error) => {
-            if let Some(message) = misspelt(&words) {
+            // help that is asked for is no mistake
+            if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
                 stderr::tell(&message);
                 return Failure::WrongUse(message).code();
             }

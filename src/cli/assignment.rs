@@ -33,7 +33,7 @@ impl FromStr for Assignment {
 }
 
 /// The most characters of why a value is none: it quotes what is written.
-const LONGEST_REASON: usize = 400;
+const LONGEST_REASON: usize = 300;
 
 /// A number on the command line; it may be written as in a file, `3*pi/4`.
 pub(super) fn number(text: &str) -> Result<f64, String> {

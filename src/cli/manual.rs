@@ -111,6 +111,7 @@ fn of_command(words: &[String]) -> Result<io::Result<Vec<u8>>, Failure> {
             let names = found.get_subcommands().map(clap::Command::get_name);
             let near = crate::expr::nearest(word, names);
             let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let word = crate::printable::quoted(word);
             Failure::WrongUse(format!("there is no command `{word}`{help}"))
         })?;
     }
