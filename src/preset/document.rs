@@ -5,7 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::{Checked, Mistake, TEXT_LIMIT, read, report};
+use super::{Checked, Mistake, TEXT_LIMIT, read_with, report};
+use crate::cancel::Cancel;
 
 /// A preset's text with its name.
 #[derive(Clone, Debug)]
@@ -43,8 +44,15 @@ impl Document {
     /// # Errors
     /// Those of opening and reading it.
     pub fn open(path: &Path) -> io::Result<Document> {
+        Document::of_file(path, File::open(path)?)
+    }
+
+    /// Reads a file that was opened already, no more of it than a preset may have.
+    ///
+    /// # Errors
+    /// Those of reading it.
+    pub fn of_file(path: &Path, file: File) -> io::Result<Document> {
         let shown = path.display().to_string();
-        let file = File::open(path)?;
         let size = file.metadata()?;
         if size.is_dir() {
             return Err(io::Error::from(io::ErrorKind::IsADirectory));
@@ -67,11 +75,19 @@ impl Document {
     /// Reads the preset in it.
     ///
     /// # Errors
-    /// All its mistakes, see [`read`].
+    /// All its mistakes, see [`read`](super::read).
     pub fn read(&self) -> Result<Checked, Vec<Mistake>> {
+        self.read_with(&Cancel::new())
+    }
+
+    /// The same, with a token by which this and all that is made of the model can be stopped.
+    ///
+    /// # Errors
+    /// All its mistakes, see [`read`](super::read).
+    pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
         match &self.unreadable {
             Some(mistake) => Err(vec![mistake.clone()]),
-            None => read(&self.text),
+            None => read_with(&self.text, cancel),
         }
     }
 
