@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -23,6 +25,8 @@ pub(super) struct Scribe {
     outcomes: Receiver<(PathBuf, io::Result<()>)>,
     /// How often each file is still to be written.
     open: BTreeMap<PathBuf, usize>,
+    /// There is no time to wait for a disk.
+    hurried: Arc<AtomicBool>,
 }
 
 impl Scribe {
@@ -30,9 +34,14 @@ impl Scribe {
     pub(super) fn new() -> io::Result<Self> {
         let (tasks, given) = channel::<(PathBuf, Option<Maker>)>();
         let (sender, outcomes) = channel();
+        let hurried = Arc::new(AtomicBool::new(false));
+        let hurry = Arc::clone(&hurried);
         thread::Builder::new().name("scribe".to_owned()).spawn(move || {
             for (path, text) in given {
                 let done = match text {
+                    Some(text) if hurry.load(Ordering::Relaxed) => {
+                        text().and_then(|text| put(&path, &text))
+                    }
                     Some(text) => text().and_then(|text| write(&path, &text)),
                     None => remove(&path),
                 };
@@ -41,7 +50,13 @@ impl Scribe {
                 }
             }
         })?;
-        Ok(Self { tasks, outcomes, open: BTreeMap::new() })
+        Ok(Self { tasks, outcomes, open: BTreeMap::new(), hurried })
+    }
+
+    /// From now on files get their names at once: the program is made to end, which they outlive, and the disk is left to
+    /// the system.
+    pub(super) fn hurry(&self) {
+        self.hurried.store(true, Ordering::Relaxed);
     }
 
     /// Has a file written.
@@ -106,6 +121,15 @@ pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
         file.finish_on_disk()
     });
     written.and_then(|()| sync_folder(path)).map_err(|error| named(path, &error))
+}
+
+/// Writes a file whole, without waiting for the disk.
+fn put(path: &Path, text: &str) -> io::Result<()> {
+    let written = Whole::begin(path).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.finish()
+    });
+    written.map_err(|error| named(path, &error))
 }
 
 fn remove(path: &Path) -> io::Result<()> {

@@ -559,9 +559,10 @@ fn identity(path: &Path) -> io::Result<PathBuf> {
 /// A text by its file, so that it is found however that is spelled and wherever the program is started next.
 fn placed(text: Unsaved) -> io::Result<Unsaved> {
     let place = text.place.map(|place| identity(&place)).transpose()?;
-    let name = match is_path(&text.name) {
-        true => identity(Path::new(&text.name))?.display().to_string(),
-        false => text.name,
+    let name = if is_path(&text.name) {
+        identity(Path::new(&text.name))?.display().to_string()
+    } else {
+        text.name
     };
     Ok(Unsaved { name, place, ..text })
 }
@@ -666,6 +667,9 @@ impl Page for Session {
             (true, false) => FOR_TEXTS,
             (true, true) => HURRIED,
         };
+        if let Some(store) = self.store.as_ref().filter(|_| hurried) {
+            store.hurry();
+        }
         // the texts first: nothing could make them again
         let kept = self.keep_within(time);
         let recorder = self.recorder.take();

@@ -155,9 +155,9 @@ impl Store {
         let what = "texts that are left unsaved will not be kept";
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         let mut store = Self {
-            texts: known.is_some().then_some(texts),
-            session: readable.is_some().then(|| session.clone()),
-            known: known.flatten().unwrap_or_default(),
+            texts: known.is_ok().then_some(texts),
+            session: readable.is_ok().then(|| session.clone()),
+            known: known.ok().flatten().unwrap_or_default(),
             failed: false,
             waits_for: None,
             former: None,
@@ -177,8 +177,8 @@ impl Store {
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         Self {
             session: None,
-            texts: known.is_some().then_some(texts),
-            known: known.flatten().unwrap_or_default(),
+            texts: known.is_ok().then_some(texts),
+            known: known.ok().flatten().unwrap_or_default(),
             failed: false,
             waits_for: Some(session),
             former: None,
@@ -265,6 +265,11 @@ impl Store {
         true
     }
 
+    /// There is no time any more to wait for a disk.
+    pub(super) fn hurry(&self) {
+        self.scribe.hurry();
+    }
+
     /// What went wrong since this was asked last; each error names its file.
     pub(super) fn errors(&mut self) -> Vec<io::Error> {
         let outcomes = self.scribe.outcomes();
@@ -308,16 +313,19 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
     }
 }
 
-/// What a file holds: `Some(None)` where there is nothing or nothing of use, `None` where it must not be written over.
+/// A file that must not be written over.
+struct Untouchable;
+
+/// What a file holds; nothing where it is not there, or is of no use and was put aside.
 fn read_or_put_aside<T>(
     path: &Path,
     what: &str,
     troubles: &mut Vec<String>,
     read: impl FnOnce(&Path) -> Result<T, NoSession>,
-) -> Option<Option<T>> {
+) -> Result<Option<T>, Untouchable> {
     let why = match read(path) {
-        Ok(found) => return Some(Some(found)),
-        Err(why) if why.is_missing() => return Some(None),
+        Ok(found) => return Ok(Some(found)),
+        Err(why) if why.is_missing() => return Ok(None),
         Err(why) => why,
     };
     if let NoSession::Malformed { .. } = why
@@ -325,10 +333,10 @@ fn read_or_put_aside<T>(
     {
         let (was, place) = (path.display(), place.display());
         troubles.push(format!("{was} cannot be understood; it is now {place}"));
-        return Some(None);
+        return Ok(None);
     }
     troubles.push(format!("{what}: {}", why.in_short()));
-    None
+    Err(Untouchable)
 }
 
 /// Gives a file a name that nothing has yet; `None` where that cannot be.
