@@ -86,6 +86,8 @@ pub struct App {
     pub meter: Meter,
     /// Whether the terminal is to report the mouse; its own selection of text does not work meanwhile.
     pub mouse: bool,
+    /// Whether time is held from outside, as that of a demo is.
+    pub held: bool,
     /// Whether what is shown is being recorded.
     pub recording: bool,
     /// How many rows the page of text is scrolled down.
@@ -162,6 +164,7 @@ impl App {
             notice: None,
             meter: Meter::default(),
             mouse: false,
+            held: false,
             recording: false,
             scroll: 0,
             workbench: Workbench::default(),
@@ -189,6 +192,11 @@ impl App {
     /// The newest snapshot of the loaded system.
     pub fn snapshot(&self) -> Option<&Snapshot> {
         self.lab.as_ref()?.snapshot.as_deref()
+    }
+
+    /// The name of what is being loaded.
+    pub fn loading(&self) -> Option<&str> {
+        self.asked.as_ref().map(|(name, _)| name.as_str())
     }
 
     /// Whether an action can do something with the loaded system; most always can.

@@ -22,6 +22,7 @@ mod trail;
 
 use std::sync::Arc;
 
+use crate::cancel::Cancel;
 use crate::expr::portable;
 use crate::integrate::Stepping;
 use crate::mechanics::Equations;
@@ -113,6 +114,11 @@ impl Experiment {
         };
         experiment.restart();
         Ok(experiment)
+    }
+
+    /// The token that stops what it computes, also in the middle of a step.
+    pub fn cancel(&self) -> &Cancel {
+        self.motion.system().cancel()
     }
 
     /// Gives all snapshots this epoch.

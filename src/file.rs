@@ -40,10 +40,16 @@ pub fn read(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
 /// Those of opening and reading it; where it is no regular file.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
     let (file, about) = open(path)?;
-    if about.file_type().is_fifo() {
-        return Err(refusal("it is a pipe, not a file"));
-    }
+    check_regular(about.file_type())?;
     whole(file, &about, most)
+}
+
+/// Refuses what is no regular file.
+///
+/// # Errors
+/// What it is instead.
+pub fn check_regular(kind: FileType) -> io::Result<()> {
+    if kind.is_fifo() { Err(refusal("it is a pipe, not a file")) } else { readable(kind) }
 }
 
 fn whole(file: File, about: &Metadata, most: u64) -> io::Result<(Vec<u8>, u64)> {

@@ -15,6 +15,7 @@ mod mistake;
 mod report;
 mod settings;
 
+use crate::cancel::Cancel;
 use crate::model::Model;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, is_path};
@@ -43,6 +44,14 @@ pub struct Checked {
 /// # Errors
 /// All mistakes of the file (warnings among them), in the order of their places; never empty.
 pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
+    read_with(text, &Cancel::new())
+}
+
+/// The same, with a token by which this and all that is made of the model can be stopped.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
     if text.len() > TEXT_LIMIT {
         return Err(vec![document::too_long(text.len() as u64)]);
     }
@@ -52,6 +61,6 @@ pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
         return mistakes.conclude(None);
     }
     let draft = draft::read(&table, &mut mistakes);
-    let model = check::check(text, &draft, &mut mistakes);
+    let model = check::check(text, &draft, cancel, &mut mistakes);
     mistakes.conclude(model)
 }

@@ -18,6 +18,7 @@ mod files;
 mod fresh;
 mod governor;
 mod input;
+mod job;
 mod loader;
 mod log;
 pub mod options;
@@ -27,7 +28,9 @@ mod product;
 mod projector;
 mod queue;
 mod recorder;
+mod regular;
 mod request;
+mod scribe;
 mod session;
 mod signals;
 mod stage;
@@ -47,6 +50,7 @@ pub use stage::{Ending, Pace, Page, Wish, perform};
 pub use store::NoSession;
 pub use terminal::NoTerminal;
 
+use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use crate::preset::{Catalog, Mistake};
@@ -71,7 +75,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         request.open = Some(saved.open.clone());
     }
     if let Some(name) = &request.open {
-        catalog.find(name)?;
+        regular::find(&catalog, name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
     let mut log = request.log.as_ref().map_or(Ok(Log::default()), Log::open)?;
@@ -97,12 +101,18 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         session.log.error(error);
     }
     session.log.close();
-    // The worker may be in the middle of a long step, and nobody waits for it any more.
-    std::mem::forget(session);
+    drop(session);
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
-    kept.map_err(Refusal::Unsaved)?;
-    recorded.map_err(Refusal::Unrecorded)?;
-    Ok(ending)
+    let lost = kept.map_err(Refusal::Unsaved).and(recorded.map_err(Refusal::Unrecorded));
+    match (lost, ending) {
+        (Err(why), Ending::Quit) => Err(why),
+        (Err(why), Ending::Signal(_) | Ending::Gone) => {
+            // the signal decides how it ends; where nobody can read this it makes no difference
+            let _ = writeln!(io::stderr(), "phaselab: {why}");
+            Ok(ending)
+        }
+        (Ok(()), _) => Ok(ending),
+    }
 }
 
 /// Shows a tape on the terminal until it is left.

@@ -3,8 +3,8 @@
 //! In: an experiment ([`Worker::load`]) and [`Command`]s. Out: [`Snapshot`]s through a slot of
 //! one, where the newest wins and nobody waits. The mailbox is emptied before each slice of about
 //! two milliseconds, so a held key costs one slice; nothing is computed, and nothing wakes, while
-//! time is held. A panic of the experiment becomes a fault in a snapshot. Never here: terminals,
-//! physics, drawing.
+//! time is held. A panic of the experiment becomes a fault in a snapshot. What is no longer wanted is
+//! stopped within its step, by its token. Never here: terminals, physics, drawing.
 
 mod pace;
 mod slice;
@@ -13,11 +13,13 @@ mod thread;
 
 use std::io;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Sender};
-use std::thread::{Builder, JoinHandle};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread::Builder;
+use std::time::Duration;
 
 use arc_swap::ArcSwapOption;
 
+use crate::cancel::Cancel;
 use crate::experiment::{Command, Snapshot};
 
 pub use subject::Subject;
@@ -28,6 +30,10 @@ use thread::Letter;
 /// terminal.
 pub const THREAD_NAME: &str = "phaselab worker";
 
+/// How long the end of a worker is waited for: a step looks at its token far sooner, and one that
+/// does not must not hold up the end of the program.
+const PATIENCE: Duration = Duration::from_millis(50);
+
 /// A thread and the two ways to and from it. Dropping it ends the thread.
 #[derive(Debug)]
 pub struct Worker {
@@ -35,7 +41,10 @@ pub struct Worker {
     slot: Arc<ArcSwapOption<Snapshot>>,
     seen: Option<Arc<Snapshot>>,
     epoch: u64,
-    thread: Option<JoinHandle<()>>,
+    /// Stops what is being computed.
+    cancel: Cancel,
+    /// Closed when the thread has ended.
+    end: Receiver<()>,
 }
 
 impl Worker {
@@ -47,10 +56,12 @@ impl Worker {
         let (mailbox, letters) = mpsc::channel();
         let slot = Arc::new(ArcSwapOption::empty());
         let theirs = Arc::clone(&slot);
-        let thread = Builder::new()
-            .name(THREAD_NAME.to_owned())
-            .spawn(move || thread::run(&letters, &theirs))?;
-        Ok(Worker { mailbox, slot, seen: None, epoch: 0, thread: Some(thread) })
+        let (ended, end) = mpsc::channel();
+        Builder::new().name(THREAD_NAME.to_owned()).spawn(move || {
+            let _ended: Sender<()> = ended;
+            thread::run(&letters, &theirs);
+        })?;
+        Ok(Worker { mailbox, slot, seen: None, epoch: 0, cancel: Cancel::new(), end })
     }
 
     /// A worker with an experiment, which is of epoch 1.
@@ -67,6 +78,8 @@ impl Worker {
     /// returned, and none of another epoch follows them.
     pub fn load(&mut self, mut subject: impl Subject + 'static) -> u64 {
         self.epoch += 1;
+        self.cancel.cancel();
+        self.cancel = subject.cancel();
         subject.set_epoch(self.epoch);
         self.send(Letter::Load(self.epoch, Box::new(subject)));
         self.epoch
@@ -100,10 +113,11 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
+        self.cancel.cancel();
         self.send(Letter::Stop);
-        if let Some(thread) = self.thread.take() {
-            // its panics were caught where they happened
-            let _ = thread.join();
+        // its panics were caught where they happened; nothing is ever sent
+        if let Err(RecvTimeoutError::Timeout) = self.end.recv_timeout(PATIENCE) {
+            // a step that does not look at its token ends with the program
         }
     }
 }

@@ -4,7 +4,7 @@
 //! be checked or saved. Never here: files, threads, how it is drawn.
 //!
 //! A text is checked when typing rests, one check at a time, and where it is right the lab is built anew from it. A
-//! file changed by another program takes the same way.
+//! newer text stops the check of an older one. A file changed by another program takes the same way.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use tui_input::Input;
 
 use super::field::paste;
 use super::sheet::{Asking, Found, Sheet, State, Unsaved};
-use super::{App, Effect, Key, Lab, Loaded, Notice, Over};
+use super::{App, Effect, Key, Lab, Loaded, Notice, Over, Page};
 use crate::preset::{Mistake, Origin, is_path};
 
 /// A text that was asked to be checked: what became of it.
@@ -208,18 +208,27 @@ impl App {
         Vec::new()
     }
 
-    /// Esc: leaves what is asked for, else the workbench; the text stays.
-    pub(super) fn leave_sheet(&mut self) {
-        match self.sheet() {
-            Some(sheet) if sheet.asking.is_some() => sheet.asking = None,
-            _ => {
-                self.over = None;
-                if let Some(sheet) = self.sheet().filter(|sheet| sheet.is_modified()) {
-                    let text = format!("{} is not saved; E goes back to it.", sheet.title);
-                    self.notice = Some(Notice::info(text));
-                }
-            }
+    /// Esc: leaves what is asked for, else the workbench; the text stays. A check that takes long is stopped.
+    pub(super) fn leave_sheet(&mut self) -> Vec<Effect> {
+        let Some(sheet) = self.workbench.top_mut() else {
+            self.over = None;
+            return Vec::new();
+        };
+        if sheet.asking.take().is_some() {
+            return Vec::new();
         }
+        self.over = None;
+        let stopped = sheet.is_long_checked();
+        if stopped {
+            sheet.leave();
+        }
+        let told = match (stopped, sheet.is_modified()) {
+            (true, _) => format!("{} is no longer being checked; E goes on with it.", sheet.title),
+            (false, true) => format!("{} is not saved; E goes back to it.", sheet.title),
+            (false, false) => return Vec::new(),
+        };
+        self.notice = Some(Notice::info(told));
+        if stopped { vec![Effect::StopCheck] } else { Vec::new() }
     }
 
     /// Enter, where something is asked for.
@@ -342,6 +351,9 @@ impl App {
 
     /// Time has passed.
     pub(super) fn tick_sheet(&mut self, elapsed: Duration) -> Option<Effect> {
+        if self.page == Page::Picker {
+            return self.workbench.put_off().then_some(Effect::StopCheck);
+        }
         self.workbench.tick(elapsed)
     }
 

@@ -100,10 +100,12 @@ pub enum Effect {
     Tell(Command),
     /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
     Load(String),
+    /// Load no longer what was asked for last; nothing answers.
+    StopLoading,
     /// Write the present as a file of a system; [`Event::Written`] answers.
     Export,
-    /// Check a text; where it is right, what it describes takes the place of the system in the lab. [`Event::Checked`]
-    /// answers.
+    /// Check a text, and no longer the one before; where it is right, what it describes takes the place of the system in
+    /// the lab. [`Event::Checked`] answers.
     Check {
         /// Counts the checks of all texts.
         ticket: u64,
@@ -112,6 +114,8 @@ pub enum Effect {
         /// The text.
         text: String,
     },
+    /// Check no text any more; nothing answers.
+    StopCheck,
     /// Write a text to its file, if that still holds what is known of it. [`Event::FileSaved`] answers.
     Save {
         /// The file.

@@ -224,8 +224,7 @@ impl App {
 
     fn back(&mut self) -> Vec<Effect> {
         if matches!(self.over, Some(Over::Workbench)) {
-            self.leave_sheet();
-            return Vec::new();
+            return self.leave_sheet();
         }
         match self.over.take() {
             Some(Over::Help { scroll, editing }) => {
@@ -237,6 +236,10 @@ impl App {
                 return Vec::new();
             }
             Some(Over::Workbench) | None => {}
+        }
+        if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
+            self.notice = Some(Notice::info(format!("{name} is no longer being loaded.")));
+            return vec![Effect::StopLoading];
         }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),

@@ -104,10 +104,10 @@ impl Picker {
         let name = self.current().map(|entry| entry.name.clone());
         self.search = None;
         self.selected = 0;
-        if let Some(name) = name {
-            self.select(&name);
+        match name {
+            Some(name) => self.select(&name),
+            None => self.touch(),
         }
-        self.touch();
     }
 
     /// The selection has changed: its system is to be loaded once it rests.

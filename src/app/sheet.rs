@@ -20,6 +20,9 @@ const REST: Duration = Duration::from_millis(150);
 /// For how long a file found wrong is left to the program that is perhaps still writing it.
 const PATIENCE: Duration = Duration::from_millis(700);
 
+/// A check that takes this long is one that a person would rather stop than wait for.
+const LONG: Duration = Duration::from_secs(1);
+
 /// A file being edited.
 #[derive(Clone, Debug)]
 pub struct Sheet {
@@ -45,6 +48,8 @@ pub struct Sheet {
     revision: u64,
     /// The check under way, and the text that it is about.
     checking: Option<(u64, u64)>,
+    /// For how long it has been so.
+    busy: Duration,
     /// The time left until the text is checked.
     rest: Option<Duration>,
     /// A wrong text that just came from the file may be half of one, and is looked at once more.
@@ -146,12 +151,18 @@ impl Sheet {
             on_disk: unsaved.of,
             revision: 0,
             checking: None,
+            busy: Duration::ZERO,
             rest: None,
             half: false,
             overrule: false,
             sought: String::new(),
             unlooked: false,
         }
+    }
+
+    /// Counts its changes.
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// The text, if it is to be kept.
@@ -229,15 +240,31 @@ impl Sheet {
         self.state = State::Left;
     }
 
-    /// Time has passed; whether the text is to be checked now.
+    /// Time has passed; whether the text is to be checked now, in place of an older one.
     pub(super) fn tick(&mut self, elapsed: Duration) -> bool {
         self.rest = self.rest.map(|rest| rest.saturating_sub(elapsed));
-        self.checking.is_none() && self.rest == Some(Duration::ZERO)
+        self.busy = self.busy.saturating_add(elapsed);
+        self.rest == Some(Duration::ZERO)
+    }
+
+    /// Whether its check takes so long that who leaves it is not waiting for the end of it.
+    pub fn is_long_checked(&self) -> bool {
+        self.checking.is_some() && self.busy >= LONG
+    }
+
+    /// Its check is put off until it is looked at again; whether there was one under way.
+    pub(super) fn put_off(&mut self) -> bool {
+        let checking = self.checking.take().is_some();
+        if checking {
+            self.rest = Some(Duration::ZERO);
+        }
+        checking
     }
 
     /// Its text is being checked, and the answer will carry this number.
     pub(super) fn begin_check(&mut self, ticket: u64) {
         (self.rest, self.checking) = (None, Some((ticket, self.revision)));
+        self.busy = Duration::ZERO;
     }
 
     /// Whether the answer of this number is about this sheet.

@@ -151,6 +151,7 @@ impl App {
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.drop_hold();
+        let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.over.take_if(|over| matches!(over, Over::Workbench));
         self.lab = Some(Lab::new(loaded));
@@ -162,7 +163,9 @@ impl App {
         if answered == Some(true) {
             self.go(Page::Lab);
         }
-        self.begin(answered == Some(true))
+        let mut effects = self.begin(answered == Some(true));
+        effects.extend(stale);
+        effects
     }
 
     /// The system whose file is told to be wrong.

@@ -36,9 +36,14 @@ impl Workbench {
         self.sheets.iter().filter_map(Sheet::unsaved).collect()
     }
 
-    /// Takes texts that were kept; they wait until their systems are open.
+    /// Takes texts that were kept; they wait below the others until their systems are open.
     pub fn put(&mut self, texts: Vec<Unsaved>) {
-        self.sheets.extend(texts.into_iter().map(Sheet::of_unsaved));
+        self.sheets.splice(0..0, texts.into_iter().map(Sheet::of_unsaved));
+    }
+
+    /// A number that changes with every change of a text.
+    pub fn revision(&self) -> u64 {
+        self.sheets.iter().map(Sheet::revision).sum()
     }
 
     /// The sheet of a system, if it has one.
@@ -67,6 +72,11 @@ impl Workbench {
     pub(super) fn clear(&mut self) {
         self.sheets.retain(Sheet::is_modified);
         self.sheets.iter_mut().for_each(Sheet::leave);
+    }
+
+    /// No text is looked at: a check under way is put off; whether there was one.
+    pub(super) fn put_off(&mut self) -> bool {
+        self.sheets.last_mut().is_some_and(Sheet::put_off)
     }
 
     /// Time has passed for the sheet on top: the text to be checked now, if there is one.

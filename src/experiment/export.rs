@@ -3,9 +3,10 @@
 //! In: a document, its system, a [`Snapshot`]. Out: a text that reads without a mistake. Never here: writing it.
 
 use super::{Moment, Ready, Snapshot};
+use crate::analysis::false_claims;
 use crate::expr::portable;
 use crate::model::{AttitudeSource, Model};
-use crate::preset::{Beginning, Document, Edition};
+use crate::preset::{Beginning, Document, Edition, Mistake, Severity};
 use crate::system::{ChannelKind, System};
 
 /// What was made of the present.
@@ -61,15 +62,70 @@ impl Export {
             });
         }
         let words = edition.of(&document.text).map_err(|error| error.to_string())?;
-        let Err(first) = Ready::of(&Document::new(&document.path, &words)) else {
-            return Ok(Export { text: words, missing });
-        };
-        // what is expected of the motion was expected of other values
-        let text = Edition::without_expectations(&words).map_err(|error| error.to_string())?;
-        Ready::of(&Document::new(&document.path, &text)).map_err(|_| first.to_string())?;
-        missing
-            .push("What the file expects of the motion no longer holds, and is left out.".into());
+        let (text, left_out) = with_what_holds(document, words, &wrong_as_written)?;
+        missing.extend(left_out.then(|| LEFT_OUT.to_owned()));
         Ok(Export { text, missing })
+    }
+
+    /// The same without what the file expects of the motion and the new motion does not do. It is integrated for that,
+    /// as far as the expectations reach.
+    ///
+    /// # Errors
+    /// A sentence, where no such file can be opened.
+    pub fn with_what_holds(self, document: &Document) -> Result<Export, String> {
+        let Export { text, mut missing } = self;
+        let (text, left_out) = with_what_holds(document, text, &wrong_in_motion)?;
+        if left_out && !missing.iter().any(|told| told == LEFT_OUT) {
+            missing.push(LEFT_OUT.to_owned());
+        }
+        Ok(Export { text, missing })
+    }
+}
+
+/// Told where not all expectations were kept.
+const LEFT_OUT: &str = "What the file expects of the motion and no longer holds is left out.";
+
+/// What is wrong with a text, and a report where it cannot even be opened.
+type Wrong = (Vec<Mistake>, Option<String>);
+
+/// The text without those of its expectations that are wrong: they were expected of other values. Whether there were
+/// any.
+fn with_what_holds(
+    document: &Document,
+    words: String,
+    wrong_with: &dyn Fn(&Document) -> Wrong,
+) -> Result<(String, bool), String> {
+    let mut text = words;
+    let mut left_out = false;
+    loop {
+        let (mistakes, report) = wrong_with(&Document::new(&document.path, &text));
+        let places: Vec<_> = mistakes.iter().map(|mistake| mistake.place.clone()).collect();
+        let fewer = Edition::without_expectations(&text, &places).map_err(|why| why.to_string())?;
+        match (fewer, report) {
+            // each turn leaves one out at least
+            (Some(fewer), _) => (text, left_out) = (fewer, true),
+            (None, Some(report)) => return Err(report),
+            (None, None) => return Ok((text, left_out)),
+        }
+    }
+}
+
+/// What is wrong with a text as it stands there.
+fn wrong_as_written(document: &Document) -> Wrong {
+    match Ready::of(document) {
+        Err(unready) => (unready.mistakes, Some(unready.report)),
+        Ok(_) => (Vec::new(), None),
+    }
+}
+
+/// The same and what its motion does not do.
+fn wrong_in_motion(document: &Document) -> Wrong {
+    match Ready::of(document) {
+        Err(unready) => (unready.mistakes, Some(unready.report)),
+        Ok(Ready { model, equations, .. }) => {
+            let mistakes = false_claims(&model, &equations).into_iter();
+            (mistakes.filter(|m| m.severity == Severity::Error).collect(), None)
+        }
     }
 }
 

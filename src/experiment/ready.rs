@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::{Experiment, Setup};
 use crate::analysis::flaws;
+use crate::cancel::Cancel;
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
 use crate::preset::{Document, Mistake};
@@ -36,13 +37,37 @@ pub struct Unready {
     pub mistakes: Vec<Mistake>,
 }
 
+impl Unready {
+    /// Somebody asked that it stop.
+    fn stopped(document: &Document) -> Unready {
+        let told = "stopped before it was ready";
+        let report = format!("{}: {told}", document.path);
+        Unready { report, mistakes: vec![Mistake::error(0..0, told)] }
+    }
+}
+
 impl Ready {
     /// Reads, derives, compiles and sets up.
     ///
     /// # Errors
     /// Every mistake of the file in its place, or why there are no equations or no method for it.
     pub fn of(document: &Document) -> Result<Ready, Unready> {
-        let read = document.read();
+        Ready::with(document, &Cancel::new())
+    }
+
+    /// The same, with a token by which the stages, and later the motion, can be stopped.
+    ///
+    /// # Errors
+    /// Those of [`Ready::of`]; that it was stopped, where it was.
+    pub fn with(document: &Document, cancel: &Cancel) -> Result<Ready, Unready> {
+        let made = Ready::made_of(document, cancel);
+        // what was refused or made of half an expression says nothing of the file
+        if cancel.is_cancelled() { Err(Unready::stopped(document)) } else { made }
+    }
+
+    fn made_of(document: &Document, cancel: &Cancel) -> Result<Ready, Unready> {
+        let stop = || if cancel.is_cancelled() { Err(Unready::stopped(document)) } else { Ok(()) };
+        let read = document.read_with(cancel);
         let report = |mistakes: Vec<Mistake>| Unready {
             report: document.report(&mistakes, false),
             mistakes,
@@ -52,12 +77,16 @@ impl Ready {
             report: format!("{}: {what}", document.path),
             mistakes: vec![Mistake::error(0..0, what.to_string())],
         };
+        stop()?;
         let equations = mechanics::derive(&model).map_err(|error| why(&error))?;
+        stop()?;
         let mistakes = flaws(&model, &equations);
         if !mistakes.is_empty() {
             return Err(report(mistakes));
         }
+        stop()?;
         let system = System::compile(&model, &equations, &[]).map_err(|error| why(&error))?;
+        stop()?;
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
         let experiment = experiment.map_err(|error| why(&error))?;

@@ -22,6 +22,9 @@ impl Pool {
         let seeds: FxHashMap<Symbol, Expr> = seeds.iter().copied().collect();
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return Expr::ZERO;
+            }
             let derived = self.derive_node(part, &seeds, &done);
             done.insert(part, derived);
         }
@@ -91,6 +94,9 @@ impl Pool {
     pub fn substitute(&mut self, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
             let replaced = match self.as_symbol(part) {
                 Some(s) => replacements.get(&s).copied().unwrap_or(part),
                 None => self.rebuild(part, &done),

@@ -17,6 +17,9 @@ impl Pool {
     pub(super) fn expand(&mut self, e: Expr, most: usize) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
             let rebuilt = self.rebuild(part, &done);
             let expanded = self.expand_top(rebuilt, most);
             done.insert(part, expanded);
@@ -93,6 +96,9 @@ impl Pool {
     pub(super) fn open_angles(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
             let rebuilt = self.rebuild(part, &done);
             let opened = match self.shared(rebuilt).as_ref() {
                 Node::Call(function, arguments) => self.open_call(*function, arguments[0]),

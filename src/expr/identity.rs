@@ -31,7 +31,7 @@ impl Pool {
         if e == Expr::ZERO {
             return Zero::Proved;
         }
-        if self.as_number(e).is_some() || !self.vanishes_at_points(e) {
+        if self.is_stopped() || self.as_number(e).is_some() || !self.vanishes_at_points(e) {
             return Zero::No;
         }
         if self.weight(e) < WEIGHT_LIMIT && self.normal_form(e) == Expr::ZERO {

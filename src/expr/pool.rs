@@ -14,9 +14,6 @@ use crate::cancel::Cancel;
 /// The most nodes one pool may hold: a stranger's file must not fill the memory.
 pub const NODE_LIMIT: usize = 1_000_000;
 
-/// The token of cancelling is looked at whenever so many nodes were added.
-const NODES_PER_LOOK: usize = 64;
-
 /// A handle to an expression of one [`Pool`]. Equal handles mean equal canonical expressions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Expr(pub(super) u32);
@@ -145,6 +142,12 @@ impl Pool {
         self.full
     }
 
+    /// Whether somebody asked that work on the pool stop: passes over expressions end early, with
+    /// whatever they have.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+
     /// The longest chain of parts below an expression.
     pub fn depth(&self, e: Expr) -> usize {
         self.depths[e.index()] as usize
@@ -262,12 +265,12 @@ impl Pool {
 
     /// Stores a canonical node, or finds it. Only the constructors call this.
     pub(super) fn intern(&mut self, node: Node) -> Expr {
-        if let Some(&e) = self.index.get(&node) {
+        let stopped = self.is_stopped();
+        if let Some(&e) = self.index.get(&node).filter(|_| !stopped) {
             return e;
         }
         let parts = node.parts();
-        let look = self.nodes.len().is_multiple_of(NODES_PER_LOOK);
-        if self.full || self.size > NODE_LIMIT || look && self.cancel.is_cancelled() {
+        if self.full || self.size > NODE_LIMIT || stopped {
             self.full = true;
             return Expr::ZERO;
         }

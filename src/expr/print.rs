@@ -211,6 +211,10 @@ impl Pool {
     /// How many pieces an expression has when written out, a common part counted wherever it
     /// stands. Saturates at `u64::MAX`.
     pub fn weight(&self, e: Expr) -> u64 {
+        if self.is_stopped() {
+            // too heavy for anything that would be tried next
+            return u64::MAX;
+        }
         let mut weights = rustc_hash::FxHashMap::default();
         for part in self.reachable(&[e]) {
             let mut weight = 1_u64;

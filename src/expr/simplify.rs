@@ -18,6 +18,9 @@ const TRIAL_TERMS: usize = 120;
 impl Pool {
     /// An equal expression, no longer than `e` and often shorter.
     pub fn simplify(&mut self, e: Expr) -> Expr {
+        if self.is_stopped() {
+            return e;
+        }
         let mut best = self.simplify_parts(e);
         if self.weight(e) <= TRIAL_LIMIT {
             let expanded = self.expand(e, TRIAL_TERMS);
@@ -112,6 +115,9 @@ impl Pool {
     fn simplify_parts(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
             let rebuilt = self.rebuild(part, &done);
             let joined = self.join_terms(rebuilt);
             let factored = self.factor_out(joined);

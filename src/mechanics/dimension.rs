@@ -16,7 +16,7 @@ use crate::model::Model;
 struct Dimension(BTreeMap<String, i64>);
 
 /// What is made of other units, in halves: g^½ cm^(3/2)/s is the unit of charge of Gauss.
-const MADE: [(&str, &[(&str, i64)]); 10] = [
+const MADE: [(&str, &[(&str, i64)]); 9] = [
     ("N", &[("kg", 2), ("m", 2), ("s", -4)]),
     ("J", &[("kg", 2), ("m", 4), ("s", -4)]),
     ("W", &[("kg", 2), ("m", 4), ("s", -6)]),
@@ -26,8 +26,10 @@ const MADE: [(&str, &[(&str, i64)]); 10] = [
     ("esu", &[("g", 1), ("cm", 3), ("s", -2)]),
     ("statV", &[("g", 1), ("cm", 1), ("s", -2)]),
     ("G", &[("g", 1), ("cm", -1), ("s", -2)]),
-    ("rad", &[]),
 ];
+
+/// The unit of angles, which is 1 and is written only where a quantity is an angle or how fast one changes.
+const ANGLE: &str = "rad";
 
 /// The units of mass and length come first, in this order; then all others, the units of time last.
 const ORDER: [&str; 7] = ["kg", "g", "M☉", "M⊕", "m", "cm", "au"];
@@ -36,6 +38,13 @@ const TIMES: [&str; 5] = ["s", "min", "h", "d", "yr"];
 impl Dimension {
     /// Reads `kg m²/s` or `au³/(M☉ yr²)`.
     fn read(unit: &str) -> Option<Self> {
+        let mut dimension = Self::with_angles(unit)?;
+        dimension.0.remove(ANGLE);
+        Some(dimension)
+    }
+
+    /// The same, with the radian as a unit like others.
+    fn with_angles(unit: &str) -> Option<Self> {
         let mut dimension = Self::default();
         for (place, part) in unit.split('/').enumerate() {
             let part = part.trim().trim_start_matches('(').trim_end_matches(')');
@@ -79,6 +88,14 @@ impl Dimension {
             self.times(base, halves * n / d);
         }
         Some(self)
+    }
+
+    /// Whether it is that of an angle, or of how fast one changes.
+    fn is_of_angle(&self) -> bool {
+        self.0.get(ANGLE) == Some(&2)
+            && self.0.iter().all(|(base, halves)| {
+                base == ANGLE || TIMES.contains(&base.as_str()) && *halves < 0
+            })
     }
 
     /// As it is written, an energy in joule by that name.
@@ -132,7 +149,8 @@ impl Equations {
     pub fn units(&self, model: &Model) -> (String, Vec<String>) {
         let unknown = || (String::new(), vec![String::new(); model.coordinates.len()]);
         let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty());
-        let Some((energy, time)) = self.dimension(model, self.energy).zip(time) else {
+        let read = Dimension::read;
+        let Some((energy, time)) = self.dimension(model, self.energy, read).zip(time) else {
             return unknown();
         };
         if energy == Dimension::default() {
@@ -149,12 +167,18 @@ impl Equations {
 
     /// The unit of any other quantity, empty where it does not follow from those of the file, or where it has none.
     pub fn unit(&self, model: &Model, e: Expr) -> String {
-        let dimension = self.dimension(model, e).filter(|d| *d != Dimension::default());
-        dimension.map_or_else(String::new, |dimension| dimension.named())
+        let angular = self.dimension(model, e, Dimension::with_angles);
+        if let Some(angular) = angular.filter(Dimension::is_of_angle) {
+            return angular.written();
+        }
+        let dimension = self.dimension(model, e, Dimension::read);
+        dimension
+            .filter(|d| *d != Dimension::default())
+            .map_or_else(String::new, |dimension| dimension.named())
     }
 
     /// The dimension of an expression, where it follows from the units of the symbols.
-    fn dimension(&self, model: &Model, e: Expr) -> Option<Dimension> {
+    fn dimension(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
         let mut known: BTreeMap<usize, Option<Dimension>> = BTreeMap::new();
         let mut parts = self.pool.reachable(&[e]);
         parts.sort_unstable();
@@ -162,7 +186,7 @@ impl Equations {
             let of = |e: &Expr| known.get(&e.index()).cloned().flatten();
             let dimension = match self.pool.node(part) {
                 Node::Number(_) | Node::Pi => Some(Dimension::default()),
-                Node::Symbol(symbol) => of_symbol(model, *symbol),
+                Node::Symbol(symbol) => of_symbol(model, *symbol, read),
                 Node::Sum(_, terms) => agreed(terms.iter().map(|(_, e)| of(e))),
                 Node::Product(_, factors) => {
                     factors.iter().try_fold(Dimension::default(), |product, (base, exponent)| {
@@ -184,19 +208,22 @@ impl Equations {
     }
 }
 
+/// How a unit is read.
+type Reader = fn(&str) -> Option<Dimension>;
+
 /// The dimension of a parameter, a coordinate or a velocity.
-fn of_symbol(model: &Model, symbol: Symbol) -> Option<Dimension> {
+fn of_symbol(model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
     if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
-        return Dimension::read(&parameter.unit).filter(|_| !parameter.unit.is_empty());
+        return read(&parameter.unit).filter(|_| !parameter.unit.is_empty());
     }
     let coordinate = |c: &&crate::model::Coordinate| !c.unit.is_empty();
     let mut all = model.coordinates.iter().filter(coordinate);
     if let Some(c) = all.clone().find(|c| c.position == symbol) {
-        return Dimension::read(&c.unit);
+        return read(&c.unit);
     }
     let c = all.find(|c| c.velocity == symbol)?;
     let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty())?;
-    Dimension::read(&c.unit)?.product(&time, (-1, 1))
+    read(&c.unit)?.product(&time, (-1, 1))
 }
 
 /// What all agree on that are known.
@@ -219,6 +246,7 @@ mod tests {
             ("au³/(M☉ yr²)", "au³/(M☉ yr²)"),
             ("rad/s", "1/s"),
             ("rad", "1"),
+            ("kg m² rad/s", "kg m²/s"),
             ("esu statV", "g cm²/s²"),
             ("G", ""),
             ("M⊕ au³/yr²", "M⊕ au³/yr²"),

@@ -89,6 +89,19 @@ impl Catalog {
         &self.entries
     }
 
+    /// The file behind what a user writes, which need not be there; `None` where it is part of the
+    /// program or nothing is called so.
+    pub fn place(&self, wanted: &str) -> Option<PathBuf> {
+        if is_path(wanted) {
+            return Some(PathBuf::from(wanted));
+        }
+        let entry = self.entries.iter().find(|entry| entry.name == wanted)?;
+        match &entry.origin {
+            Origin::User(path) => Some(path.clone()),
+            Origin::Shipped => None,
+        }
+    }
+
     /// The document behind what a user writes: a path if there is a `/` in it or it ends in
     /// `.toml`, else the name of a preset.
     ///

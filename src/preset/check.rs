@@ -25,14 +25,21 @@ use std::collections::BTreeSet;
 use super::Mistakes;
 use super::draft::{Draft, Formula, Law};
 use super::mistake::Mistake;
+use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};
 use names::Names;
 
 /// Checks a draft; `None` where a model cannot even be begun. The model is to be used only if no
 /// mistake was an error.
-pub(super) fn check(file: &str, draft: &Draft, mistakes: &mut Mistakes) -> Option<Model> {
+pub(super) fn check(
+    file: &str,
+    draft: &Draft,
+    cancel: &Cancel,
+    mistakes: &mut Mistakes,
+) -> Option<Model> {
     let mut model = Model::new(&draft.info.title);
+    model.pool.set_cancel(cancel.clone());
     model.info = draft.info.clone();
     let mut check = Check { file, mistakes, model, used: BTreeSet::new() };
     if check.beyond_limits(draft) {

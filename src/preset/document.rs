@@ -4,7 +4,8 @@
 use std::io;
 use std::path::Path;
 
-use super::{Checked, Mistake, TEXT_LIMIT, read, report};
+use super::{Checked, Mistake, TEXT_LIMIT, read_with, report};
+use crate::cancel::Cancel;
 use crate::{file, printable};
 
 /// A preset's text with its name.
@@ -48,14 +49,25 @@ impl Document {
     /// # Errors
     /// Those of opening and reading it; where it is neither.
     pub fn open(path: &Path) -> io::Result<Document> {
+        Ok(Document::of_bytes_read(path, file::read(path, TEXT_LIMIT as u64)?))
+    }
+
+    /// The same of a regular file alone: nothing is waited for.
+    ///
+    /// # Errors
+    /// Those of opening and reading it; where it is no regular file.
+    pub fn open_regular(path: &Path) -> io::Result<Document> {
+        Ok(Document::of_bytes_read(path, file::read_regular(path, TEXT_LIMIT as u64)?))
+    }
+
+    fn of_bytes_read(path: &Path, (bytes, size): (Vec<u8>, u64)) -> Document {
         let shown = printable::path(path);
-        let (bytes, size) = file::read(path, TEXT_LIMIT as u64)?;
         if bytes.len() > TEXT_LIMIT {
             let mut document = Document::new(shown, "");
             document.unreadable = Some(too_long(size));
-            return Ok(document);
+            return document;
         }
-        Ok(Document::from_bytes(shown, &bytes))
+        Document::from_bytes(shown, &bytes)
     }
 
     /// What is wrong with its bytes, before a word of it is read.
@@ -66,11 +78,19 @@ impl Document {
     /// Reads the preset in it.
     ///
     /// # Errors
-    /// All its mistakes, see [`read`].
+    /// All its mistakes, see [`read`](super::read).
     pub fn read(&self) -> Result<Checked, Vec<Mistake>> {
+        self.read_with(&Cancel::new())
+    }
+
+    /// The same, with a token by which this and all that is made of the model can be stopped.
+    ///
+    /// # Errors
+    /// All its mistakes, see [`read`](super::read).
+    pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
         match &self.unreadable {
             Some(mistake) => Err(vec![mistake.clone()]),
-            None => read(&self.text),
+            None => read_with(&self.text, cancel),
         }
     }
 

@@ -2,7 +2,11 @@
 //!
 //! In: a text, values by name. Out: a text. Never here: which values; whether the new text is right.
 
-use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, TomlError, Value, value};
+use std::ops::Range;
+
+use toml_edit::{
+    Array, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError, Value, value,
+};
 
 /// The values to be put into a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,16 +81,66 @@ impl Edition {
         Ok(file.to_string())
     }
 
-    /// The text without what it expects of the motion, which other values need not do.
+    /// The text without those of its expectations that stand at these places; `None` where none does.
     ///
     /// # Errors
     /// Where the text is no TOML.
-    pub fn without_expectations(text: &str) -> Result<String, TomlError> {
+    pub fn without_expectations(
+        text: &str,
+        places: &[Range<usize>],
+    ) -> Result<Option<String>, TomlError> {
+        let at = |span: Option<Range<usize>>| {
+            span.is_some_and(|span| places.iter().any(|place| span.contains(&place.start)))
+        };
+        let parsed = Document::parse(text)?;
+        let lists = parsed.get(EXPECT).and_then(Item::as_table_like).map(TableLike::iter);
+        let mut wrong: Vec<(String, usize)> = Vec::new();
+        for (key, list) in lists.into_iter().flatten() {
+            let found = |(index, there): (usize, bool)| there.then(|| (key.to_owned(), index));
+            match list {
+                Item::Value(Value::Array(list)) => {
+                    let there = list.iter().map(|entry| at(entry.span()));
+                    wrong.extend(there.enumerate().filter_map(found));
+                }
+                Item::ArrayOfTables(list) => {
+                    let there = list.iter().map(|entry| at(entry.span()));
+                    wrong.extend(there.enumerate().filter_map(found));
+                }
+                _ => {}
+            }
+        }
+        if wrong.is_empty() {
+            return Ok(None);
+        }
         let mut file: DocumentMut = text.parse()?;
-        file.remove("expect");
-        Ok(file.to_string())
+        let Some(expect) = file.get_mut(EXPECT).and_then(Item::as_table_like_mut) else {
+            return Ok(None);
+        };
+        for (key, index) in wrong.iter().rev() {
+            let left = match expect.get_mut(key) {
+                Some(Item::Value(Value::Array(list))) => {
+                    list.remove(*index);
+                    list.len()
+                }
+                Some(Item::ArrayOfTables(list)) => {
+                    list.remove(*index);
+                    list.len()
+                }
+                _ => continue,
+            };
+            if left == 0 {
+                expect.remove(key);
+            }
+        }
+        if expect.is_empty() {
+            file.remove(EXPECT);
+        }
+        Ok(Some(file.to_string()))
     }
 }
+
+/// The table of what a file expects of its motion.
+const EXPECT: &str = "expect";
 
 /// The table behind an entry; a value of its own becomes the table's value of this key.
 fn table_in<'a>(entry: &'a mut Item, key: &str) -> &'a mut dyn TableLike {

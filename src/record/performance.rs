@@ -357,6 +357,11 @@ impl Performance {
         drawn
     }
 
+    /// Holds time, or lets it go on: what is shown says so.
+    pub fn hold(&mut self, held: bool) {
+        self.lab.app.held = held;
+    }
+
     /// The screen as it would be drawn now.
     pub fn picture(&self, look: &Look) -> Buffer {
         let area = Rect::from(self.size);

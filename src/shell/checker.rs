@@ -1,7 +1,7 @@
 //! The checker: from a text being edited to an experiment, on a thread of its own, so that no key waits for it.
 //!
-//! In: a text. Out: what was made of it, or its mistakes, and how long that took. One text at a time; who asks waits
-//! for the answer before the next. Never here: the stages themselves.
+//! In: a text. Out: what was made of it, or its mistakes, and how long that took. One text at a time: the next one stops
+//! the one before. Never here: the stages themselves.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -9,6 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::loader::{STACK, defect};
+use crate::cancel::Cancel;
 use crate::experiment::Ready;
 use crate::preset::{Document, Mistake};
 
@@ -17,6 +18,8 @@ use crate::preset::{Document, Mistake};
 pub(super) struct Checker {
     sender: Sender<Answer>,
     receiver: Receiver<Answer>,
+    /// Stops the check under way, of that number.
+    cancel: Option<(u64, Cancel)>,
 }
 
 /// What became of a text.
@@ -33,15 +36,29 @@ impl Checker {
     /// A checker with nothing to do.
     pub(super) fn new() -> Self {
         let (sender, receiver) = channel();
-        Self { sender, receiver }
+        Self { sender, receiver, cancel: None }
     }
 
-    /// Begins to check a text.
-    pub(super) fn check(&self, ticket: u64, document: Document) {
+    /// The check under way is no longer wanted.
+    pub(super) fn stop(&mut self) {
+        if let Some((_, cancel)) = self.cancel.take() {
+            cancel.cancel();
+        }
+    }
+
+    /// Begins to check a text, and stops the check before.
+    pub(super) fn check(&mut self, ticket: u64, document: Document) {
+        self.stop();
+        let cancel = Cancel::new();
+        self.cancel = Some((ticket, cancel.clone()));
         let sender = self.sender.clone();
         let begun = Instant::now();
         let work = move || {
-            let made = catch_unwind(AssertUnwindSafe(|| Ready::of(&document)));
+            let made = catch_unwind(AssertUnwindSafe(|| Ready::with(&document, &cancel)));
+            if cancel.is_cancelled() {
+                // nobody waits for it, and it is large
+                return;
+            }
             let outcome = match made {
                 Ok(Ok(ready)) => Ok(Box::new(ready)),
                 Ok(Err(unready)) => Err(unready.mistakes),
@@ -61,7 +78,16 @@ impl Checker {
     }
 
     /// An answer, once it is there.
-    pub(super) fn take(&self) -> Option<Answer> {
-        self.receiver.try_recv().ok()
+    pub(super) fn take(&mut self) -> Option<Answer> {
+        let answer = self.receiver.try_recv().ok()?;
+        // the token is the system's from now on
+        self.cancel.take_if(|(ticket, _)| *ticket == answer.ticket);
+        Some(answer)
+    }
+}
+
+impl Drop for Checker {
+    fn drop(&mut self) {
+        self.stop();
     }
 }

@@ -11,6 +11,7 @@ use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
 
 use super::options::{Choice, Kind, NAMES, OPTIONS, Options};
+use super::regular;
 use crate::preset::{Document, Mistake, Plain, Setting};
 
 /// Where the configuration stands, whether it is there or not; `None` without a home.
@@ -24,7 +25,7 @@ pub fn path() -> Option<PathBuf> {
 /// Where it is there and cannot be read.
 pub fn find() -> io::Result<Option<Document>> {
     let Some(path) = path() else { return Ok(None) };
-    match Document::open(&path) {
+    match regular::document(&path) {
         Ok(document) => Ok(Some(document)),
         Err(error) => match error.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Ok(None),

@@ -54,6 +54,7 @@ impl Page for Demo {
             Input::Key(Key { code: Code::Char('q') | Code::Esc, .. }) => Wish::Quit,
             Input::Key(Key { code: Code::Char(' '), .. }) => {
                 self.held = !self.held;
+                self.performance.hold(self.held);
                 Wish::Nothing
             }
             _ => Wish::Nothing,

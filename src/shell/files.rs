@@ -8,6 +8,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use super::regular;
 use super::whole::Whole;
 use crate::app::NotSaved;
 use crate::preset::{Catalog, TEXT_LIMIT, is_path};
@@ -18,14 +19,21 @@ const LOOKS: Duration = Duration::from_millis(500);
 /// Writes a text over a file, if that still holds what is known of it. Returns the file.
 pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), NotSaved> {
     if let Some(known) = known {
-        match fs::read(place) {
+        match regular::read(place, TEXT_LIMIT) {
             Ok(bytes) if bytes != known.as_bytes() => return Err(NotSaved::Changed),
+            Err(error) if error.kind() == io::ErrorKind::FileTooLarge => {
+                return Err(NotSaved::Changed);
+            }
             // a file that is gone is written anew
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 return Err(refused("read", place, &error));
             }
             _ => {}
         }
+    }
+    if fs::metadata(place).is_ok_and(|about| about.permissions().readonly()) {
+        let told = format!("{} is read-only, and stays as it is", place.display());
+        return Err(NotSaved::Refused(told));
     }
     write_whole(place, text.as_bytes()).map_err(|error| refused("write", place, &error))
 }
@@ -58,13 +66,15 @@ fn refused(what: &str, place: &Path, error: &io::Error) -> NotSaved {
     NotSaved::Refused(format!("cannot {what} {}: {error}", place.display()))
 }
 
-/// The text of a file, `None` where it cannot be read now or is no text.
-pub(super) fn read(place: &Path) -> Option<String> {
-    let size = fs::metadata(place).ok()?.len();
-    if size > TEXT_LIMIT as u64 {
-        return None;
-    }
-    fs::read_to_string(place).ok()
+/// The text of a file.
+///
+/// # Errors
+/// Where it cannot be read now, is no file, no text or too long; the error names the file.
+pub(super) fn read(place: &Path) -> io::Result<String> {
+    regular::read_text(place, TEXT_LIMIT).map_err(|error| {
+        let told = format!("cannot read {}: {error}", place.display());
+        io::Error::new(error.kind(), told)
+    })
 }
 
 /// A file that is looked at now and then.
@@ -93,13 +103,19 @@ const GONE: u32 = 2;
 type Stamp = (u64, Option<SystemTime>, u64);
 
 impl Watch {
+    /// A file is about to be read: what becomes of it from now on is news.
+    pub(super) fn follow(&mut self, place: &Path) {
+        let stamp = stamp(place);
+        *self = Self { place: Some(place.to_owned()), stamp, since: LOOKS, missed: 0 };
+    }
+
     /// Time has passed: what has become of the file since it was looked at last, each once.
     pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<News> {
         if self.place.as_deref() != Some(place) {
             let place = place.to_owned();
             *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
             // it may have changed between its loading and now
-            let text = read(self.place.as_deref()?)?;
+            let text = read(self.place.as_deref()?).ok()?;
             return Some(News::Text { text, back: false });
         }
         self.since = self.since.saturating_sub(elapsed);
@@ -116,14 +132,15 @@ impl Watch {
             self.missed = 0;
             return None;
         }
-        let text = read(place)?;
+        let text = read(place).ok()?;
         (self.stamp, self.missed) = (Some(stamp), 0);
         Some(News::Text { text, back })
     }
 }
 
+/// `None` where there is no file.
 fn stamp(place: &Path) -> Option<Stamp> {
-    let about: Metadata = fs::metadata(place).ok()?;
+    let about: Metadata = fs::metadata(place).ok().filter(Metadata::is_file)?;
     Some((about.len(), about.modified().ok(), about.ino()))
 }
 

@@ -9,6 +9,8 @@ use std::io::{self, Write};
 use std::mem;
 use std::path::{Path, PathBuf};
 
+use rustix::process::{Pid, test_kill_process};
+
 use super::partial;
 use super::whole::sync_folder;
 use crate::printable;
@@ -29,6 +31,36 @@ pub(super) struct Fresh {
 /// What a file without a line is called.
 pub(super) const NOTHING: &str = "nothing";
 
+/// What the name of an unfinished file ends in.
+const PARTIAL: &str = ".partial";
+
+/// Unfinished files in a folder whose writers have ended, killed or without power.
+pub(super) fn left_behind(folder: &Path) -> Vec<PathBuf> {
+    let listing = fs::read_dir(folder).into_iter().flatten().take(LOOKED_AT).flatten();
+    let mut left: Vec<PathBuf> = listing
+        .filter(|entry| entry.file_name().to_str().and_then(writer).is_some_and(has_ended))
+        .map(|entry| entry.path())
+        .collect();
+    left.sort();
+    left
+}
+
+/// No more files of a folder are looked at: it may be large, and this is a courtesy.
+const LOOKED_AT: usize = 10_000;
+
+/// The process that fills a file of this name, if it is one that is being filled.
+fn writer(name: &str) -> Option<Pid> {
+    let name = name.strip_prefix('.')?.strip_suffix(PARTIAL)?;
+    // behind the name: the process, with a number that tells its files apart
+    let (_, process) = name.rsplit_once('.')?;
+    let process = process.split_once('-').map_or(process, |(process, _)| process);
+    process.parse().ok().and_then(Pid::from_raw)
+}
+
+fn has_ended(process: Pid) -> bool {
+    test_kill_process(process) == Err(rustix::io::Errno::SRCH)
+}
+
 /// How many names are tried.
 const NAMES: u32 = 10_000;
 
@@ -41,7 +73,8 @@ impl Fresh {
         Fresh::within(Path::new(""), stem, ending)
     }
 
-    fn within(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Fresh> {
+    /// The same in another folder.
+    pub(super) fn within(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Fresh> {
         let stem = plain(stem);
         let place = folder.join(format!("{stem}.{ending}"));
         let (file, partial) =
@@ -49,13 +82,16 @@ impl Fresh {
         Ok(Fresh { file, pending: Vec::new(), whole: 0, partial, stem, ending })
     }
 
+    /// Waits until the disk has what was written.
+    pub(super) fn sync(&mut self) -> io::Result<()> {
+        self.settle()?;
+        self.file.sync_all().map_err(|why| self.told(&why))
+    }
+
     /// Gives it its name, which is returned. Where not all of it can be written it holds the whole lines that were, and the
     /// error says so; only a file without a line is none.
     pub(super) fn finish(mut self) -> io::Result<String> {
-        let written = self.settle().and_then(|()| {
-            let name = PathBuf::from(format!("{}.{}", self.stem, self.ending));
-            self.file.sync_all().map_err(|why| told(&name, &why))
-        });
+        let written = self.sync();
         if self.whole == 0 {
             return written.map(|()| NOTHING.to_owned());
         }
@@ -102,7 +138,12 @@ impl Fresh {
         self.whole += lines as u64;
         // the error that matters is the one on its way
         let _ = self.file.set_len(self.whole);
-        Err(told(&PathBuf::from(format!("{}.{}", self.stem, self.ending)), &why))
+        Err(self.told(&why))
+    }
+
+    /// The error with the name that it was to have.
+    fn told(&self, why: &io::Error) -> io::Error {
+        told(&PathBuf::from(format!("{}.{}", self.stem, self.ending)), why)
     }
 
     /// Gives it the first name that is free.
@@ -171,6 +212,41 @@ fn told(path: &Path, why: &io::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_planted_link_is_not_followed() {
+        // under the name that was once foreseeable
+        let folder = tempfile::tempdir().expect("a folder");
+        let kept = folder.path().join("kept");
+        fs::write(&kept, "one").expect("written");
+        let partial = format!(".a.{}-1.svg.partial", std::process::id());
+        std::os::unix::fs::symlink(&kept, folder.path().join(partial)).expect("a link");
+        let mut file = Fresh::within(folder.path(), "a", "svg").expect("begun");
+        file.write_all(b"two\n").expect("written");
+        file.finish().expect("finished");
+        assert_eq!(fs::read_to_string(&kept).expect("it is there"), "one");
+        assert_eq!(fs::read_to_string(folder.path().join("a.svg")).expect("it is there"), "two\n");
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        // no process has so large a number
+        let dead = i32::MAX;
+        let names = [
+            format!(".a.b.cast.{dead}-0123456789abcdef.partial"),
+            format!(".c.toml.{dead}.partial"),
+            format!(".d.cast.{}-0123456789abcdef.partial", std::process::id()),
+            "e.cast".to_owned(),
+            ".f.cast.partial".to_owned(),
+        ];
+        for name in &names {
+            fs::write(folder.path().join(name), "").expect("written");
+        }
+        let found = left_behind(folder.path());
+        let found: Vec<_> = found.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+        assert_eq!(found, [&names[0], &names[1]]);
+    }
 
     #[test]
     fn nothing_is_written_over() {

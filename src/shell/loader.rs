@@ -1,7 +1,7 @@
 //! The loader: from a name to an experiment, on a thread of its own.
 //!
 //! In: what to open. Out: everything that was made of it, once, or why it could not be. What was asked for before the
-//! newest is dropped when it comes. Never here: the stages themselves.
+//! newest is stopped. Never here: the stages themselves.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,7 +9,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
+use super::regular;
 use crate::app::LoadFailure;
+use crate::cancel::Cancel;
 use crate::experiment::Ready;
 use crate::preset::Catalog;
 
@@ -23,6 +25,8 @@ pub(super) struct Loader {
     newest: u64,
     sender: Sender<(u64, Outcome)>,
     receiver: Receiver<(u64, Outcome)>,
+    /// Stops what is being loaded.
+    cancel: Option<Cancel>,
 }
 
 /// What was asked for and what was made of it.
@@ -32,17 +36,31 @@ impl Loader {
     /// A loader that knows these presets.
     pub(super) fn new(catalog: Arc<Catalog>) -> Self {
         let (sender, receiver) = channel();
-        Self { catalog, newest: 0, sender, receiver }
+        Self { catalog, newest: 0, sender, receiver, cancel: None }
     }
 
-    /// Begins to load a preset or file; what is still being loaded is no longer wanted.
-    pub(super) fn load(&mut self, name: String) {
+    /// What is being loaded is no longer wanted.
+    pub(super) fn stop(&mut self) {
         self.newest += 1;
+        if let Some(cancel) = self.cancel.take() {
+            cancel.cancel();
+        }
+    }
+
+    /// Begins to load a preset or file, and stops what is still being loaded.
+    pub(super) fn load(&mut self, name: String) {
+        self.stop();
+        let cancel = Cancel::new();
+        self.cancel = Some(cancel.clone());
         let (ticket, sender, catalog) =
             (self.newest, self.sender.clone(), Arc::clone(&self.catalog));
         let failed = LoadFailure { name: name.clone(), message: String::new() };
         let work = move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| prepare(&catalog, &name)));
+            let outcome = catch_unwind(AssertUnwindSafe(|| prepare(&catalog, &name, &cancel)));
+            if cancel.is_cancelled() {
+                // nobody waits for it, and it is large
+                return;
+            }
             let outcome = outcome.unwrap_or_else(|panic| Err(defect(panic.as_ref())));
             let outcome = match outcome {
                 Ok(ready) => Ok((name, Box::new(ready))),
@@ -62,13 +80,22 @@ impl Loader {
     /// What was asked for last, once it is there.
     pub(super) fn take(&mut self) -> Option<Outcome> {
         let newest = self.newest;
-        self.receiver.try_iter().find(|(ticket, _)| *ticket == newest).map(|(_, outcome)| outcome)
+        let (_, outcome) = self.receiver.try_iter().find(|(ticket, _)| *ticket == newest)?;
+        // the token is the system's from now on
+        self.cancel = None;
+        Some(outcome)
     }
 }
 
-fn prepare(catalog: &Catalog, name: &str) -> Result<Ready, String> {
-    let document = catalog.find(name).map_err(|why| why.to_string())?;
-    Ready::of(&document).map_err(|unready| unready.report)
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Ready, String> {
+    let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
+    Ready::with(&document, cancel).map_err(|unready| unready.report)
 }
 
 /// What is told of a panic of a stage.

@@ -2,41 +2,26 @@
 //!
 //! In: a name and bytes. Out: the path it was given. Never here: what is in them.
 
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// How many files of one name there may be.
-const MOST: u32 = 9999;
+use super::fresh::Fresh;
 
-/// Writes `heavy-top.toml` or, where there is one, `heavy-top-2.toml`, …
+/// Writes `heavy-top.toml` or, where there is one, `heavy-top-2.toml`, … and returns its path.
 ///
 /// # Errors
 /// Where it cannot be written; the error names the file, and nothing is left of it.
-pub(super) fn put(folder: &Path, stem: &str, ending: &str, bytes: &[u8]) -> io::Result<PathBuf> {
-    for count in 1..=MOST {
-        let name = match count {
-            1 => format!("{stem}.{ending}"),
-            n => format!("{stem}-{n}.{ending}"),
-        };
-        let path = folder.join(name);
-        let named = |error: io::Error| {
-            io::Error::new(error.kind(), format!("cannot write {}: {error}", path.display()))
-        };
-        match File::create_new(&path) {
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(named(error)),
-            Ok(mut file) => {
-                let written = file.write_all(bytes).and_then(|()| file.sync_all());
-                return written.map(|()| path.clone()).map_err(|error| {
-                    // The error that matters is the one on its way.
-                    let _ = fs::remove_file(&path);
-                    named(error)
-                });
-            }
-        }
-    }
-    Err(io::Error::other(format!("there are {MOST} files called {stem}.{ending} already")))
+pub(super) fn put(
+    folder: &Path,
+    stem: &str,
+    ending: &'static str,
+    bytes: &[u8],
+) -> io::Result<PathBuf> {
+    let mut file = Fresh::within(folder, stem, ending)?;
+    file.write_all(bytes)?;
+    // not finished before it is whole, or it would get its name all the same
+    file.sync()?;
+    Ok(folder.join(file.finish()?))
 }
 
 /// What files made of a preset or file are called: its name without folders and ending.
@@ -46,6 +31,8 @@ pub(super) fn stem(name: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -56,13 +56,15 @@ impl Recorder {
         self.cast.output(now, &String::from_utf8_lossy(&bytes))
     }
 
-    /// Ends the cast; its name. What cannot be written ends it before, and the error says under which name it is kept.
-    pub(super) fn end(mut self) -> io::Result<String> {
+    /// Ends the cast; its name. What cannot be written ends it before, and the error says under which name it is kept. `on_disk`
+    /// waits until the disk has all of it.
+    pub(super) fn end(mut self, on_disk: bool) -> io::Result<String> {
         let (now, size) = (self.now(), (self.size.width, self.size.height));
         // what goes wrong here goes wrong again when the file is finished, if that is not all there is of it
         let ended = self.cast.end(now, size);
-        let finished = self.cast.into_inner().finish();
-        match (ended, finished) {
+        let mut file = self.cast.into_inner();
+        let synced = if on_disk { file.sync() } else { Ok(()) };
+        match (ended.and(synced), file.finish()) {
             (Err(why), Ok(name)) => {
                 Err(io::Error::new(why.kind(), format!("{why}; {name} holds what came before")))
             }

@@ -13,7 +13,9 @@ use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
 use super::files::{self, News, Watch};
+use super::fresh;
 use super::input::Input;
+use super::job::{Job, Told};
 use super::loader::Loader;
 use super::log::Log;
 use super::product;
@@ -24,8 +26,8 @@ use super::store::{NoStore, Store};
 use crate::app::{
     Act, App, Checked, Effect, Event, LoadFailure, Loaded, Mouse, Notice, Saved, Unsaved,
 };
-use crate::experiment::{Export, Ready, Status};
-use crate::preset::{Catalog, Document, is_path};
+use crate::experiment::{Export, Ready, Snapshot, Status};
+use crate::preset::{Catalog, Document, Origin, is_path};
 use crate::record::{data, plain, still};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -45,8 +47,12 @@ pub(super) struct Session {
     /// The system's file, where it is to be watched.
     watch: Option<Watch>,
     store: Option<Store>,
-    /// Since the session was last saved.
-    unsaved: Duration,
+    /// Since the session was last saved, the texts were, and the place of another program was looked at.
+    since: Since,
+    /// The state of the texts when they were kept last.
+    kept_texts: u64,
+    /// The file being written that a key asked for.
+    job: Job,
     /// Told once more when the first system is there, for its loading ends what was told before.
     warning: Option<String>,
     /// What happens is written there.
@@ -68,8 +74,25 @@ pub(super) struct Left {
     pub(super) kept: io::Result<()>,
 }
 
-/// How often the session is saved while the laboratory is open.
+/// How often the session is saved while the laboratory is open, how soon a text that is typed, and how often it is
+/// looked whether another program that saves its session has ended.
 const SAVING: Duration = Duration::from_secs(15);
+const TEXTS: Duration = Duration::from_secs(1);
+const TAKING_OVER: Duration = Duration::from_secs(1);
+
+/// How long the disk is waited for at the end: without a hurry; where texts are not saved, which nothing could make
+/// again; else.
+const UNHURRIED: Duration = Duration::from_secs(10);
+const FOR_TEXTS: Duration = Duration::from_millis(1200);
+const HURRIED: Duration = Duration::from_millis(100);
+
+/// Times since something was done.
+#[derive(Debug, Default)]
+struct Since {
+    saved: Duration,
+    texts: Duration,
+    looked: Duration,
+}
 
 impl Session {
     /// The laboratory, opened at a preset or file, or at the picker.
@@ -87,7 +110,7 @@ impl Session {
         app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
         app.theme = Some(look.theme.palette().name);
         let loader = Loader::new(Arc::new(catalog));
-        let (detail, store, unsaved) = (Detail::default(), None, Duration::ZERO);
+        let (detail, store) = (Detail::default(), None);
         let watch = request.watch.then(Watch::default);
         let (worker, checker) = (Worker::idle()?, Checker::new());
         let mut session = Self {
@@ -99,7 +122,9 @@ impl Session {
             checker,
             watch,
             store,
-            unsaved,
+            since: Since::default(),
+            kept_texts: 0,
+            job: Job::default(),
             warning: None,
             log,
             fault: None,
@@ -119,17 +144,26 @@ impl Session {
     /// Keeps the session in a store from now on, and takes the texts up that are kept there; `open` is what was asked
     /// for. What is not kept the user is told.
     pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>, open: Option<&str>) {
-        let troubles = match store {
+        let mut troubles = match store {
             Err(why) => vec![why.to_string()],
             Ok(mut store) => {
-                let texts = store.texts().iter().cloned();
-                self.app.workbench.put(texts.map(|text| called(text, open)).collect());
-                self.app.workbench.keeps = store.place_of_texts().is_some();
+                self.take_texts(store.texts().to_vec(), open);
+                self.app.workbench.keeps = store.keeps_texts();
                 let troubles = std::mem::take(&mut store.troubles);
                 self.store = Some(store);
                 troubles
             }
         };
+        let left = fresh::left_behind(Path::new("."));
+        if let Some(first) = left.first() {
+            let more = if left.len() > 1 {
+                format!(" and {} more", left.len() - 1)
+            } else {
+                String::new()
+            };
+            let first = first.strip_prefix(".").unwrap_or(first).display();
+            troubles.push(format!("unfinished files were left here: {first}{more}"));
+        }
         if !troubles.is_empty() {
             let told = troubles.join("; ");
             self.app.notice = Some(Notice::error(&told));
@@ -137,22 +171,50 @@ impl Session {
         }
     }
 
-    /// Saves the session as it is now, and the texts that are not saved.
-    pub(super) fn keep(&mut self) -> io::Result<()> {
-        self.unsaved = Duration::ZERO;
+    /// Takes texts up that were kept, each called as its system is here.
+    fn take_texts(&mut self, texts: Vec<Unsaved>, open: Option<&str>) {
+        let own = self.app.picker.entries.iter().filter_map(|entry| match &entry.origin {
+            Origin::User(path) => Some((entry.name.as_str(), path.as_path())),
+            Origin::Shipped => None,
+        });
+        let open = open.filter(|open| is_path(open)).map(|open| (open, Path::new(open)));
+        let names: Vec<_> = open.into_iter().chain(own).collect();
+        let texts = texts.into_iter().map(|text| called(text, &names)).collect();
+        self.app.workbench.put(texts);
+    }
+
+    /// Has the session saved as it is now, and the texts that are not saved; nobody waits for the disk.
+    fn keep(&mut self, last: bool) -> io::Result<()> {
+        self.since = Since::default();
         if let Some(snapshot) = self.worker.newest() {
             self.update(Event::Snapshot(snapshot));
         }
+        self.keep_texts(last);
         let Some(store) = &mut self.store else { return Ok(()) };
-        // one whose place cannot be told is kept by the name it has
-        let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
-        let texts = store.keep_texts(self.app.unsaved().into_iter().map(place).collect());
-        self.app.workbench.keeps = texts.is_ok() && store.place_of_texts().is_some();
         if let Some(mut saved) = self.app.saved() {
             saved.open = absolute(saved.open)?;
-            store.save(&saved)?;
+            store.save(saved);
         }
-        texts
+        Ok(())
+    }
+
+    /// Has the texts kept that are not saved.
+    fn keep_texts(&mut self, last: bool) {
+        self.since.texts = Duration::ZERO;
+        self.kept_texts = self.app.workbench.revision();
+        let Some(store) = &mut self.store else { return };
+        // one whose place cannot be told is kept by the name it has
+        let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
+        store.keep_texts(self.app.unsaved().into_iter().map(place).collect(), last);
+    }
+
+    /// The same, and waits for the disk no longer than that.
+    fn keep_within(&mut self, time: Duration) -> io::Result<()> {
+        self.keep(true)?;
+        let Some(store) = &mut self.store else { return Ok(()) };
+        let first = store.settle(time).into_iter().next();
+        self.app.workbench.keeps = store.keeps_texts();
+        first.map_or(Ok(()), Err)
     }
 
     /// Whether the program may end: not where a text would be lost by it, before that was told.
@@ -160,7 +222,7 @@ impl Session {
         if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
             return true;
         }
-        if let Err(error) = self.keep() {
+        if let Err(error) = self.keep_within(UNHURRIED) {
             self.log.error(error);
         }
         if !self.app.workbench.keeps {
@@ -169,18 +231,47 @@ impl Session {
         self.app.workbench.keeps
     }
 
-    /// Saves the session now and then. What goes wrong is told once; it will go wrong again at the end.
+    /// Has the session and the texts saved now and then. What goes wrong is told once; it will go wrong again at the end.
     fn keep_now_and_then(&mut self, elapsed: Duration) {
-        self.unsaved = self.unsaved.saturating_add(elapsed);
-        if self.unsaved >= SAVING
-            && let Err(error) = self.keep()
-        {
+        let since = &mut self.since;
+        for time in [&mut since.saved, &mut since.texts, &mut since.looked] {
+            *time = time.saturating_add(elapsed);
+        }
+        if self.since.looked >= TAKING_OVER {
+            self.since.looked = Duration::ZERO;
+            self.take_over();
+        }
+        let mut errors = Vec::new();
+        if self.since.saved >= SAVING {
+            errors.extend(self.keep(false).err());
+        } else if self.since.texts >= TEXTS && self.kept_texts != self.app.workbench.revision() {
+            self.keep_texts(false);
+        }
+        if let Some(store) = &mut self.store {
+            errors.extend(store.errors());
+            self.app.workbench.keeps = store.keeps_texts();
+        }
+        if let Some(error) = errors.first() {
             let told = error.to_string();
             if self.warning.as_ref() != Some(&told) {
                 self.app.notice = Some(Notice::error(&told));
                 self.warning = Some(told);
             }
         }
+    }
+
+    /// Saves the session from now on where another program did that and has ended.
+    fn take_over(&mut self) {
+        let Some(store) = &mut self.store else { return };
+        let Some(texts) = store.take_over() else { return };
+        let troubles = std::mem::take(&mut store.troubles);
+        let mut told = vec!["The other phaselab has ended; this one saves the session now.".into()];
+        told.extend(troubles);
+        self.log.info(told.join(" "));
+        self.app.notice = Some(Notice::info(told.join(" ")));
+        self.warning = None;
+        self.take_texts(texts, None);
+        self.keep_texts(false);
     }
 
     fn update(&mut self, event: Event) -> Wish {
@@ -199,13 +290,14 @@ impl Session {
                 }
                 Effect::Load(name) => {
                     self.log.info(format!("load {name}"));
+                    if let Some(watch) = self.watch.as_mut().filter(|_| is_path(&name)) {
+                        watch.follow(Path::new(&name));
+                    }
                     self.loader.load(name);
                 }
-                Effect::Export => {
-                    let written = self.export();
-                    self.log.info(format!("export {written:?}"));
-                    self.app.update(Event::Written(written));
-                }
+                Effect::StopLoading => self.loader.stop(),
+                Effect::StopCheck => self.checker.stop(),
+                Effect::Export => self.export(),
                 Effect::Check { ticket, title, text } => {
                     self.checker.check(ticket, Document::new(title, text));
                 }
@@ -218,21 +310,18 @@ impl Session {
                     self.update(Event::FileSaved(saved.map(|place| (place, text))));
                 }
                 Effect::Reread(place) => match files::read(&place) {
-                    Some(text) => {
+                    Ok(text) => {
                         self.update(Event::FileRead { text, asked: true });
                     }
-                    None => {
-                        let told = format!("cannot read {}", place.display());
-                        self.app.notice = Some(Notice::error(told));
-                    }
+                    Err(why) => self.app.notice = Some(Notice::error(why.to_string())),
                 },
                 Effect::Repaint => wish = Wish::Repaint,
                 Effect::Frames(count) => wish = Wish::Frames(count),
                 Effect::Mouse(on) => wish = Wish::Mouse(on),
-                Effect::Still => self.tell_of(Session::still),
-                Effect::Data => self.tell_of(Session::data),
+                Effect::Still => self.still(),
+                Effect::Data => self.data(),
                 Effect::Record(true) => self.record(),
-                Effect::Record(false) => self.tell_of(Session::end_recording),
+                Effect::Record(false) => self.end_recording(),
                 Effect::Suspend => wish = Wish::Suspend,
                 Effect::Quit if self.may_end() => return Wish::Quit,
                 Effect::Quit => {}
@@ -241,20 +330,52 @@ impl Session {
         wish
     }
 
-    /// Writes the present as a file of a system; a sentence on it.
-    fn export(&mut self) -> Result<String, String> {
-        let lab = self.app.lab.as_ref().ok_or("there is no system to write")?;
-        let snapshot = lab.seen().ok_or("the system was not seen in motion yet")?;
-        let Loaded { name, document, model, system, .. } = &lab.loaded;
-        let Export { text, missing } = Export::of(document, (model, system), snapshot)?;
-        let path = product::put(Path::new("."), product::stem(name), "toml", text.as_bytes());
-        let path = path.map_err(|error| error.to_string())?;
-        let path = path.strip_prefix(".").unwrap_or(&path);
-        Ok([vec![format!("{} is written.", path.display())], missing].concat().join(" "))
+    /// Writes the present as a file of a system.
+    fn export(&mut self) {
+        let Some((loaded, snapshot)) = self.seen() else {
+            return self.told(Err("There is no motion here to write down.".to_owned()));
+        };
+        self.write_file(move || {
+            let Loaded { name, document, model, system, .. } = &loaded;
+            let export = Export::of(document, (model, system), &snapshot)?;
+            let Export { text, missing } = export.with_what_holds(document)?;
+            let written = put(product::stem(name), "toml", text.as_bytes())?;
+            Ok([vec![written], missing].concat().join(" "))
+        });
+    }
+
+    /// The system in the lab and its newest snapshot.
+    fn seen(&self) -> Option<(Loaded, Arc<Snapshot>)> {
+        let lab = self.app.lab.as_ref()?;
+        lab.seen()?;
+        Some((lab.loaded.clone(), Arc::clone(lab.snapshot.as_ref()?)))
+    }
+
+    /// Has a file written that a key asked for; what becomes of it is told.
+    fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
+        if let Err(why) = self.job.begin(work) {
+            self.told(Err(why));
+        }
+    }
+
+    /// Tells what became of a file.
+    fn told(&mut self, told: Told) {
+        self.log.info(format!("{told:?}"));
+        self.app.update(Event::Written(told));
     }
 
     /// Looks at the file of the system in the lab; whether it has changed.
     fn watch(&mut self, elapsed: Duration) -> bool {
+        if let Some(watch) = &mut self.watch
+            && let Some(name) = self.app.loading().filter(|name| is_path(name))
+        {
+            // what is being loaded is no longer what stands there
+            if let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) {
+                self.log.info(format!("load {name} again"));
+                self.loader.load(name.to_owned());
+            }
+            return false;
+        }
         if let Some(watch) = &mut self.watch
             && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
         {
@@ -313,18 +434,6 @@ impl Session {
         }
     }
 
-    /// Writes a file, and tells its name or why there is none.
-    fn tell_of(&mut self, write: fn(&mut Session) -> io::Result<String>) {
-        let written = write(self).map(|name| format!("{name} is written."));
-        self.app.update(Event::Written(written.map_err(|why| why.to_string())));
-    }
-
-    /// Writes a file about the present into the current folder; its name.
-    fn put(&self, ending: &str, bytes: &[u8]) -> io::Result<String> {
-        let path = product::put(Path::new("."), product::stem(&self.stem()), ending, bytes)?;
-        Ok(path.strip_prefix(".").unwrap_or(&path).display().to_string())
-    }
-
     /// What files are called that are written about the present.
     fn stem(&self) -> String {
         self.app.lab.as_ref().map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.name.clone())
@@ -336,25 +445,30 @@ impl Session {
     }
 
     /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
-    fn still(&mut self) -> io::Result<String> {
+    fn still(&mut self) {
         let palette = self.palette();
         let look = Look { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
         let area = Rect::from(self.size);
         let mut screen = Buffer::empty(area);
         view::draw(&self.app, &look, area, &mut screen);
         plain(&mut screen);
-        let drawing = still::write(&screen, palette, still::Form::Svg, &self.title());
-        self.put("svg", drawing.as_bytes())
+        let (stem, title) = (self.stem(), self.title());
+        self.write_file(move || {
+            let drawing = still::write(&screen, palette, still::Form::Svg, &title);
+            put(product::stem(&stem), "svg", drawing.as_bytes())
+        });
     }
 
     /// The rows that are recorded of the motion.
-    fn data(&mut self) -> io::Result<String> {
-        let seen = self.app.lab.as_ref().and_then(|lab| Some((&lab.loaded, lab.seen()?)));
-        let (loaded, snapshot) =
-            seen.ok_or_else(|| io::Error::other("there is no motion here to write down"))?;
-        let mut table = Vec::new();
-        data::write(loaded, snapshot, &mut table)?;
-        self.put("csv", &table)
+    fn data(&mut self) {
+        let Some((loaded, snapshot)) = self.seen() else {
+            return self.told(Err("There is no motion here to write down.".to_owned()));
+        };
+        self.write_file(move || {
+            let mut table = Vec::new();
+            data::write(&loaded, &snapshot, &mut table).map_err(|why| why.to_string())?;
+            put(product::stem(&loaded.name), "csv", &table)
+        });
     }
 
     /// Begins to record; where that cannot be it is told, and nothing is recorded.
@@ -375,21 +489,18 @@ impl Session {
         self.app.notice = Some(Notice::error(format!("{told}.")));
     }
 
-    /// Ends a recording; its name.
-    fn end_recording(&mut self) -> io::Result<String> {
+    /// Ends a recording, and tells its name.
+    fn end_recording(&mut self) {
         self.app.recording = false;
-        let recorder = self.recorder.take();
-        recorder.map_or_else(|| Ok("nothing".to_owned()), Recorder::end)
-    }
-
-    /// Ends a recording on the way out, if there is one.
-    fn finish_recording(&mut self) -> io::Result<()> {
-        self.recorder.take().map_or(Ok(()), |recorder| recorder.end().map(|_| ()))
+        if let Some(recorder) = self.recorder.take() {
+            let end = move || recorder.end(true).map_err(|why| why.to_string());
+            self.write_file(move || end().map(|name| format!("{name} is written.")));
+        }
     }
 
     /// What became of the recording and of the session when it ended; writes both down if that was not done yet.
     pub(super) fn left(&mut self) -> Left {
-        self.last_words();
+        self.last_words(true);
         self.left.take().unwrap_or(Left { recorded: Ok(()), kept: Ok(()) })
     }
 
@@ -418,6 +529,12 @@ impl Session {
     }
 }
 
+/// Writes a file about the present into the current folder; a sentence on it.
+fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> Told {
+    let path = product::put(Path::new(""), stem, ending, bytes).map_err(|why| why.to_string())?;
+    Ok(format!("{} is written.", path.display()))
+}
+
 /// A name that means the same wherever the program is started next.
 fn absolute(name: String) -> io::Result<String> {
     if !is_path(&name) {
@@ -426,17 +543,39 @@ fn absolute(name: String) -> io::Result<String> {
     Ok(std::path::absolute(&name)?.display().to_string())
 }
 
-/// A text with names that mean the same wherever the program is started next.
-fn placed(text: Unsaved) -> io::Result<Unsaved> {
-    let place = text.place.map(std::path::absolute).transpose()?;
-    Ok(Unsaved { name: absolute(text.name)?, place, ..text })
+/// The one path of a file, whatever it is called: without links, also where there is no file now.
+fn identity(path: &Path) -> io::Result<PathBuf> {
+    let whole = std::path::absolute(path)?;
+    if let Ok(real) = whole.canonicalize() {
+        return Ok(real);
+    }
+    let folder = whole.parent().and_then(|folder| folder.canonicalize().ok());
+    Ok(match (folder, whole.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => whole,
+    })
 }
 
-/// A text that was kept, called as it was asked for now.
-fn called(text: Unsaved, open: Option<&str>) -> Unsaved {
-    let same = |open: &&str| absolute((*open).to_owned()).is_ok_and(|name| name == text.name);
-    match open.filter(|open| is_path(open)).filter(same) {
-        Some(open) => Unsaved { name: open.to_owned(), place: Some(PathBuf::from(open)), ..text },
+/// A text by its file, so that it is found however that is spelled and wherever the program is started next.
+fn placed(text: Unsaved) -> io::Result<Unsaved> {
+    let place = text.place.map(|place| identity(&place)).transpose()?;
+    let name = if is_path(&text.name) {
+        identity(Path::new(&text.name))?.display().to_string()
+    } else {
+        text.name
+    };
+    Ok(Unsaved { name, place, ..text })
+}
+
+/// A text that was kept, called as its file is here, where it is among these names.
+fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
+    let own = is_path(&text.name).then(|| PathBuf::from(&text.name)).or(text.place.clone());
+    let Some(file) = own.and_then(|own| identity(&own).ok()) else { return text };
+    let same = |path: &Path| identity(path).is_ok_and(|path| path == file);
+    match names.iter().find(|(_, path)| same(path)) {
+        Some((name, path)) => {
+            Unsaved { name: (*name).to_owned(), place: Some(path.to_path_buf()), ..text }
+        }
         None => text,
     }
 }
@@ -487,6 +626,10 @@ impl Page for Session {
         }
         changed |= self.watch(elapsed);
         changed |= self.answer();
+        if let Some(told) = self.job.take() {
+            self.told(told);
+            changed = true;
+        }
         if let Some(snapshot) = self.worker.newest() {
             self.update(Event::Snapshot(snapshot));
             changed = true;
@@ -512,13 +655,28 @@ impl Page for Session {
         self.app.is_typing()
     }
 
-    fn last_words(&mut self) {
-        if self.left.is_none() {
-            // the texts first: nothing could make them again
-            let kept = self.keep();
-            let recorded = self.finish_recording();
-            self.left = Some(Left { recorded, kept });
+    fn last_words(&mut self, hurried: bool) {
+        if self.left.is_some() {
+            return;
         }
+        // a thread at work would take the time that is left
+        self.loader.stop();
+        self.checker.stop();
+        let time = match (hurried, self.app.unsaved().is_empty()) {
+            (false, _) => UNHURRIED,
+            (true, false) => FOR_TEXTS,
+            (true, true) => HURRIED,
+        };
+        if let Some(store) = self.store.as_ref().filter(|_| hurried) {
+            store.hurry();
+        }
+        // the texts first: nothing could make them again
+        let kept = self.keep_within(time);
+        let recorder = self.recorder.take();
+        let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
+        let written = if hurried { None } else { self.job.wait(UNHURRIED) };
+        let written = written.map_or(Ok(()), |told| told.map(|_| ()).map_err(io::Error::other));
+        self.left = Some(Left { recorded: recorded.and(written), kept });
     }
 
     fn reduce(&mut self, detail: Detail) {

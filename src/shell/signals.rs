@@ -14,7 +14,10 @@ use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{Signal, kill_current_process_group};
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+use signal_hook::consts::{
+    SIGABRT, SIGALRM, SIGBUS, SIGCONT, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGSYS, SIGTERM,
+    SIGTRAP, SIGTSTP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGWINCH, SIGXCPU, SIGXFSZ,
+};
 use signal_hook::iterator::Signals as Caught;
 
 use super::terminal::Terminal;
@@ -23,6 +26,16 @@ use super::terminal::Terminal;
 /// it has beyond that, if it has begun to end, before the program is ended all the same.
 const LAST_WORDS: Duration = Duration::from_millis(150);
 const SAVING: Duration = Duration::from_millis(1500);
+
+/// What ends a program that does not catch it. A thread that is to be told of SIGSEGV, SIGILL or SIGFPE would be told too
+/// late, so they cannot be caught here, and SIGKILL nowhere; a real abort ends the program before the thread is awake.
+const FATAL: [i32; 16] = [
+    SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
+    SIGXFSZ, SIGIO, SIGABRT, SIGBUS, SIGSYS, SIGTRAP,
+];
+
+/// What the frame loop has to do beside.
+const OTHERS: [i32; 3] = [SIGTSTP, SIGCONT, SIGWINCH];
 
 /// The way from the signal thread to the frame loop.
 #[derive(Debug)]
@@ -56,8 +69,7 @@ impl Signals {
         let board = Arc::clone(&posted);
         let heard = Arc::new(AtomicBool::new(false));
         let answered = Arc::clone(&heard);
-        let signals = [SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH];
-        let mut signals = Caught::new(signals)?;
+        let mut signals = Caught::new(FATAL.iter().chain(&OTHERS))?;
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             for signal in signals.forever() {
                 let mut notes = board.lock().unwrap_or_else(PoisonError::into_inner);

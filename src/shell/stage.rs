@@ -43,8 +43,9 @@ pub trait Page {
         false
     }
 
-    /// It ends: what must not be lost is written down now, before anybody waits for the terminal.
-    fn last_words(&mut self) {}
+    /// It ends: what must not be lost is written down now, before anybody waits for the terminal; `hurried` where it is
+    /// made to, and there is little time.
+    fn last_words(&mut self, _hurried: bool) {}
 
     /// The line to the terminal carries only so much: the next pictures should be that much poorer.
     fn reduce(&mut self, _detail: Detail) {}
@@ -120,7 +121,7 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         failures: 0,
     };
     let ended = stage.enter().and_then(|()| stage.run(page));
-    page.last_words();
+    page.last_words(!matches!(ended, Ok(Ending::Quit)));
     Ok(ended?)
 }
 

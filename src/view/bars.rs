@@ -77,8 +77,8 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
     let glyphs = canvas.look.glyphs;
     let (sign, word, role) = match &snapshot.status {
-        Status::Running => (glyphs.pick("▶", ">"), "running", Role::Good),
-        Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
+        Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
+        Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
         Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
         Status::Faulted(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
     };

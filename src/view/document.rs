@@ -14,6 +14,12 @@ use crate::app::Drawn;
 /// Lines longer than this are hard to read.
 const MEASURE: u16 = 110;
 
+/// Columns of a label with a text behind it, of a name and of a number; on narrow pages what is left for a unit.
+const LABEL: usize = 20;
+const NAME: usize = 30;
+const NUMBER: usize = 20;
+const MARGIN: usize = 8;
+
 /// A page of text in the making.
 #[derive(Default)]
 pub(super) struct Document {
@@ -25,6 +31,8 @@ enum Block {
     Words(Role, String),
     Formula { label: String, body: String, remark: String },
     Row(Vec<(Role, String)>),
+    Item { label: String, text: String },
+    Value { name: String, value: String, unit: String, rest: Vec<(Role, String)> },
     Line(String),
     Gap,
 }
@@ -55,6 +63,18 @@ impl Document {
     /// Pieces in one row, which is not wrapped.
     pub(super) fn row(&mut self, pieces: Vec<(Role, String)>) {
         self.blocks.push(Block::Row(pieces));
+    }
+
+    /// A label, and behind it a text that is wrapped below its own beginning.
+    pub(super) fn item(&mut self, label: &str, text: &str) {
+        self.blocks.push(Block::Item { label: label.to_owned(), text: text.to_owned() });
+    }
+
+    /// A name, a number below those of other names, its unit, and what else is to be said; narrow pages have the number
+    /// below the name where that is long.
+    pub(super) fn value(&mut self, name: &str, value: &str, unit: &str, rest: Vec<(Role, String)>) {
+        let (name, value, unit) = (name.to_owned(), value.to_owned(), unit.to_owned());
+        self.blocks.push(Block::Value { name, value, unit, rest });
     }
 
     /// A line by itself, wrapped if it must be.
@@ -168,6 +188,11 @@ impl Document {
                         wrapped.into_iter().map(|line| vec![(line, canvas.style(Role::Text))]),
                     );
                 }
+                Block::Item { label, text } => lines.extend(item(canvas, width, label, text)),
+                Block::Value { name, value, unit, rest } => {
+                    let rest: Vec<Span> = rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
+                    lines.extend(self::value(canvas, width, [name, value, unit], rest));
+                }
                 Block::Row(pieces) => {
                     lines.push(pieces.iter().map(|(role, t)| canvas.span(*role, t)).collect());
                 }
@@ -175,6 +200,65 @@ impl Document {
         }
         lines
     }
+}
+
+/// A label and its text.
+fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<Span>> {
+    let label = format!("  {}", canvas.text(label));
+    let column = LABEL.min(width / 3);
+    let wrapped = words(&canvas.text(text), width.saturating_sub(column));
+    let indent = " ".repeat(column);
+    let mut texts = wrapped.into_iter();
+    let mut lines = Vec::new();
+    if label.width() < column {
+        let gap = " ".repeat(column - label.width());
+        let head = canvas.span(Role::Accent, format!("{label}{gap}"));
+        lines.push(vec![head, canvas.span(Role::Text, texts.next().unwrap_or_default())]);
+    } else {
+        lines.push(vec![canvas.span(Role::Accent, label)]);
+    }
+    lines.extend(texts.map(|line| vec![canvas.span(Role::Text, format!("{indent}{line}"))]));
+    lines
+}
+
+/// A number between its name and its unit.
+fn value(
+    canvas: &Canvas<'_>,
+    width: usize,
+    [name, value, unit]: [&str; 3],
+    rest: Vec<Span>,
+) -> Vec<Vec<Span>> {
+    let (name, unit) = (format!("  {}", canvas.text(name)), canvas.text(unit));
+    let before = |value: &str| " ".repeat(NUMBER.saturating_sub(value.width()));
+    let number = canvas.span(Role::Accent, format!("{}{value}", before(value)));
+    let unit = canvas.span(Role::Dim, format!(" {unit}"));
+    let tail: usize = unit.0.width() + rest.iter().map(|(text, _)| text.width()).sum::<usize>();
+    if 2 + NAME + NUMBER + tail <= width || 2 + NAME + NUMBER + MARGIN <= width {
+        let gap = " ".repeat((NAME + 2).saturating_sub(name.width()));
+        let head = canvas.span(Role::Text, format!("{name}{gap}"));
+        return vec![[vec![head, number, unit], rest].concat()];
+    }
+    // the numbers stand below each other here too
+    let column = width.saturating_sub(NUMBER + MARGIN);
+    let gap = " ".repeat(column.saturating_sub(name.width()));
+    let fits = name.width() + value.width() < column + NUMBER;
+    let head = canvas.span(Role::Text, if fits { format!("{name}{gap}") } else { name.clone() });
+    let mut lines = if fits {
+        let room = column + NUMBER - name.width().max(column);
+        let before = " ".repeat(room.saturating_sub(value.width()));
+        vec![vec![head, canvas.span(Role::Accent, format!("{before}{value}")), unit]]
+    } else {
+        let gap = canvas.span(Role::Text, " ".repeat(column));
+        vec![vec![head], vec![gap, number, unit]]
+    };
+    let rest: String = rest.into_iter().map(|(text, _)| text).collect();
+    let rest = rest.split_whitespace().collect::<Vec<_>>().join(" ");
+    if !rest.is_empty() {
+        let wrapped = words(&rest, width.saturating_sub(4));
+        lines
+            .extend(wrapped.iter().map(|line| vec![canvas.span(Role::Dim, format!("    {line}"))]));
+    }
+    lines
 }
 
 /// A bar at the right edge that shows which part of the rows is in view, if not all of them are.

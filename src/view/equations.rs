@@ -65,7 +65,7 @@ impl Writer<'_> {
     /// `d/dt x`, written as the terminal can.
     fn rate(&self, symbol: Symbol) -> String {
         let name = self.symbol(symbol);
-        self.look.glyphs.pick(format!("d{name}/dt"), format!("d{name}/dt"))
+        format!("d{name}/dt")
     }
 
     fn put(&self, page: &mut Document, label: &str, e: Expr) {

@@ -2,15 +2,9 @@
 //!
 //! In: the table of keys. Out: a page of text. Never here: a key that is not in the table.
 
-use unicode_width::UnicodeWidthStr;
-
 use super::Look;
 use super::document::Document;
-use super::theme::Role;
 use crate::app::keymap::{Binding, KEYS, Place};
-
-/// Columns of the keys.
-const KEYS_WIDE: usize = 18;
 
 /// The page; the places where keys hold now come first.
 pub(super) fn document(look: &Look, active: &[Place]) -> Document {
@@ -20,12 +14,7 @@ pub(super) fn document(look: &Look, active: &[Place]) -> Document {
     for place in here.into_iter().chain(elsewhere) {
         page.heading(place.title());
         for row in KEYS.iter().filter(|row| row.place == place) {
-            let keys = keys(row, look);
-            let gap = " ".repeat(KEYS_WIDE.saturating_sub(keys.width()));
-            page.row(vec![
-                (Role::Accent, format!("  {keys}{gap}")),
-                (Role::Text, row.help.to_owned()),
-            ]);
+            page.item(&keys(row, look), row.help);
         }
     }
     page

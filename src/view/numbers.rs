@@ -2,8 +2,6 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
-use unicode_width::UnicodeWidthStr;
-
 use super::document::Document;
 use super::gauges::word;
 use super::number::{drift, readable};
@@ -11,10 +9,6 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use crate::experiment::Tally;
 use crate::system::{Channel, ChannelKind};
-
-/// Columns of a name, and of a number.
-const NAME: usize = 30;
-const NUMBER: usize = 20;
 
 /// A heading, and which channels stand under it.
 type Group = (&'static str, fn(&ChannelKind) -> bool);
@@ -25,7 +19,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     let glyphs = q.look.glyphs;
     page.heading("State");
     let unit = q.lab.loaded.model.time_unit();
-    page.row(line("t", &readable(q.snapshot.time, 10, glyphs), unit));
+    page.value("t", &readable(q.snapshot.time, 10, glyphs), unit, Vec::new());
     let groups: [Group; 6] = [
         ("", |kind| matches!(kind, ChannelKind::Position(_))),
         ("Velocities", |kind| matches!(kind, ChannelKind::Velocity(_))),
@@ -51,19 +45,20 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
         }
         for (index, channel) in members {
             let value = readable(q.value(index), 10, glyphs);
-            page.row(line(&q.name(index), &value, &channel.unit));
+            page.value(&q.name(index), &value, &channel.unit, Vec::new());
         }
     }
     happenings(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
-        let mut row = line(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "");
         let (text, role) = word(&gauge.verdict);
-        row.push((Role::Dim, format!("  drift {:<8} ", drift(gauge.drift))));
-        row.push((role, format!("{text:<9}")));
-        row.push((Role::Dim, gauge.reason.clone()));
-        page.row(row);
+        let rest = vec![
+            (Role::Dim, format!("  drift {:<8} ", drift(gauge.drift))),
+            (role, format!("{text:<9}")),
+            (Role::Dim, gauge.reason.clone()),
+        ];
+        page.value(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "", rest);
     }
     page
 }
@@ -76,19 +71,9 @@ fn happenings(page: &mut Document, q: &Quantities<'_>) {
     }
     page.heading("What happened");
     for Tally { name, count, last } in chronicle.tallies() {
-        let mut row = line(name, &count.to_string(), if *count == 1 { "time" } else { "times" });
         let last = readable(*last, 10, q.look.glyphs);
-        row.push((Role::Dim, format!(", last at t = {last}")));
-        page.row(row);
+        let rest = vec![(Role::Dim, format!(", last at t = {last}"))];
+        let times = if *count == 1 { "time" } else { "times" };
+        page.value(name, &count.to_string(), times, rest);
     }
-}
-
-fn line(name: &str, value: &str, unit: &str) -> Vec<(Role, String)> {
-    let gap = " ".repeat(NAME.saturating_sub(name.width()));
-    let before = " ".repeat(NUMBER.saturating_sub(value.width()));
-    vec![
-        (Role::Text, format!("  {name}{gap}")),
-        (Role::Accent, format!("{before}{value}")),
-        (Role::Dim, format!(" {unit}")),
-    ]
 }

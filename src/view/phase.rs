@@ -113,7 +113,7 @@ fn levels(canvas: &Canvas<'_>, raster: &mut Raster, frame: &Frame, landscape: &L
         trace(&mut alone, level, &plain);
         if alone.shared(&drawn) <= crowded {
             trace(raster, level, &pen);
-            trace(&mut drawn, level, &plain);
+            drawn.absorb(&alone);
         }
     }
 }

@@ -162,7 +162,17 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     }
     let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
     let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.look)?, lab))) else {
-        canvas.left(row(text, 0), Role::Dim, "…");
+        let told = match app.loading() {
+            Some(name) if name == entry.name => "Being loaded; Esc stops it.".to_owned(),
+            Some(name) => format!("{name} is being loaded; Esc stops it."),
+            None => "…".to_owned(),
+        };
+        let told = canvas.text(&told);
+        for (index, line) in words(&told, text.width.into()).iter().enumerate() {
+            if index < text.height.into() {
+                canvas.left(row(text, index), Role::Dim, line);
+            }
+        }
         return;
     };
     let space = lab.plots.iter().find(|plot| matches!(plot, Plot::Space(_)));

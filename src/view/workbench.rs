@@ -2,6 +2,8 @@
 //!
 //! In: the workbench, the lab. Out: cells, and how much of the text they show. Never here: what is wrong with a text.
 
+use std::borrow::Cow;
+
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -89,7 +91,8 @@ fn write(
     let mut used = 0;
     // one place more than there are characters: the cursor may stand behind the last
     for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {
-        let shown = shown(canvas, c);
+        let mut room = [0; 4];
+        let shown = shown(canvas, c, &mut room);
         let width = shown.width() as u16;
         if used + width > at.width {
             // the line goes on
@@ -127,21 +130,23 @@ fn put(canvas: &mut Canvas<'_>, at: Position, shown: &str, style: Style) {
 
 /// What a character is shown as: itself where it has cells of its own; under ASCII glyphs `<theta>`, by what it is spelt
 /// as; any other `<U+6F22>`, by its number. So nothing is taken for what it is not.
-fn shown(canvas: &Canvas<'_>, c: char) -> String {
+fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str> {
     let itself = c.width().is_some_and(|width| width > 0);
+    let text: &'r str = c.encode_utf8(room);
     if itself && (c.is_ascii() || !canvas.look.glyphs.is_ascii()) {
-        return c.to_string();
+        return Cow::Borrowed(text);
     }
-    let named = canvas.text(&c.to_string());
+    let named = canvas.text(text);
     let known = itself && named.is_ascii() && !named.is_empty() && named != "?";
-    if known { format!("<{named}>") } else { format!("<U+{:04X}>", u32::from(c)) }
+    let spelt = if known { format!("<{named}>") } else { format!("<U+{:04X}>", u32::from(c)) };
+    Cow::Owned(spelt)
 }
 
 /// The first column shown, so far on that the cursor is in sight also where characters take several cells.
 fn in_sight(canvas: &Canvas<'_>, sheet: &Sheet, from: usize, wide: u16) -> usize {
     let cursor = sheet.editor.cursor();
     let line = sheet.editor.lines().get(cursor.row).map_or("", String::as_str);
-    let cells = |c: char| shown(canvas, c).width();
+    let cells = |c: char| shown(canvas, c, &mut [0; 4]).width();
     // the character under the cursor too, or the blank behind the last
     let seen = line.chars().chain([' ']).take(cursor.column + 1);
     let widths: Vec<usize> = seen.map(cells).collect();
@@ -185,6 +190,9 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet, notice: Option<&Noti
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
             (Role::Good, format!("No mistake: built anew in {time} ms, the motion goes on."))
+        }
+        SheetState::Changed if sheet.is_long_checked() => {
+            (Role::Dim, "Being looked at, which takes long; Esc stops it.".to_owned())
         }
         SheetState::Changed | SheetState::Left => {
             (Role::Dim, "Being looked at when typing rests.".to_owned())

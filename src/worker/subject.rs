@@ -1,12 +1,17 @@
 //! What a worker can keep in motion. There is one in the program, the [`Experiment`]; tests have
 //! others, which panic or count.
 
+use crate::cancel::Cancel;
 use crate::experiment::{Command, Experiment, Progress, Snapshot, Status};
 
 /// Something that obeys commands, moves in time and can be looked at.
 pub trait Subject: Send {
     /// Gives all snapshots this epoch.
     fn set_epoch(&mut self, epoch: u64);
+    /// The token that stops what it computes, also in the middle of a step.
+    fn cancel(&self) -> Cancel {
+        Cancel::new()
+    }
     /// Does what a command asks.
     fn obey(&mut self, command: Command);
     /// Moves on to a time in at most `budget` steps.
@@ -24,6 +29,10 @@ pub trait Subject: Send {
 impl Subject for Experiment {
     fn set_epoch(&mut self, epoch: u64) {
         Experiment::set_epoch(self, epoch);
+    }
+
+    fn cancel(&self) -> Cancel {
+        Experiment::cancel(self).clone()
     }
 
     fn obey(&mut self, command: Command) {

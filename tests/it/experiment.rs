@@ -1,5 +1,6 @@
 //! Experiments: what commands do, what gauges say, what is recorded. No thread, no clock.
 
+mod cancel;
 mod commands;
 mod export;
 mod gauges;

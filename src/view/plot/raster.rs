@@ -128,6 +128,13 @@ impl Raster {
         self.spots.iter().map(|spot| spot.dots.count_ones() as usize).sum()
     }
 
+    /// Takes the dots of another raster of the same area in, whatever they are drawn with there.
+    pub fn absorb(&mut self, other: &Self) {
+        for (spot, other) in self.spots.iter_mut().zip(&other.spots) {
+            spot.dots |= other.dots;
+        }
+    }
+
     /// Of the cells with dots, the share in which another raster of the same area has dots too, in ASCII also in the cells
     /// beside; 0 if there are none.
     pub fn shared(&self, other: &Self) -> f64 {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Plot, Sheet, SheetState,
+    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Page, Plot, Sheet, SheetState,
 };
 use phaselab::experiment::{Command, Ready, Snapshot, Status};
 use phaselab::preset::Document;
@@ -133,16 +133,57 @@ fn next_and_previous_go_round_all_mistakes() {
 }
 
 #[test]
-fn an_answer_to_an_older_text_shows_no_mistakes_and_another_check_follows() {
+fn an_answer_to_an_older_text_shows_no_mistakes() {
     let mut app = edited();
     press(&mut app, "Ctrl-Home x");
     let effects = app.update(Event::Tick(Duration::from_millis(200)));
     let answer = checked(&app, &effects[0]);
     press(&mut app, "Backspace");
-    assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "one check at a time");
     app.update(answer);
     assert_eq!(sheet(&app).flaws, []);
     assert_eq!(rest(&mut app).len(), 1);
+}
+
+#[test]
+fn a_newer_text_is_checked_in_place_of_an_older_one() {
+    let mut app = edited();
+    press(&mut app, "Ctrl-Home x");
+    let older = app.update(Event::Tick(Duration::from_millis(200)));
+    let [Effect::Check { ticket, .. }] = older.as_slice() else { panic!("{older:?}") };
+    press(&mut app, "Backspace");
+    let newer = app.update(Event::Tick(Duration::from_millis(200)));
+    let [Effect::Check { text, .. }] = newer.as_slice() else { panic!("{newer:?}") };
+    assert_eq!(*text, sheet(&app).editor.text());
+    assert!(!app.awaits(*ticket), "nobody waits for the older one");
+}
+
+#[test]
+fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back() {
+    let stopped = |after: u64| {
+        let mut app = edited();
+        press(&mut app, "Ctrl-Home #");
+        assert!(matches!(
+            app.update(Event::Tick(Duration::from_millis(200))).as_slice(),
+            [Effect::Check { .. }]
+        ));
+        app.update(Event::Tick(Duration::from_millis(after)));
+        (press(&mut app, "Esc") == [Effect::StopCheck], app)
+    };
+    assert!(!stopped(999).0, "what is soon there is not stopped");
+    let (is_stopped, mut app) = stopped(1000);
+    assert!(is_stopped);
+    assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), [], "nothing goes on");
+    press(&mut app, "E");
+    let again = app.update(Event::Tick(Duration::from_millis(1)));
+    assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
+    // in the list of systems nothing is checked, and in the lab it goes on
+    assert_eq!(press(&mut app, "Esc Esc"), []);
+    assert_eq!(app.page, Page::Picker);
+    assert_eq!(app.update(Event::Tick(Duration::from_millis(1))), [Effect::StopCheck]);
+    assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), []);
+    press(&mut app, "Enter");
+    let again = app.update(Event::Tick(Duration::from_millis(1)));
+    assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
 }
 
 #[test]

@@ -103,3 +103,32 @@ fn what_a_file_cannot_say_is_told() {
     assert_eq!(export.missing, ["A constraint was let go, so the file begins at the start."]);
     assert_eq!(opened(&Document::new("sphere.toml", export.text)).time(), 0.0);
 }
+
+#[test]
+fn what_is_expected_and_still_holds_is_kept() {
+    let text = "title = \"Oscillator\"\ncoordinates.x = { initial = 1 }\nparameters = { k = 4 }\n\
+                [lagrangian]\nL = \"x'^2/2 - k*x^2/2\"\n[expect]\nconserves = [\"energy\"] # always\n\
+                values = [\n  { name = \"turn\", expression = \"x\", at = 0.7853981633974483, is = 0, within = 1e-9 },\n  \
+                { name = \"stiffness\", expression = \"x''/x\", at = 0.7, is = -4, within = 1e-9 },\n]\n";
+    let document = Document::new("own.toml", text);
+    let mut left = opened(&document);
+    run(&mut left, 0.5);
+    let export = exported(&document, &left);
+    assert_eq!(export.missing, Vec::<String>::new(), "as it is written nothing is wrong");
+    let export = export.with_what_holds(&document).expect("it can be opened");
+    let kept = &export.text;
+    // the same system passes the turning point all the same, and its stiffness is what it was
+    assert!(kept.contains("turn") && kept.contains("stiffness"), "{kept}");
+    left.obey(Command::Parameter { index: 0, value: 9.0 });
+    let export = exported(&document, &left);
+    let export = export.with_what_holds(&document).expect("it can be opened");
+    let kept = &export.text;
+    assert!(kept.contains("conserves = [\"energy\"] # always"), "{kept}");
+    assert!(!kept.contains("turn") && !kept.contains("stiffness"), "{kept}");
+    assert_eq!(export.missing.len(), 1);
+    // what lies before the new beginning can no longer be asked
+    run(&mut left, 0.75);
+    let export = exported(&document, &left);
+    assert!(!export.text.contains("stiffness"), "{}", export.text);
+    assert!(export.text.contains("conserves"), "{}", export.text);
+}

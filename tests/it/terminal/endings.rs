@@ -50,6 +50,26 @@ fn a_signal_ends_a_moving_lab_in_a_fifth_of_a_second() {
 }
 
 #[test]
+fn every_signal_that_ends_a_program_gives_the_terminal_back() {
+    let signals = [
+        (Signal::USR1, 138),
+        (Signal::USR2, 140),
+        (Signal::ALARM, 142),
+        (Signal::XCPU, 152),
+        (Signal::XFSZ, 153),
+        (Signal::VTALARM, 154),
+        (Signal::PROF, 155),
+        (Signal::ABORT, 134),
+    ];
+    for (signal, status) in signals {
+        let mut lab = pendulum();
+        lab.signal(signal);
+        assert_eq!(lab.ends().0, status, "{signal:?}");
+        lab.assert_restored();
+    }
+}
+
+#[test]
 fn a_line_that_dies_in_a_panic_leaves_nobody_behind() {
     let mut panicked = 0;
     in_time(Duration::from_secs(1), || {

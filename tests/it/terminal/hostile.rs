@@ -217,3 +217,120 @@ fn tmux_shows_what_was_drawn() {
     assert!(drawn.contains("Simple pendulum") && drawn.contains("q quit"), "{drawn}");
     assert!(drawn.contains('╭') && drawn.chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c)));
 }
+
+/// A chain of pendulums, which takes minutes to derive.
+fn heavy() -> String {
+    let mut text = "title = \"Chain\"\n[coordinates]\n".to_owned();
+    let sum = |k: usize, term: &dyn Fn(usize) -> String| {
+        (1..=k).map(term).collect::<Vec<_>>().join(" + ")
+    };
+    let mut terms = Vec::new();
+    for k in 1..=30 {
+        text += &format!("a{k} = {{ initial = 0.5 }}\n");
+        let x = sum(k, &|i| format!("cos(a{i})*a{i}'"));
+        let y = sum(k, &|i| format!("sin(a{i})*a{i}'"));
+        terms.push(format!("1/2*(({x})^2 + ({y})^2)"));
+    }
+    text + &format!("[lagrangian]\nL = \"{}\"\n", terms.join(" + "))
+}
+
+const RIGHT: &str = "title = \"Oscillator\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+                     L = \"1/2*x'^2 - 1/2*x^2\"\n";
+
+/// The names of its threads.
+#[cfg(target_os = "linux")]
+fn threads(lab: &Session) -> Vec<String> {
+    let tasks = format!("/proc/{}/task", lab.pid().as_raw_nonzero());
+    let names = fs::read_dir(tasks).expect("it runs").flatten();
+    names.filter_map(|task| fs::read_to_string(task.path().join("comm")).ok()).collect()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_is_no_longer_loaded_or_checked_leaves_no_thread() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("heavy.toml");
+    fs::write(&place, heavy()).expect("written");
+    let mut lab = Setup::new(PROGRAM, &[]).argument(&place).size(120, 40).start();
+    lab.shows("Esc stops it");
+    assert!(threads(&lab).iter().any(|name| name.trim() == "loader"));
+    std::thread::sleep(Duration::from_millis(500));
+    lab.press("\x1b");
+    lab.shows("no longer being loaded");
+    lab.until("its thread has ended", |lab| {
+        threads(lab).iter().all(|name| name.trim() != "loader")
+    });
+    // the next is taken at once
+    lab.press("/pendulum\r");
+    lab.shows("running");
+    // a text that takes long to check, and then one that does not
+    lab.press("E");
+    lab.shows("This text is the one that runs");
+    lab.press("\x1b[200~");
+    lab.press(&heavy());
+    lab.press("\x1b[201~");
+    lab.press("\x03");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
+}
+
+#[test]
+fn a_signal_while_something_is_loaded_ends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("heavy.toml");
+    fs::write(&place, heavy()).expect("written");
+    for key in [None, Some("\x03"), Some("q")] {
+        let mut lab = Setup::new(PROGRAM, &[]).argument(&place).size(120, 40).start();
+        lab.shows("Esc stops it");
+        match key {
+            None => lab.signal(rustix::process::Signal::TERM),
+            Some(key) => lab.press(key),
+        }
+        assert_eq!(lab.ends().0, if key.is_none() { 143 } else { 0 });
+        lab.assert_restored();
+    }
+}
+
+#[test]
+fn a_right_text_is_taken_although_a_heavy_one_is_being_loaded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("own.toml");
+    fs::write(&place, heavy()).expect("written");
+    let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
+    lab.shows("Esc stops it");
+    fs::write(&place, RIGHT).expect("written");
+    lab.shows("running");
+    // and the same once it runs
+    fs::write(&place, heavy()).expect("written");
+    std::thread::sleep(Duration::from_millis(1500));
+    fs::write(&place, RIGHT.replace("Oscillator", "The second one")).expect("written");
+    lab.shows("The second one");
+    quits(lab);
+}
+
+#[test]
+fn a_file_that_becomes_a_pipe_freezes_nothing() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("own.toml");
+    fs::write(&place, RIGHT).expect("written");
+    let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
+    lab.shows("running");
+    fs::remove_file(&place).expect("it goes");
+    mknodat(CWD, &place, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
+    lab.shows("no longer there");
+    lab.press(" ");
+    lab.shows("paused");
+    // saving and reading it anew are told why they cannot be
+    lab.press("E");
+    lab.shows("This text is the one that runs");
+    lab.press("\x0f");
+    lab.shows("it is a pipe, not a file");
+    lab.press("# mine\r\x13");
+    lab.shows("cannot read");
+    lab.press("\x03");
+    assert_eq!(lab.ends().0, 0);
+    let mut none = Setup::new(PROGRAM, &[]).argument(&place).start();
+    assert_eq!(none.ends().0, 2);
+    assert!(none.sent().contains("it is a pipe, not a file"), "{}", none.sent());
+}

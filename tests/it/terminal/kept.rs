@@ -140,22 +140,83 @@ fn a_disk_that_is_full_at_the_end_is_told() {
 
 #[test]
 fn a_configured_resume_of_what_cannot_be_understood_opens_all_the_same() {
-    for (text, told) in
-        [("version = 9\n", "newer phaselab"), ("version = ]\n", "cannot be understood")]
-    {
+    for (text, told, stays) in [
+        ("version = 9\n", "newer phaselab", true),
+        ("version = ]\n", "cannot be understood", false),
+        ("", "running", false),
+    ] {
         let state = folder();
         fs::create_dir_all(state.path().join("phaselab")).expect("a folder");
         fs::write(file(state.path()), text).expect("it is written");
         let setup = Setup::new(PROGRAM, &[]).size(160, 40).variable("XDG_STATE_HOME", state.path());
         let mut lab = setup.variable("PHASELAB_RESUME", "true").start();
         lab.shows("Systems");
-        lab.shows(told);
         lab.press("\r");
         lab.shows("running");
         lab.shows(told);
         lab.press("q");
         assert_eq!(lab.ends().0, 0);
-        assert_eq!(kept(state.path()), text, "nothing is written over");
+        assert_eq!(kept(state.path()) == text, stays, "{}", kept(state.path()));
+        let aside = state.path().join("phaselab/session-damaged-1.toml");
+        let aside = fs::read_to_string(aside).ok();
+        assert_eq!(aside.as_deref(), (!stays && !text.is_empty()).then_some(text));
+    }
+}
+
+#[test]
+fn what_is_typed_in_a_second_program_outlives_a_signal() {
+    let (state, folder) = (folder(), folder());
+    let place = folder.path().join("own.toml");
+    let mut first = lab(&["pendulum"], state.path());
+    first.shows("running");
+    let mut second = edited(state.path(), &place);
+    second.signal(Signal::TERM);
+    assert_eq!(second.ends().0, 143);
+    first.press("q");
+    assert_eq!(first.ends().0, 0);
+    // spelled otherwise, and by a link, it is the same file
+    let link = folder.path().join("link.toml");
+    std::os::unix::fs::symlink(&place, &link).expect("a link");
+    for spelled in [folder.path().join("./own.toml"), link] {
+        let mut again = lab(&[spelled.to_str().expect("text")], state.path());
+        again.shows("E goes to them");
+        again.press("E");
+        again.shows("# mine");
+        again.signal(Signal::TERM);
+        assert_eq!(again.ends().0, 143);
+    }
+}
+
+#[test]
+fn the_second_saves_the_session_once_the_first_has_ended() {
+    let state = folder();
+    let mut first = lab(&["pendulum"], state.path());
+    first.shows("running");
+    let mut second = lab(&["planet"], state.path());
+    second.shows("another phaselab is running");
+    first.press("q");
+    assert_eq!(first.ends().0, 0);
+    assert!(kept(state.path()).contains("open = \"pendulum\""));
+    second.shows("this one saves the session now");
+    second.press("q");
+    assert_eq!(second.ends().0, 0);
+    assert!(kept(state.path()).contains("open = \"planet\""));
+}
+
+#[test]
+fn a_pipe_in_the_place_of_what_is_kept_freezes_nothing() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    for name in ["session.toml", "texts.toml", "session.lock"] {
+        let state = folder();
+        let place = state.path().join("phaselab").join(name);
+        fs::create_dir_all(state.path().join("phaselab")).expect("a folder");
+        mknodat(CWD, &place, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
+        let mut lab = lab(&["pendulum"], state.path());
+        lab.shows("it is a pipe");
+        lab.shows("running");
+        lab.press("q");
+        assert_eq!(lab.ends().0, 0);
+        lab.assert_restored();
     }
 }
 
@@ -167,7 +228,8 @@ fn edited(state: &Path, place: &Path) -> Session {
         fs::write(place, text).expect("it is written");
     }
     let mut lab = lab(&[place.to_str().expect("text")], state);
-    lab.shows("running");
+    // what is told of another program speaks of running too
+    lab.shows("Gauges");
     lab.press("E");
     lab.shows("This text is the one that runs.");
     lab.press("# mine\r");

@@ -324,7 +324,8 @@ impl Session {
         }
     }
 
-    fn pid(&self) -> Pid {
+    /// Its number.
+    pub(super) fn pid(&self) -> Pid {
         let id = self.child.process_id().expect("it has started");
         Pid::from_raw(id as i32).expect("not zero")
     }

@@ -1,0 +1,102 @@
+//! Regular files: read only where they are files, and no more of them than is allowed.
+//!
+//! In: a path. Out: what it holds. Never here: waiting. A pipe or a device in the place of a file is refused before a
+//! byte of it is read, also where it took that place a moment ago.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+use rustix::fs::{Mode, OFlags};
+
+use crate::file;
+use crate::preset::{Catalog, Document, NotFound};
+
+/// Opens a file to be locked, and makes it where there is none.
+///
+/// # Errors
+/// Where it cannot be, or is none.
+pub(super) fn open_or_make(path: &Path) -> io::Result<File> {
+    // opening a device can already do something
+    if let Ok(about) = fs::metadata(path) {
+        file::check_regular(about.file_type())?;
+    }
+    // who opens a pipe otherwise waits for its other end
+    let flags = OFlags::RDWR | OFlags::CREATE | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    let file = File::from(rustix::fs::open(path, flags, Mode::from_raw_mode(0o666))?);
+    file::check_regular(file.metadata()?.file_type())?;
+    Ok(file)
+}
+
+/// What a file holds, which must not be longer than that.
+///
+/// # Errors
+/// Where it cannot be read, is no file or is longer.
+pub(super) fn read(path: &Path, most: usize) -> io::Result<Vec<u8>> {
+    let (bytes, _) = file::read_regular(path, most as u64)?;
+    if bytes.len() > most {
+        let told = format!("it has more than {most} bytes");
+        return Err(io::Error::new(ErrorKind::FileTooLarge, told));
+    }
+    Ok(bytes)
+}
+
+/// The same, where it is text.
+///
+/// # Errors
+/// Those of [`read`]; that it is no UTF-8.
+pub(super) fn read_text(path: &Path, most: usize) -> io::Result<String> {
+    let text = String::from_utf8(read(path, most)?);
+    text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
+}
+
+/// A document in a file.
+///
+/// # Errors
+/// Where it cannot be read or is no file.
+pub(super) fn document(path: &Path) -> io::Result<Document> {
+    Document::open_regular(path)
+}
+
+/// The document behind a preset's name or a path.
+///
+/// # Errors
+/// Where there is none, or no file.
+pub(super) fn find(catalog: &Catalog, name: &str) -> Result<Document, NotFound> {
+    match catalog.place(name) {
+        Some(path) => document(&path).map_err(|reason| NotFound::File { path, reason }),
+        None => catalog.find(name),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_file_is_refused_without_waiting() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("pipe.toml");
+        rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, Mode::RUSR, 0)
+            .expect("a pipe");
+        let refusal = |path: &Path| read(path, 10).expect_err("it is no file").to_string();
+        assert_eq!(refusal(&pipe), "it is a pipe, not a file");
+        assert_eq!(refusal(Path::new("/dev/zero")), "it is a device, not a file");
+        assert_eq!(refusal(folder.path()), "it is a folder, not a file");
+        let lock = open_or_make(&pipe).expect_err("no lock").to_string();
+        assert_eq!(lock, "it is a pipe, not a file");
+        let link = folder.path().join("link.toml");
+        std::os::unix::fs::symlink("/dev/zero", &link).expect("a link");
+        assert_eq!(refusal(&link), "it is a device, not a file");
+    }
+
+    #[test]
+    fn no_more_is_read_than_is_allowed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.toml");
+        fs::write(&path, [b'a'; 10]).expect("written");
+        assert_eq!(read(&path, 10).expect("it fits").len(), 10);
+        let told = read(&path, 9).expect_err("it does not").to_string();
+        assert_eq!(told, "it has more than 9 bytes");
+    }
+}
