@@ -1,6 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
-mod events;
+mod clock;
 mod invariants;
 mod progress;
 mod times;
@@ -11,6 +11,7 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
+use super::events::Events;
 use super::failure::Failure;
 use super::output::Output;
 use super::report::{Closing, Header, Status};
@@ -90,6 +91,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
+    assignment::begin_at(&mut model, &given);
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
     let settings = settings(arguments, &model)?;
 
@@ -120,8 +122,12 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         ..Setup::of(&model)
     };
     let (model, equations) = (Arc::new(model), Arc::new(equations));
-    let experiment = Experiment::new(&model, &equations, &system, setup)
+    let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| Failure::WrongUse(why.to_string()))?;
+    clock::check(&system, method, &experiment, &times)?;
+    if arguments.format == Format::Csv {
+        experiment.only_count_happenings();
+    }
     let interrupt = Interrupt::watch();
     let out = Output::open(arguments.output.as_deref())?;
     Run { experiment, times, columns: system.columns(), interrupt }.write(
@@ -165,6 +171,9 @@ impl Run {
         if chronicle.forgotten() > 0 && format != Format::Csv {
             let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
+        }
+        if let Some(passed) = self.experiment.singular_passages() {
+            stderr::tell(&passed);
         }
         match end {
             Err(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
@@ -221,7 +230,7 @@ impl Run {
             },
         };
         let gauges = self.experiment.snapshot().gauges;
-        let events = events::of(self.experiment.model(), self.experiment.happenings());
+        let events = Events::of(self.experiment.model(), self.experiment.happenings());
         Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }
