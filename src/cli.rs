@@ -13,6 +13,7 @@ mod decimal;
 mod demo;
 mod derive;
 mod doctor;
+mod events;
 mod exit;
 mod failure;
 mod format;

@@ -197,6 +197,22 @@ impl Experiment {
         &self.happenings
     }
 
+    /// From now on what happens is counted only, and not kept: for who does not list it.
+    pub fn only_count_happenings(&mut self) {
+        self.happenings.only_count();
+    }
+
+    /// A sentence on the singular configurations of the constraints that the motion has passed.
+    pub fn singular_passages(&self) -> Option<String> {
+        let (count, first) = self.motion.singular_passages();
+        let time = short(first?);
+        let again = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+        Some(format!(
+            "passed a singular configuration of the constraints at t = {time}{again}: motions branch \
+             there, and this one went on smoothly"
+        ))
+    }
+
     /// What can be seen of it now.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
@@ -229,7 +245,7 @@ impl Experiment {
     fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
-        self.happenings = Chronicle::default();
+        self.happenings.clear();
         self.told.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -277,6 +293,9 @@ impl Experiment {
                 other => break other,
             }
         };
+        if let Some(sentence) = self.singular_passages() {
+            self.tell_once("singular configuration".to_owned(), sentence);
+        }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
             Ok(Reached::Underway) => Progress::Underway,

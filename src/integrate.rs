@@ -4,6 +4,7 @@
 //! step to step and tell it anywhere inside the last one. Never here: rows, gauges, clocks.
 
 mod calendar;
+mod clock;
 mod crossing;
 mod dop853;
 mod fixed;
@@ -21,6 +22,7 @@ mod stepper;
 mod taylor;
 mod yoshida;
 
+pub use clock::spacing;
 pub use method::{METHODS, Made, Method, Preserves, Refusal, Settings, Stepping, method_named};
 pub use motion::{Happening, Kind, Motion, Reached};
 pub use roots::first_crossing;

@@ -25,6 +25,7 @@ mod observe;
 mod occasions;
 mod program;
 mod rates;
+mod resolution;
 mod series;
 mod solve;
 mod state;
@@ -33,8 +34,8 @@ mod watch;
 
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
-pub use constrained::Keeper;
-pub use fault::{Fault, FaultKind};
+pub use constrained::{Directions, Keeper};
+pub use fault::{Fault, FaultKind, Passage};
 pub use jet::{Jet, Side};
 pub use observe::Observer;
 pub use occasions::{Blow, Occasions, Schedule, Struck, Trigger, Triggers};

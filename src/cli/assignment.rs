@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::expr::{Expr, Pool, nearest};
+use crate::expr::{Expr, Number, Pool, nearest};
 use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
 use crate::preset::{Mistake, report};
@@ -121,6 +121,15 @@ pub(super) fn initial(
         }
     }
     Ok(all)
+}
+
+/// Has a model begin at these coordinates: which constraints repeat others is judged there.
+pub(super) fn begin_at(model: &mut Model, given: &[Given]) {
+    for given in given {
+        if let &Given::Position(i, x) = given {
+            model.coordinates[i].initial = model.pool.number(Number::Real(x).canonical());
+        }
+    }
 }
 
 /// A value in parameters, as in a file.

@@ -4,6 +4,8 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::events::Events;
+
 /// What stands before the rows.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Header {
@@ -25,7 +27,7 @@ pub(super) struct Closing {
     /// What should have stayed constant, and how well it did.
     pub(super) invariants: Vec<Invariant>,
     /// What happened on the way.
-    pub(super) events: Vec<Value>,
+    pub(super) events: Events,
     /// How it ended.
     pub(super) status: Status,
     /// Why it ended, where that needs a sentence.

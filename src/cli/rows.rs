@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::decimal::shortest;
 use super::report::{Closing, Header, Status};
@@ -83,11 +83,18 @@ impl<W: Write> Rows<W> {
             Format::Json => {
                 let end = if self.written == 0 { "],\n" } else { "\n  ],\n" };
                 self.out.write_all(end.as_bytes())?;
-                let mut text = Vec::new();
-                members(&mut text, &serde_json::to_value(closing)?)?;
-                let kept = text.len() - 2; // the comma and line end after the last member
-                self.out.write_all(&text[..kept])?;
-                self.out.write_all(b"\n}\n")?;
+                let Closing { invariants, events, status, message } = closing;
+                members(&mut self.out, &json!({ "invariants": invariants }))?;
+                self.out.write_all(b"  \"events\": [")?;
+                let mut lead = "\n    ";
+                for event in events.iter() {
+                    write!(self.out, "{lead}{event}")?;
+                    lead = ",\n    ";
+                }
+                let end = if lead.starts_with(',') { "\n  ],\n" } else { "],\n" };
+                self.out.write_all(end.as_bytes())?;
+                let (status, message) = (json!(status), json!(message));
+                write!(self.out, "  \"status\": {status},\n  \"message\": {message}\n}}\n")?;
             }
             Format::Jsonl => {
                 serde_json::to_writer(&mut self.out, closing)?;

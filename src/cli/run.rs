@@ -1,6 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
-mod events;
+mod clock;
 mod invariants;
 mod progress;
 mod times;
@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
+use super::events::Events;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
@@ -96,6 +97,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
+    assignment::begin_at(&mut model, &given);
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
     let settings = settings(arguments, &model)?;
 
@@ -139,8 +141,12 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         ..Setup::of(&model)
     };
     let (model, equations) = (Arc::new(model), Arc::new(equations));
-    let experiment = Experiment::new(&model, &equations, &system, setup)
+    let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| Failure::WrongUse(why.to_string()))?;
+    clock::check(&system, method, &experiment, &times)?;
+    if arguments.format == Format::Csv {
+        experiment.only_count_happenings();
+    }
     let form = match arguments.format {
         Format::Csv => Form::Text,
         Format::Json | Format::Jsonl => Form::Json,
@@ -230,6 +236,9 @@ impl Run<'_> {
             let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
+        if let Some(passed) = self.experiment.singular_passages() {
+            stderr::tell(&passed);
+        }
         match end {
             Some(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
             Some(End::Signal(signal)) => Err(Failure::Signal(signal)),
@@ -303,7 +312,7 @@ impl Run<'_> {
             },
         };
         let gauges = self.experiment.snapshot().gauges;
-        let events = events::of(self.experiment.model(), self.experiment.happenings());
+        let events = Events::of(self.experiment.model(), self.experiment.happenings());
         Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }

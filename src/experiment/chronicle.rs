@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::integrate::Happening;
+use crate::integrate::{Happening, Kind};
 
 /// Happenings in a sealed chunk.
 const CHUNK: usize = 256;
@@ -12,12 +12,18 @@ const CHUNK: usize = 256;
 /// The most chunks kept; of more the oldest are forgotten: a million happenings.
 const CHUNKS: usize = 4096;
 
+/// The most bytes kept, of happenings with many numbers, such as the jumps of sixty coordinates.
+const BYTES: usize = 128 << 20;
+
 /// Happenings, the oldest first, and how often each has come.
 #[derive(Clone, Debug, Default)]
 pub struct Chronicle {
     sealed: VecDeque<Arc<Vec<Happening>>>,
     open: Arc<Vec<Happening>>,
     tallies: Arc<Vec<Tally>>,
+    /// How much the sealed ones take.
+    bytes: usize,
+    only_counts: bool,
 }
 
 /// How often something has happened, and when last.
@@ -32,6 +38,16 @@ pub struct Tally {
 }
 
 impl Chronicle {
+    /// Forgets all that has happened.
+    pub(super) fn clear(&mut self) {
+        *self = Chronicle { only_counts: self.only_counts, ..Chronicle::default() };
+    }
+
+    /// From now on happenings are counted only, and none is kept.
+    pub(super) fn only_count(&mut self) {
+        self.only_counts = true;
+    }
+
     /// Adds what has happened now.
     pub(super) fn push(&mut self, happening: Happening) {
         let tallies = Arc::make_mut(&mut self.tallies);
@@ -42,12 +58,18 @@ impl Chronicle {
                 tallies.push(Tally { name, count: 1, last });
             }
         }
+        if self.only_counts {
+            return;
+        }
         let open = Arc::make_mut(&mut self.open);
         open.push(happening);
         if open.len() == CHUNK {
-            self.sealed.push_back(std::mem::take(&mut self.open));
-            if self.sealed.len() > CHUNKS {
-                self.sealed.pop_front();
+            let full = std::mem::take(&mut self.open);
+            self.bytes += size(&full);
+            self.sealed.push_back(full);
+            while self.sealed.len() > CHUNKS || (self.bytes > BYTES && self.sealed.len() > 1) {
+                let Some(oldest) = self.sealed.pop_front() else { break };
+                self.bytes -= size(&oldest);
             }
         }
     }
@@ -78,6 +100,18 @@ impl Chronicle {
     }
 }
 
+/// What a chunk takes, in bytes.
+fn size(chunk: &[Happening]) -> usize {
+    let numbers = |happening: &Happening| match &happening.kind {
+        Kind::Blow { jump, reaction } => jump.len() + reaction.len(),
+        Kind::Mark | Kind::Stop | Kind::Release(_) => 0,
+    };
+    let own = |happening: &Happening| {
+        size_of::<Happening>() + happening.name.len() + size_of::<f64>() * numbers(happening)
+    };
+    chunk.iter().map(own).sum()
+}
+
 impl FromIterator<Happening> for Chronicle {
     fn from_iter<I: IntoIterator<Item = Happening>>(happenings: I) -> Chronicle {
         let mut chronicle = Chronicle::default();
@@ -89,7 +123,6 @@ impl FromIterator<Happening> for Chronicle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::Kind;
 
     fn ticks(count: usize) -> impl Iterator<Item = Happening> {
         let name = |k: usize| ["tick", "tock"][k % 2].to_owned();
@@ -110,6 +143,33 @@ mod tests {
         let tally = |name: &str, last| Tally { name: name.to_owned(), count: half, last };
         let last = count as f64;
         assert_eq!(chronicle.tallies(), [tally("tick", last - 2.0), tally("tock", last - 1.0)]);
+    }
+
+    #[test]
+    fn happenings_of_many_numbers_are_bounded_by_their_size() {
+        let wide = |k: usize| Happening {
+            name: "kick".to_owned(),
+            time: k as f64,
+            kind: Kind::Blow { jump: vec![1.0; 2000], reaction: vec![1.0; 2000] },
+        };
+        let each = size(&[wide(0)]);
+        let fits = BYTES / (CHUNK * each) * CHUNK;
+        let all: Chronicle = (0..fits).map(wide).collect();
+        assert_eq!(all.forgotten(), 0, "they fit just so");
+        let more: Chronicle = (0..fits + 2 * CHUNK).map(wide).collect();
+        assert_eq!(more.forgotten() as usize, 2 * CHUNK);
+        assert_eq!(more.iter().next_back().map(|h| h.time), Some((fits + 2 * CHUNK) as f64 - 1.0));
+    }
+
+    #[test]
+    fn what_is_only_counted_is_not_kept() {
+        let mut chronicle = Chronicle::default();
+        chronicle.only_count();
+        ticks(3 * CHUNK).for_each(|happening| chronicle.push(happening));
+        assert_eq!((chronicle.count(), chronicle.iter().count()), (3 * CHUNK as u64, 0));
+        chronicle.clear();
+        ticks(2).for_each(|happening| chronicle.push(happening));
+        assert_eq!((chronicle.count(), chronicle.iter().count()), (2, 0));
     }
 
     #[test]

@@ -192,6 +192,11 @@ impl Motion {
         }
     }
 
+    /// How often a singular configuration of the constraints was passed, and when first.
+    pub(super) fn singular_passages(&self) -> (u64, Option<f64>) {
+        self.inner.singular_passages()
+    }
+
     pub(super) fn step_size(&self) -> f64 {
         self.inner.step_size()
     }

@@ -28,6 +28,8 @@ pub(super) struct Recorder {
     origin: f64,
     spacing: f64,
     count: u64,
+    /// When the last row fell that was due.
+    last: Option<f64>,
     /// `sealed[k]` holds every 2ᵏ-th row, the oldest chunk first.
     sealed: [VecDeque<Arc<Vec<f64>>>; CHUNKS.len()],
     limits: [usize; CHUNKS.len()],
@@ -46,6 +48,7 @@ impl Recorder {
             origin: 0.0,
             spacing,
             count: 0,
+            last: None,
             sealed: Default::default(),
             limits: CHUNKS.map(|limit| limit.min((limit * most / all).max(2))),
             open: Arc::default(),
@@ -69,13 +72,16 @@ impl Recorder {
     }
 
     /// When the next row is due. Counted, not summed, so that rounding does not gather.
+    /// It is later than the last one also where the clock's digits are coarser than the spacing.
     pub(super) fn due(&self) -> f64 {
-        self.origin + self.count as f64 * self.spacing
+        let due = self.origin + self.count as f64 * self.spacing;
+        self.last.map_or(due, |last| due.max(last.next_up()))
     }
 
     /// Records the row that is due.
     pub(super) fn record(&mut self, time: f64, values: &[f64]) {
         self.count += 1;
+        self.last = Some(time);
         self.insert(time, values);
     }
 

@@ -124,6 +124,7 @@ impl Syntax {
             SyntaxKind::Call(name, span, arguments) => {
                 let lowered: Vec<Expr> = arguments.iter().map(|a| a.lower(pool, names)).collect();
                 match check_call(name, *span, self.span, arguments.len(), names) {
+                    Some(function) if takes_many(function) => among(pool, function, &lowered),
                     Some(function) => pool.call(function, &lowered),
                     None => pool.named(name),
                 }
@@ -157,6 +158,23 @@ fn lower_chain(
     }
 }
 
+/// Whether a function of two arguments is written of more.
+fn takes_many(function: FunctionId) -> bool {
+    matches!(function, FunctionId::Max | FunctionId::Min)
+}
+
+/// The largest or the smallest of many, as that of two halves: so it nests no deeper than it must.
+fn among(pool: &mut Pool, function: FunctionId, arguments: &[Expr]) -> Expr {
+    match arguments {
+        [one] => *one,
+        many => {
+            let (first, second) = many.split_at(many.len() / 2);
+            let halves = [among(pool, function, first), among(pool, function, second)];
+            pool.call(function, &halves)
+        }
+    }
+}
+
 /// The function of a call, after its name and its number of arguments have been checked.
 fn check_call(
     name: &str,
@@ -172,6 +190,9 @@ fn check_call(
                 .with_help(format!("a product is written with `*`: {name}*(...)"))
         } else {
             match nearest(name, FUNCTIONS.iter().map(|row| row.name)) {
+                _ if name == "log" => error.with_help(
+                    "did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)",
+                ),
                 Some(near) => error.with_help(format!("did you mean `{near}`?")),
                 None => {
                     let all: Vec<&str> = FUNCTIONS.iter().map(|row| row.name).collect();
@@ -183,8 +204,13 @@ fn check_call(
         return None;
     };
     let arity = function.row().arity;
-    if arity != count {
-        let arguments = if arity == 1 { "one argument" } else { "two arguments" };
+    let enough = if takes_many(function) { count >= arity } else { count == arity };
+    if !enough {
+        let arguments = match arity {
+            1 => "one argument",
+            _ if takes_many(function) => "two arguments or more",
+            _ => "two arguments",
+        };
         names.complain(SyntaxError::new(span, format!("`{name}` takes {arguments}, not {count}")));
         return None;
     }

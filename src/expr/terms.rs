@@ -22,6 +22,20 @@ impl Pool {
         sizes[&e]
     }
 
+    /// How much a change of every symbol by as much as it is changes an expression, to first order:
+    /// Σ |s ∂e/∂s|. Times the rounding of the symbols it is what their rounding does to the value,
+    /// also where its terms vanish.
+    pub fn size_of_inputs(&mut self, e: Expr) -> Expr {
+        let mut parts = Vec::new();
+        for symbol in self.symbols_of(e) {
+            let slope = self.derivative(e, symbol);
+            let s = self.variable(symbol);
+            let part = self.mul(s, slope);
+            parts.push(self.call(FunctionId::Abs, &[part]));
+        }
+        self.sum(&parts)
+    }
+
     fn size_of_node(&mut self, e: Expr, sizes: &FxHashMap<Expr, Expr>) -> Expr {
         match &*self.shared(e) {
             Node::Sum(constant, terms) => {

@@ -3,6 +3,7 @@
 //! In: the schedule of every impulse, the present. Out: the next time, and which impulse is due. Never
 //! here: what a blow does.
 
+use super::clock::spacing;
 use crate::expr::Double;
 use crate::system::Schedule;
 
@@ -56,6 +57,12 @@ impl Calendar {
     pub(super) fn next(&self, now: f64) -> Option<f64> {
         let all = 0..self.schedule.len();
         all.filter_map(|i| self.next_of(i, now)).min_by(f64::total_cmp)
+    }
+
+    /// Whether the clock cannot tell two blows of an impulse apart.
+    pub(super) fn stands_still(&self, now: f64) -> bool {
+        let mut intervals = self.schedule.iter().filter_map(|schedule| schedule.interval);
+        intervals.any(|interval| interval.high < spacing(now))
     }
 
     /// The impulse that falls now, if one does.

@@ -9,12 +9,22 @@
 //! the motion are not stepped over, and neither are two zeros within one piece.
 
 use super::Stepper;
+use super::clock::spacing;
 use crate::expr::{Double, portable};
 use crate::model::Direction;
-use crate::system::{Fault, State, Triggers};
+use crate::system::{Fault, FaultKind, State, Triggers};
 
-/// Into how many pieces a step is cut at first.
+/// Into how many pieces a stretch on which the functions are simple is cut at first.
 const PIECES: usize = 4;
+
+/// A stretch is not shorter than so many digits of the clock: at a pole there is no simple one, …
+const DIGITS: f64 = 16.0;
+
+/// … but so many of these in a row are no pole: a function changes faster than the clock can tell.
+const MOST_SHORTEST: u32 = 64;
+
+/// How far a look goes beyond the zero of a secant, in parts of the way to it.
+const BEYOND: f64 = 1.01;
 
 /// A value between two looks may differ from what they foretell by this part of its size.
 const FORETOLD: f64 = 0.02;
@@ -43,6 +53,10 @@ pub(super) struct Crossings {
     fresh: bool,
     /// When the last blow fell: the motion after it is not to be asked about earlier times.
     begun: Option<Double>,
+    /// Up to here the functions were found to be simple.
+    simple: Option<f64>,
+    /// How many stretches in a row were as short as may be.
+    shortest: u32,
     values: Vec<f64>,
     state: State,
 }
@@ -80,6 +94,8 @@ impl Crossings {
             sides: vec![0.0; count],
             fresh: false,
             begun: None,
+            simple: None,
+            shortest: 0,
             values: vec![0.0; count],
             state: blank,
         }
@@ -87,6 +103,12 @@ impl Crossings {
 
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
         self.triggers.set_parameters(parameters);
+        self.simple = None;
+    }
+
+    /// The motion goes on otherwise than it did.
+    pub(super) fn turn(&mut self) {
+        self.simple = None;
     }
 
     /// Forgets where the functions stood.
@@ -94,6 +116,7 @@ impl Crossings {
         self.sides.fill(0.0);
         self.fresh = false;
         self.begun = None;
+        self.simple = None;
     }
 
     /// A blow has led from one state to another, by the event given or by none: functions that
@@ -114,6 +137,7 @@ impl Crossings {
         }
         self.fresh = true;
         self.begun = Some(after.exact_time());
+        self.simple = None;
         Ok(())
     }
 
@@ -130,7 +154,35 @@ impl Crossings {
         Ok(())
     }
 
-    /// The first crossing that counts, between two times of the stepper's last step.
+    /// Where the stretch ends that begins at a time within the last step and on which the functions
+    /// are simple; `to` at the latest.
+    pub(super) fn stretch(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        from: f64,
+        to: f64,
+    ) -> Result<f64, Fault> {
+        if from >= to {
+            return Ok(to);
+        }
+        if let Some(end) = self.simple.filter(|&end| end > from) {
+            return Ok(end.min(to));
+        }
+        self.move_to(stepper, from)?;
+        let length = self.triggers.resolved(&self.state, to - from).unwrap_or(f64::INFINITY);
+        let shortest = DIGITS * spacing(from);
+        self.shortest = if length < shortest { self.shortest + 1 } else { 0 };
+        if self.shortest > MOST_SHORTEST {
+            let kind = FaultKind::ClockStands(spacing(from));
+            return Err(Fault { time: from, kind, place: Vec::new() });
+        }
+        let end = from + length.max(shortest);
+        self.simple = Some(end);
+        Ok(end.min(to))
+    }
+
+    /// The first crossing that counts, between two times of the stepper's last step, on a
+    /// [stretch](Crossings::stretch).
     pub(super) fn first(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -362,8 +414,15 @@ impl Crossings {
             if middle <= left || middle >= right {
                 break;
             }
-            let secant = left + (right - left) * (low.high / (low.high - high.high));
-            let inside = secant > left && secant < right && round % 3 != 2;
+            // a little beyond the secant's zero, so that the farther end comes near, too
+            let part = low.high / (low.high - high.high);
+            let digit = spacing(right.abs().max(left.abs()));
+            let secant = if part < 0.5 {
+                left + (right - left) * part * BEYOND + digit
+            } else {
+                right - (right - left) * (1.0 - part) * BEYOND - digit
+            };
+            let inside = secant > left && secant < right && round % 4 != 3;
             let time = if inside { secant } else { middle };
             let value = self.exactly(stepper, event, time)?;
             if value.high == 0.0 {

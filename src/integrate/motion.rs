@@ -5,14 +5,16 @@
 //! here: rows, gauges, what can be seen of a state.
 
 mod happening;
+mod watch;
 
 use super::calendar::Calendar;
 use super::crossing::{Crossings, Found};
 use super::haste::Haste;
 use super::{Method, Refusal, Settings, Stepper};
 use crate::expr::Double;
-use crate::system::{Fault, Form, Keeper, State, System};
+use crate::system::{Fault, FaultKind, Form, Keeper, State, System};
 pub use happening::{Happening, Kind};
+use watch::Watch;
 
 /// How far a motion came.
 #[derive(Clone, PartialEq, Debug)]
@@ -51,6 +53,7 @@ pub struct Motion {
     waiting: Option<Found>,
     /// Of each event.
     haste: Vec<Haste>,
+    watch: Watch,
     ended: bool,
     steps: u64,
 }
@@ -84,6 +87,7 @@ impl Motion {
             clear: 0.0,
             waiting: None,
             haste: vec![Haste::NONE; system.occasions().events.len()],
+            watch: Watch::default(),
             ended: false,
             steps: 0,
         };
@@ -106,8 +110,10 @@ impl Motion {
     /// # Errors
     /// Where the motion cannot begin there.
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        self.system.check_intervals(parameters, state.time)?;
         self.start = state.time;
         self.ended = false;
+        self.forget_passages();
         self.calendar.begin(state.time);
         self.haste.fill(Haste::NONE);
         self.parameters = parameters.to_vec();
@@ -127,6 +133,7 @@ impl Motion {
     /// Where the motion cannot go on from there.
     pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         if parameters != self.parameters {
+            self.system.check_intervals(parameters, state.time)?;
             self.parameters = parameters.to_vec();
             self.calendar.reschedule(self.system.schedule(parameters));
             if let Some(keeper) = &mut self.keeper {
@@ -188,6 +195,10 @@ impl Motion {
         }
         self.clear = state.time;
         self.waiting = None;
+        if let Some(crossings) = &mut self.crossings {
+            crossings.turn();
+        }
+        self.watch_from_here();
         self.stepper.start(&self.state, &self.parameters)
     }
 
@@ -203,23 +214,36 @@ impl Motion {
                 return Ok(Reached::Ended);
             }
             if self.clear <= time {
+                let due = self.calendar.due(self.clear);
+                if self.waiting.is_some() || due.is_some() {
+                    // what happens may happen without end
+                    if *budget == 0 {
+                        return Ok(Reached::Underway);
+                    }
+                    *budget -= 1;
+                    self.note_passages(self.clear);
+                }
                 if let Some(found) = self.waiting.take() {
                     return self.meet(found).map(Reached::Happened);
                 }
-                if let Some(impulse) = self.calendar.due(self.clear) {
+                if let Some(impulse) = due {
                     return self.fall(impulse).map(Reached::Happened);
                 }
             }
             if self.clear >= time {
                 self.look(time)?;
+                self.note_passages(time);
                 return Ok(Reached::There);
             }
-            if self.stepper.time() <= self.clear {
-                if *budget == 0 {
-                    return Ok(Reached::Underway);
-                }
-                *budget -= 1;
-                self.step(limit)?;
+            if *budget == 0 {
+                return Ok(Reached::Underway);
+            }
+            *budget -= 1;
+            if self.stepper.time() <= self.clear
+                && let Err(fault) = self.step(limit)
+            {
+                self.note_passages(self.clear);
+                return Err(self.explained(fault));
             }
             self.scan()?;
         }
@@ -227,7 +251,14 @@ impl Motion {
 
     fn step(&mut self, limit: f64) -> Result<(), Fault> {
         let limit = self.calendar.next(self.clear).map_or(limit, |blow| blow.min(limit));
+        let before = self.stepper.state().exact_time();
+        if self.calendar.stands_still(before.high) {
+            return Err(stands_still(before.high));
+        }
         self.stepper.step(limit)?;
+        if (self.stepper.state().exact_time() - before).high <= 0.0 {
+            return Err(stands_still(before.high));
+        }
         self.steps += 1;
         if self.keeper.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
@@ -236,15 +267,18 @@ impl Motion {
             }
             self.system.orthonormalise(&mut self.before);
             self.stepper.settle(&self.before);
+            self.watch_step();
         }
         Ok(())
     }
 
-    /// Looks for events in what was computed beyond `clear`, up to the next blow.
+    /// Looks for events in what was computed beyond `clear`, up to the next blow, as far as the
+    /// functions are simple.
     fn scan(&mut self) -> Result<(), Fault> {
         let end = self.stepper.time();
-        let end = self.calendar.next(self.clear).map_or(end, |blow| blow.min(end));
+        let mut end = self.calendar.next(self.clear).map_or(end, |blow| blow.min(end));
         if let Some(crossings) = &mut self.crossings {
+            end = crossings.stretch(self.stepper.as_mut(), self.clear, end)?;
             self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
         }
         self.clear = self.waiting.map_or(end, |found| found.exact.high);
@@ -284,6 +318,12 @@ impl Motion {
     fn own(&self) -> Result<State, Fault> {
         self.system.convert(&self.state, self.system.form(), &self.parameters)
     }
+}
+
+/// The clock has no digits left for what is to come.
+fn stands_still(time: f64) -> Fault {
+    let kind = FaultKind::ClockStands(super::clock::spacing(time));
+    Fault { time, kind, place: Vec::new() }
 }
 
 /// What can be asked of it.

@@ -92,7 +92,7 @@ pub(super) fn begin(
         }
     }
     for k in 0..conditions.count() {
-        let residual = conditions.velocity(k, &state[n..2 * n]).relative();
+        let residual = conditions.velocity(k, &state[n..2 * n]).missed();
         if residual.is_nan() || residual > GIVEN_WITHIN {
             return Err(NoBeginning::Missed(k, residual));
         }

@@ -384,6 +384,12 @@ impl System {
         }
     }
 
+    /// Whether a state carries the action and the work.
+    pub(super) fn carries(&self) -> [bool; 2] {
+        let quadratures = self.quadratures();
+        [quadratures.action, quadratures.work]
+    }
+
     /// Where a state carries the nine numbers of an attitude, by rows.
     pub(crate) fn attitude_place(&self) -> Option<usize> {
         self.shared.attitude.map(|place| self.moving() + place)
@@ -535,7 +541,8 @@ impl System {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
         let held = self.constraints() > 0;
-        let kind = if held { FaultKind::SingularConstraints } else { FaultKind::SingularMass };
+        let kind =
+            if held { FaultKind::SingularConstraints(None) } else { FaultKind::SingularMass };
         Fault { time, kind, place: place.take(4).collect() }
     }
 

@@ -15,37 +15,73 @@ use crate::expr::{Double, Expr, Symbol};
 /// says nothing new.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The program of (q, t): of each constraint A, A₀ and f, then the sizes of their terms.
-pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
-    let mut outputs = Vec::new();
-    for row in &writer.equations.constraints {
-        let mut values = row.row.clone();
-        values.push(row.rate);
-        values.push(row.position.unwrap_or(Expr::ZERO));
-        outputs.extend_from_slice(&values);
-        outputs.extend(values.into_iter().map(|e| writer.pool.size_of_terms(e)));
+/// Rows with a smaller part of their own have no orientation that could be trusted.
+const SPANS: f64 = 1e-12;
+
+/// How often rows and columns are scaled to make entries comparable; each time brings them closer.
+const SCALINGS: usize = 3;
+
+/// What an initial value or a parameter is off by, as a part of itself, where it was rounded to an
+/// `f64` a few times on its way from the file or the command line.
+const ROUNDING_OF_INPUTS: f64 = 4.0 * f64::EPSILON;
+
+/// The programs of the constraints, as functions of (q, t).
+#[derive(Clone, Debug)]
+pub(super) struct Programs {
+    /// Of each constraint A, A₀ and f.
+    values: Arc<Program>,
+    /// Of each of these the size of its terms, then how much its inputs move it: Σ |s ∂/∂s|.
+    sizes: Arc<Program>,
+}
+
+impl Programs {
+    pub(super) fn of(writer: &mut Writer<'_>) -> Result<Programs, Symbol> {
+        let mut values = Vec::new();
+        for row in &writer.equations.constraints {
+            values.extend_from_slice(&row.row);
+            values.push(row.rate);
+            values.push(row.position.unwrap_or(Expr::ZERO));
+        }
+        let pool = &mut writer.pool;
+        let sizes = values.iter().flat_map(|&e| [pool.size_of_terms(e), pool.size_of_inputs(e)]);
+        let sizes: Vec<Expr> = sizes.collect();
+        Ok(Programs { values: program(writer, &values)?, sizes: program(writer, &sizes)? })
     }
+}
+
+fn program(writer: &mut Writer<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
     let equations = writer.equations;
     let mut lowering = writer.lowering();
     for c in &equations.coordinates {
         let register = lowering.input();
         lowering.bind(c.position, register);
     }
-    let outputs = lowering.lower_all(&outputs);
+    let outputs = lowering.lower_all(outputs);
     lowering.finish(outputs)
 }
 
-/// A residual, and the size of the terms it is the sum of.
+/// A residual, and what it is to be measured by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residual {
     pub(super) value: Double,
+    /// The size of the terms it is the sum of.
     pub(super) size: f64,
+    /// How much its inputs move it, by as much as they are: Σ |s ∂/∂s|. It is large also where all
+    /// terms vanish, as those of sin θ do at π.
+    pub(super) inputs: f64,
 }
 
 impl Residual {
-    /// The residual measured by its terms; zero where there are none.
+    /// The residual measured by its terms and its inputs; zero where there is none.
     pub(super) fn relative(self) -> f64 {
-        if self.value.high == 0.0 { 0.0 } else { (self.value.high / self.size).abs() }
+        let value = self.value.high.abs();
+        if value == 0.0 { 0.0 } else { value / (self.size + self.inputs) }
+    }
+
+    /// The part of its terms by which given values miss, beyond what their rounding explains.
+    pub(super) fn missed(self) -> f64 {
+        let beyond = self.value.high.abs() - ROUNDING_OF_INPUTS * self.inputs;
+        if beyond <= 0.0 { 0.0 } else { beyond / self.size }
     }
 }
 
@@ -53,18 +89,27 @@ impl Residual {
 #[derive(Clone, Debug)]
 pub(super) struct Conditions {
     values: Values<Double>,
+    sizes: Values<f64>,
+    rounded: Vec<f64>,
     degrees: usize,
     count: usize,
 }
 
 impl Conditions {
-    pub(super) fn new(program: Arc<Program>, count: usize) -> Conditions {
-        let degrees = program.inputs();
-        Conditions { values: Values::new(program), degrees, count }
+    pub(super) fn new(programs: &Programs, count: usize) -> Conditions {
+        let degrees = programs.values.inputs();
+        Conditions {
+            values: Values::new(Arc::clone(&programs.values)),
+            sizes: Values::new(Arc::clone(&programs.sizes)),
+            rounded: vec![0.0; degrees],
+            degrees,
+            count,
+        }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
         self.values.set_parameters(parameters);
+        self.sizes.set_parameters(parameters);
     }
 
     /// How many coordinates there are.
@@ -79,17 +124,27 @@ impl Conditions {
 
     /// Looks at a time and coordinates; all else is told of these.
     pub(super) fn look(&mut self, time: Double, positions: &[Double]) {
-        // the program holds no equations to be solved, so it cannot meet a singular matrix
-        let _regular = self.values.evaluate(time, &positions[..self.degrees]);
+        let positions = &positions[..self.degrees];
+        self.rounded.iter_mut().zip(positions).for_each(|(rounded, x)| *rounded = x.high);
+        // the programs hold no equations to be solved, so they cannot meet a singular matrix
+        let _regular = self.values.evaluate(time, positions);
+        let _regular = self.sizes.evaluate(time.high, &self.rounded);
     }
 
     fn output(&self, constraint: usize, place: usize) -> Double {
-        self.values.output(constraint * 2 * (self.degrees + 2) + place)
+        self.values.output(constraint * (self.degrees + 2) + place)
     }
 
     /// The size of the terms of what stands at this place.
     fn size(&self, constraint: usize, place: usize) -> f64 {
-        self.output(constraint, self.degrees + 2 + place).high
+        self.sizes.output(2 * (constraint * (self.degrees + 2) + place))
+    }
+
+    /// How much the inputs of what stands at this place move it; zero where that cannot be told, as
+    /// at the tip of a root.
+    fn inputs(&self, constraint: usize, place: usize) -> f64 {
+        let inputs = self.sizes.output(2 * (constraint * (self.degrees + 2) + place) + 1);
+        if inputs.is_finite() { inputs } else { 0.0 }
     }
 
     /// A of one constraint and one coordinate.
@@ -104,19 +159,26 @@ impl Conditions {
 
     /// f of a holonomic constraint, zero of others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
-        let value = self.output(constraint, self.degrees + 1);
-        Residual { value, size: self.size(constraint, self.degrees + 1) }
+        let place = self.degrees + 1;
+        Residual {
+            value: self.output(constraint, place),
+            size: self.size(constraint, place),
+            inputs: self.inputs(constraint, place),
+        }
     }
 
     /// A q̇ + A₀.
     pub(super) fn velocity(&self, constraint: usize, velocities: &[Double]) -> Residual {
         let mut value = self.output(constraint, self.degrees);
         let mut size = self.size(constraint, self.degrees);
+        let mut inputs = self.inputs(constraint, self.degrees);
         for (i, &v) in velocities.iter().enumerate() {
+            let speed = v.high.abs();
             value = value + self.entry(constraint, i) * v;
-            size += self.size(constraint, i) * v.high.abs();
+            size += self.size(constraint, i) * speed;
+            inputs += (self.size(constraint, i) + self.inputs(constraint, i)) * speed;
         }
-        Residual { value, size }
+        Residual { value, size, inputs }
     }
 
     /// The multipliers of least norm of all `active` constraints that do what those of the `held`
@@ -157,25 +219,157 @@ impl Conditions {
     /// Which of the `active` constraints are independent of those before them, by Gram and
     /// Schmidt's construction.
     pub(super) fn independent(&self, active: &[bool]) -> Vec<bool> {
-        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let units = self.units(active);
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
         let mut chosen = vec![false; self.count];
         for k in (0..self.count).filter(|&k| active[k]) {
-            let row: Vec<f64> = (0..self.degrees).map(|i| self.entry(k, i).high).collect();
-            let size = norm(&row);
-            let mut rest = row;
-            // twice is enough (Golub & Van Loan, Matrix Computations, 5.2.9)
-            for other in basis.iter().chain(&basis) {
-                let part: f64 = rest.iter().zip(other).map(|(x, y)| x * y).sum();
-                rest.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
-            }
-            let left = norm(&rest);
             // a row of zeros is a singular place, not a repetition
-            chosen[k] = size == 0.0 || left > INDEPENDENT * size || !size.is_finite();
-            if left > 0.0 && chosen[k] {
-                basis.push(rest.iter().map(|x| x / left).collect());
+            chosen[k] = basis.add(self.row(k, &units)).is_none_or(|left| left > INDEPENDENT);
+            if !chosen[k] {
+                basis.drop_last();
             }
         }
         chosen
+    }
+
+    /// How far the `held` constraints are from depending on each other: the least sine of the angle
+    /// between the row of one and those before it; zero where a row vanishes.
+    pub(super) fn independence(&self, held: &[bool]) -> f64 {
+        let units = self.units(held);
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
+        let rows = (0..self.count).filter(|&k| held[k]).map(|k| self.row(k, &units));
+        rows.map(|row| basis.add(row).unwrap_or(0.0)).fold(1.0, f64::min)
+    }
+
+    /// The space that the rows of the `held` constraints span, with its orientation; `None` where
+    /// they do not span one. In given units of the coordinates, else in units that make the entries
+    /// comparable.
+    pub(super) fn span(&self, held: &[bool], units: Option<&[f64]>) -> Option<Span> {
+        let units = units.map_or_else(|| self.units(held), <[f64]>::to_vec);
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
+        for k in (0..self.count).filter(|&k| held[k]) {
+            basis.add(self.row(k, &units)).filter(|&left| left > SPANS)?;
+        }
+        Some(Span { rows: basis.rows, volume: basis.volume, units })
+    }
+
+    /// The row of a constraint in units of the coordinates, without what is only rounding.
+    fn row(&self, constraint: usize, units: &[f64]) -> Vec<f64> {
+        (0..self.degrees).map(|i| self.clean(constraint, i) * units[i]).collect()
+    }
+
+    /// An entry of A, zero where the rounding of its inputs explains it.
+    fn clean(&self, constraint: usize, coordinate: usize) -> f64 {
+        let entry = self.entry(constraint, coordinate).high;
+        let rounding = ROUNDING_OF_INPUTS * self.inputs(constraint, coordinate);
+        if entry.abs() <= rounding { 0.0 } else { entry }
+    }
+
+    /// Units of the coordinates in which the entries of the rows are comparable, so that neither
+    /// metres nor radians decide (D. Ruiz, RAL-TR-2001-034: rows and columns are scaled in turn).
+    fn units(&self, which: &[bool]) -> Vec<f64> {
+        let rows: Vec<Vec<f64>> = (0..self.count)
+            .filter(|&k| which[k])
+            .map(|k| (0..self.degrees).map(|i| self.clean(k, i).abs()).collect())
+            .collect();
+        let inverse = |x: f64| Some(1.0 / x).filter(|x| x.is_normal()).unwrap_or(1.0);
+        let mut units = vec![1.0; self.degrees];
+        for _ in 0..SCALINGS {
+            let scaled =
+                |row: &Vec<f64>| row.iter().zip(&units).map(|(a, c)| a * c).fold(0.0, f64::max);
+            let scales: Vec<f64> = rows.iter().map(|row| inverse(scaled(row))).collect();
+            for (i, unit) in units.iter_mut().enumerate() {
+                *unit = inverse(
+                    rows.iter().zip(&scales).map(|(row, s)| row[i] * s).fold(0.0, f64::max),
+                );
+            }
+        }
+        units
+    }
+}
+
+/// Rows made orthonormal one after the other.
+#[derive(Clone, Debug)]
+struct Basis {
+    rows: Vec<Vec<f64>>,
+    /// The volume they spanned before.
+    volume: f64,
+}
+
+impl Basis {
+    /// Adds a row; gives the sine of its angle to those before it, `None` where it vanishes.
+    fn add(&mut self, mut rest: Vec<f64>) -> Option<f64> {
+        let size = norm(&rest);
+        if size == 0.0 || !size.is_finite() {
+            self.rows.push(vec![0.0; rest.len()]);
+            return None;
+        }
+        for x in &mut rest {
+            *x /= size;
+        }
+        // twice is enough (Golub & Van Loan, Matrix Computations, 5.2.9)
+        for other in self.rows.iter().chain(&self.rows) {
+            let part: f64 = rest.iter().zip(other).map(|(x, y)| x * y).sum();
+            rest.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
+        }
+        let left = norm(&rest);
+        self.volume *= size * left;
+        let scale = if left > 0.0 { 1.0 / left } else { 0.0 };
+        self.rows.push(rest.iter().map(|x| x * scale).collect());
+        Some(left)
+    }
+
+    fn drop_last(&mut self) {
+        self.rows.pop();
+    }
+}
+
+/// The space spanned by the rows of constraints, with its orientation.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Span {
+    /// Orthonormal, oriented as the constraints' own rows.
+    rows: Vec<Vec<f64>>,
+    /// The volume that the constraints' own rows span.
+    volume: f64,
+    units: Vec<f64>,
+}
+
+impl Span {
+    /// The units of the coordinates it was taken in.
+    pub(super) fn units(&self) -> &[f64] {
+        &self.units
+    }
+
+    /// The volume that the rows of the constraints span, in these units.
+    pub(super) fn volume(&self) -> f64 {
+        self.volume
+    }
+
+    /// The cosine of the angle between two such spaces: 1 where they are one, −1 where they are one
+    /// with the opposite orientation. It is the determinant of the rows' inner products.
+    pub(super) fn cosine(&self, other: &Span) -> f64 {
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let mut matrix: Vec<Vec<f64>> =
+            self.rows.iter().map(|a| other.rows.iter().map(|b| product(a, b)).collect()).collect();
+        let n = matrix.len();
+        let mut determinant = 1.0;
+        for k in 0..n {
+            let largest = (k..n).max_by(|&a, &b| matrix[a][k].abs().total_cmp(&matrix[b][k].abs()));
+            let Some(best) = largest.filter(|&best| matrix[best][k] != 0.0) else { return 0.0 };
+            if best != k {
+                matrix.swap(best, k);
+                determinant = -determinant;
+            }
+            determinant *= matrix[k][k];
+            for i in k + 1..n {
+                let factor = matrix[i][k] / matrix[k][k];
+                for j in k..n {
+                    let product = factor * matrix[k][j];
+                    matrix[i][j] -= product;
+                }
+            }
+        }
+        determinant
     }
 }
 

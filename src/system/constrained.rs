@@ -4,16 +4,13 @@
 //! residuals. Never here: the forces of constraint along the motion; these are outputs of the
 //! programs.
 
-use std::sync::Arc;
-
 use super::beginning::{self, Known, NoBeginning};
-use super::conditions::{self, Conditions};
+use super::conditions::{Conditions, Programs, Span};
 use super::fault::{Fault, FaultKind};
 use super::hold::Hold;
 use super::kept::{Failure, Kept};
 use super::moments::Moments;
 use super::motion::Writer;
-use super::program::Program;
 use super::value::Values;
 use super::{Form, State, System};
 use crate::expr::{Double, Expr, Symbol};
@@ -22,7 +19,7 @@ use crate::model::{Action, Model};
 /// What is known of the constraints before any state.
 #[derive(Clone, Debug)]
 pub(super) struct Constrained {
-    program: Arc<Program>,
+    programs: Programs,
     pub(super) names: Vec<String>,
     /// Whether any constraint speaks of each coordinate's velocity.
     touched: Vec<bool>,
@@ -61,8 +58,8 @@ impl Constrained {
             writer.hold = Hold::of(&mut writer.pool, writer.equations, false, false);
             return Ok(None);
         }
-        let program = conditions::program(writer)?;
-        let held = independent_at_start(model, writer, &program, moments)?;
+        let programs = Programs::of(writer)?;
+        let held = independent_at_start(model, writer, &programs, moments)?;
         let redundant = held.contains(&false);
         let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
         let switched = redundant || released;
@@ -70,7 +67,7 @@ impl Constrained {
         writer.parameters.extend(hold.switches.iter().flat_map(|s| [s.held, s.active]));
         writer.hold = hold;
         let constrained = Constrained {
-            program,
+            programs,
             touched: (0..model.coordinates.len())
                 .map(|i| rows.iter().any(|row| row.row[i] != Expr::ZERO))
                 .collect(),
@@ -86,7 +83,7 @@ impl Constrained {
 fn independent_at_start(
     model: &Model,
     writer: &mut Writer<'_>,
-    program: &Arc<Program>,
+    programs: &Programs,
     moments: Option<&Moments>,
 ) -> Result<Vec<bool>, Symbol> {
     let count = writer.equations.constraints.len();
@@ -101,10 +98,26 @@ fn independent_at_start(
     let mut values: Values<Double> = Values::new(start);
     values.set_parameters(&parameters);
     let positions: Vec<Double> = (0..model.coordinates.len()).map(|i| values.output(i)).collect();
-    let mut conditions = Conditions::new(Arc::clone(program), count);
+    let mut conditions = Conditions::new(programs, count);
     conditions.set_parameters(&parameters);
     conditions.look(Double::written(model.run.start), &positions);
     Ok(conditions.independent(&vec![true; count]))
+}
+
+/// Where the sine between constraints' directions is smaller, a failure is that of a singular
+/// configuration nearby: beside a regular one corrections converge from much farther away.
+const NEARLY_SINGULAR: f64 = 1e-3;
+
+/// The directions in which the constraints hold a state, all together, with their orientation.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Directions(Span);
+
+impl Directions {
+    /// The cosine of the angle between two: it changes smoothly along a motion, and turns from 1 to
+    /// −1 where the motion passes a singular configuration.
+    pub fn cosine(&self, other: &Directions) -> f64 {
+        self.0.cosine(&other.0)
+    }
 }
 
 /// Keeps the states of one system on its constraints, at one set of parameters; holds its own
@@ -136,7 +149,11 @@ impl Keeper {
     pub fn project(&mut self, state: &mut State) -> Result<(), Fault> {
         self.load(state);
         let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
-        outcome.map_err(|why| self.system.lost(why, state))?;
+        if let Err(why) = outcome {
+            let singular = self.is_nearly_singular(state, None);
+            let why = if singular { Failure::Singular } else { why };
+            return Err(self.system.lost(why, state));
+        }
         // one that repeated the others where the motion began may have come to contradict them
         let Holding { active, held } = self.system.holding();
         let conditions = self.kept.conditions();
@@ -145,13 +162,35 @@ impl Keeper {
             let off = conditions.position(k).relative();
             let off = off.max(conditions.velocity(k, velocities).relative());
             if off.is_nan() || off > beginning::GIVEN_WITHIN {
-                return Err(self.system.lost(Failure::Lost(k), state));
+                return Err(self.system.lost(Failure::Parted(k), state));
             }
         }
         for (i, &x) in self.numbers.iter().enumerate() {
             state.set(i, x);
         }
         Ok(())
+    }
+
+    /// Whether a state lies at a singular configuration of the constraints or close by: their
+    /// directions nearly depend on each other, or one nearly vanishes, measured by what it is at
+    /// another state.
+    pub fn is_nearly_singular(&mut self, state: &State, beside: Option<&State>) -> bool {
+        let beside = beside.and_then(|beside| self.directions(beside, None));
+        let Some(here) = self.directions(state, beside.as_ref()) else { return true };
+        let shrunk = |beside: Directions| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
+        let held = self.system.holding().held.clone();
+        self.kept.conditions().independence(&held) < NEARLY_SINGULAR || beside.is_some_and(shrunk)
+    }
+
+    /// The directions of the constraints at a state, in the units of others where some are given;
+    /// `None` at a singular configuration.
+    pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
+        self.load(state);
+        let held = self.system.holding().held.clone();
+        let conditions = self.kept.conditions();
+        conditions.look(state.exact_time(), &self.numbers);
+        let units = like.map(|like| like.0.units());
+        conditions.span(&held, units).map(Directions)
     }
 
     /// How far a state (q, q̇) is from keeping each constraint, measured by the size of its terms:
@@ -217,7 +256,7 @@ impl System {
 
     fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
         let constrained = self.constrained()?;
-        let mut conditions = Conditions::new(Arc::clone(&constrained.program), self.constraints());
+        let mut conditions = Conditions::new(&constrained.programs, self.constraints());
         conditions.set_parameters(&self.inputs(parameters));
         let positions: Vec<Double> = (0..self.degrees()).map(|i| state.exact(i)).collect();
         conditions.look(state.exact_time(), &positions);
@@ -226,8 +265,7 @@ impl System {
 
     /// What keeps states on the constraints; `None` where there are none.
     pub fn keeper(&self, parameters: &[f64]) -> Option<Keeper> {
-        let program = Arc::clone(&self.constrained()?.program);
-        let conditions = Conditions::new(program, self.constraints());
+        let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
         let momenta = Values::new(self.legendre_program());
         let kept = Kept::new(conditions, momenta, &self.holding().held);
         let numbers = vec![Double::ZERO; self.moving()];
@@ -278,10 +316,13 @@ impl System {
             self.fault(kind, state.time, &state.values)
         };
         for k in 0..self.constraints() {
-            let part = conditions.position(k).relative();
+            let part = conditions.position(k).missed();
             if part.is_nan() || part > beginning::GIVEN_WITHIN {
                 return Err(missed(k, part));
             }
+        }
+        if conditions.independence(&self.holding().held) == 0.0 {
+            return Err(self.lost(Failure::Singular, &state));
         }
         let mut momenta = Values::new(self.legendre_program());
         momenta.set_parameters(&self.inputs(parameters));
@@ -322,7 +363,8 @@ impl System {
     fn lost(&self, why: Failure, state: &State) -> Fault {
         let kind = match (why, self.constrained()) {
             (Failure::Lost(k), Some(c)) => FaultKind::ConstraintLost(c.names[k].clone()),
-            (Failure::Singular, _) | (_, None) => FaultKind::SingularConstraints,
+            (Failure::Parted(k), Some(c)) => FaultKind::ConstraintParted(c.names[k].clone()),
+            (Failure::Singular, _) | (_, None) => FaultKind::SingularConstraints(None),
         };
         self.fault(kind, state.time, &state.values)
     }

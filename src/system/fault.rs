@@ -15,13 +15,25 @@ pub struct Fault {
     pub place: Vec<(String, f64)>,
 }
 
+/// A method of fixed step that was seen to lead past a place where another one stops.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Passage {
+    /// The method's name.
+    pub method: &'static str,
+    /// The step it was tried with.
+    pub step: f64,
+}
+
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FaultKind {
     /// A pivot of the mass matrix vanishes.
     SingularMass,
-    /// The constraints and the mass matrix together are singular.
-    SingularConstraints,
+    /// The constraints are dependent there, or together with the mass matrix singular; how it is
+    /// passed, where that is known.
+    SingularConstraints(Option<Passage>),
+    /// This constraint repeated the others where the motion began, and contradicts them here.
+    ConstraintParted(String),
     /// No state nearby keeps this constraint.
     ConstraintLost(String),
     /// The values at the start miss this constraint, by this part of the size of its terms.
@@ -38,6 +50,10 @@ pub enum FaultKind {
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
     StepUnderflow(f64),
+    /// The clock has no digits for the next step or blow; the distance of two times it can show.
+    ClockStands(f64),
+    /// This impulse is to strike again after an interval that is none: zero, negative or not finite.
+    NoInterval(String, f64),
     /// This event comes ever faster and would come without end.
     PilesUp(String),
     /// Somebody asked that it stop.
@@ -51,12 +67,14 @@ impl fmt::Display for Fault {
         let time = printable::number(self.time);
         match &self.kind {
             FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
-            FaultKind::SingularConstraints => {
-                write!(
-                    f,
-                    "the constraints and the masses leave no motion, or many, at t = {time}"
-                )?;
+            FaultKind::SingularConstraints(_) => {
+                write!(f, "singular configuration of the constraints at t = {time}")?;
             }
+            FaultKind::ConstraintParted(name) => write!(
+                f,
+                "the constraint `{name}`, which repeated those before it where the motion began, \
+                 contradicts them at t = {time}"
+            )?,
             FaultKind::ConstraintLost(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
             }
@@ -82,6 +100,15 @@ impl fmt::Display for Fault {
             FaultKind::StepUnderflow(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
+            FaultKind::ClockStands(spacing) => write!(
+                f,
+                "the clock cannot go on from t = {}: its digits are {} apart there",
+                short(time),
+                short(*spacing)
+            )?,
+            FaultKind::NoInterval(name, interval) => {
+                write!(f, "the impulse `{name}` cannot strike every {}", short(*interval))?;
+            }
             FaultKind::PilesUp(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
@@ -91,10 +118,19 @@ impl fmt::Display for Fault {
         for (name, value) in &self.place {
             write!(f, ", {name} = {}", short(*value))?;
         }
-        f.write_str(match self.kind {
+        f.write_str(match &self.kind {
             FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
-            FaultKind::SingularConstraints => {
-                ": a configuration in which constraints coincide or have no direction"
+            FaultKind::SingularConstraints(passage) => {
+                f.write_str(": their directions depend on each other there, or one has none")?;
+                let Some(Passage { method, step }) = passage else { return Ok(()) };
+                return write!(
+                    f,
+                    "; --method {method} --step {} passes it, on the smooth one of its branches",
+                    short(*step)
+                );
+            }
+            FaultKind::ConstraintParted(_) => {
+                ": the motion began at a singular configuration of the constraints"
             }
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
             FaultKind::ConstraintMissed(..)
@@ -105,6 +141,8 @@ impl fmt::Display for Fault {
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
             FaultKind::NoConvergence(_) => ": try a smaller step",
             FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            FaultKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
+            FaultKind::NoInterval(..) => ": its interval must be above zero",
             FaultKind::PilesUp(_) => ": give the file an event that stops it before",
             FaultKind::Sticks => ": both sides of a kink push towards it",
         })

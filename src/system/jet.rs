@@ -83,6 +83,16 @@ impl<R: Real> Jet<R> {
         self.sides[switch] = side;
     }
 
+    /// The branch taken at a switch.
+    pub fn side(&self, switch: usize) -> Side {
+        self.sides[switch]
+    }
+
+    /// How many switches there are.
+    pub fn switches(&self) -> usize {
+        self.sides.len()
+    }
+
     /// Sets a coefficient of the weight at a switch whose side is [`Side::Between`].
     pub fn set_weight(&mut self, switch: usize, order: usize, coefficient: R) {
         self.weights[switch * self.stride + order] = coefficient;

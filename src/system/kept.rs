@@ -37,6 +37,8 @@ pub(super) enum Failure {
     Singular,
     /// This constraint is not met by any state nearby.
     Lost(usize),
+    /// This constraint repeated the others where the motion began, and contradicts them here.
+    Parted(usize),
 }
 
 impl Kept {

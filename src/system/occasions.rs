@@ -9,9 +9,10 @@ use std::sync::Arc;
 
 use super::motion::Writer;
 use super::program::Program;
+use super::resolution::{self, Resolution};
 use super::value::Values;
 use super::watch;
-use super::{Fault, Form, State, System};
+use super::{Fault, FaultKind, Form, State, System};
 use crate::expr::{Double, Expr, Symbol};
 use crate::model::{Action, Direction, Model};
 
@@ -24,6 +25,8 @@ pub struct Occasions {
     pub impulses: Vec<Blow>,
     /// Of (q, native rates, action, work): each event's function.
     when: Arc<Program>,
+    /// Of the same: what tells how fast these functions change.
+    pace: Arc<Program>,
     /// Of the same: Q̂ of every impulse.
     change: Arc<Program>,
     /// Of the parameters: the times of every impulse, its interval last (zero for none).
@@ -51,6 +54,8 @@ pub struct Blow {
     /// What it is, in words.
     pub about: String,
     times: usize,
+    /// Whether it strikes again and again.
+    periodic: bool,
     /// Whether it falls at times of its own; one that does not waits for an event or a key.
     pub scheduled: bool,
 }
@@ -62,6 +67,8 @@ pub struct Schedule {
     pub times: Vec<Double>,
     /// And at every multiple of this interval after the start.
     pub interval: Option<Double>,
+    /// The interval as it was computed, which may be none: zero, negative or not finite.
+    given: Double,
 }
 
 impl Schedule {
@@ -114,10 +121,12 @@ impl Occasions {
                     name: i.name.clone(),
                     about: i.about.clone(),
                     times: i.times.len(),
+                    periodic: i.period.is_some(),
                     scheduled: !i.times.is_empty() || i.period.is_some(),
                 })
                 .collect(),
             when: watch::program(writer, &functions)?,
+            pace: resolution::program(writer, &functions)?,
             change: watch::program(writer, &changes)?,
             schedule,
             quadratic: writer.is_quadratic(),
@@ -132,6 +141,7 @@ pub struct Triggers {
     parameters: Vec<f64>,
     quick: Values<f64>,
     exact: Values<Double>,
+    resolution: Resolution,
     rounded: Vec<f64>,
     inputs: Vec<Double>,
 }
@@ -144,6 +154,19 @@ impl Triggers {
         let inputs = self.system.inputs(parameters);
         self.quick.set_parameters(&inputs);
         self.exact.set_parameters(&inputs);
+        self.resolution.set_parameters(&inputs);
+    }
+
+    /// How far after a state the functions are so simple that looks at the ends, and at what these
+    /// do not foretell, see every turn; infinite for polynomials, `None` where it cannot be told.
+    /// `near` is some length of time that is not far from the motion's own.
+    pub fn resolved(&mut self, state: &State, near: f64) -> Option<f64> {
+        let form = self.system.form();
+        if state.form == form {
+            return self.resolution.after(state, near);
+        }
+        let own = self.system.convert(state, form, &self.parameters).ok()?;
+        self.resolution.after(&own, near)
     }
 
     /// The inputs for a state, which may have either form.
@@ -200,6 +223,11 @@ impl System {
             parameters: parameters.to_vec(),
             quick: Values::new(Arc::clone(program)),
             exact: Values::new(Arc::clone(program)),
+            resolution: Resolution::new(
+                self,
+                Arc::clone(&self.occasions().pace),
+                self.occasions().events.len(),
+            ),
             rounded: vec![0.0; inputs],
             inputs: vec![Double::ZERO; inputs],
         };
@@ -219,10 +247,26 @@ impl System {
         };
         let of = |blow: &Blow| {
             let times = take(blow.times);
-            let interval = take(1).first().copied().filter(|x| x.high > 0.0 && x.is_finite());
-            Schedule { times, interval }
+            let given = take(1).first().copied().unwrap_or(Double::ZERO);
+            let interval = Some(given).filter(|x| x.high > 0.0 && x.is_finite());
+            Schedule { times, interval, given }
         };
         occasions.impulses.iter().map(of).collect()
+    }
+
+    /// The impulse whose interval is none at these parameters, if there is one, as a fault.
+    ///
+    /// # Errors
+    /// The fault, at this time.
+    pub fn check_intervals(&self, parameters: &[f64], time: f64) -> Result<(), Fault> {
+        let schedule = self.schedule(parameters);
+        for (blow, schedule) in self.occasions().impulses.iter().zip(schedule) {
+            if let (true, None) = (blow.periodic, schedule.interval) {
+                let kind = FaultKind::NoInterval(blow.name.clone(), schedule.given.high);
+                return Err(Fault { time, kind, place: Vec::new() });
+            }
+        }
+        Ok(())
     }
 
     /// Strikes a state in the system's own form: Δp = Q̂ + AᵀΛ̂ with A q̇ + A₀ = 0 after it, q kept.

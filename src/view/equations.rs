@@ -139,7 +139,7 @@ impl Writer<'_> {
         for constraint in &self.model.constraints {
             page.formula("0", self.write(constraint.expression), &constraint.name);
         }
-        page.heading("Multipliers: the force on each coordinate is λ times the constraint's slope");
+        page.heading("Multipliers: the force on each coordinate is +λ times the slope of the constraint as written");
         match &self.equations.multipliers {
             Ok(solved) => {
                 for ((row, e), c) in

@@ -360,7 +360,10 @@ fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
     let mut stuck = experiment(&model, |_| ());
     stuck.advance(1.0, 1000);
     let Status::Faulted(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
-    assert!(fault.message.contains("`parabola` cannot be kept"), "{}", fault.message);
+    let right = "the constraint `parabola`, which repeated those before it where the motion began, \
+                 contradicts them";
+    assert!(fault.message.contains(right), "{}", fault.message);
+    assert!(fault.message.contains("began at a singular configuration"), "{}", fault.message);
 }
 
 #[test]

@@ -314,6 +314,81 @@ when = 'x^2 + 1'
     assert!(times(&free, "never").is_empty());
 }
 
+/// The times of one event of a free motion, x = t.
+fn of_free(when: &str, until: f64, method: &str, step: Option<f64>) -> Vec<f64> {
+    let text = format!("{FREE}\n[[events]]\nname = 'e'\nwhen = '{when}'\n");
+    let mut free = build(&text, |setup| {
+        method.clone_into(&mut setup.method);
+        setup.settings.step = step;
+        setup.end = Some(until);
+        setup.spacing = until;
+    });
+    run(&mut free, until);
+    times(&free, "e")
+}
+
+#[test]
+fn a_function_that_swings_thousands_of_times_within_a_step_loses_and_doubles_nothing() {
+    // the motion is a polynomial: one step leads to the end
+    let pi = std::f64::consts::PI;
+    for (method, step) in [("taylor", None), ("dop853", None), ("leapfrog", Some(500.0))] {
+        for when in ["sin(10*t)", "sin(10*x)"] {
+            let found = of_free(when, 5000.0, method, step);
+            assert_eq!(found.len(), 15_915, "{method}: {when}");
+            for (n, time) in found.iter().enumerate() {
+                let right = pi * (n + 1) as f64 / 10.0;
+                // two digits of the clock there; dop853 adds its steps up
+                let within = if method == "taylor" { 2e-12 } else { 1e-11 };
+                assert!((time - right).abs() < within, "{method}: {when}: {time} for {right}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_narrow_or_small_within_a_long_step_is_found() {
+    // a bell of width 1e-2 after five hundred of nothing
+    let half = 2.0_f64.ln().sqrt() / 100.0;
+    let bell = of_free("exp(-1e4*(t - 500)^2) - 0.5", 1000.0, "taylor", None);
+    assert_eq!(bell.len(), 2, "{bell:?}");
+    assert!((bell[0] - 500.0 + half).abs() < 1e-12 && (bell[1] - 500.0 - half).abs() < 1e-12);
+    // the same as a rational function, and as a step of tanh
+    let rational = of_free("1/(1 + 1e8*(x - 500)^2) - 0.5", 1000.0, "taylor", None);
+    assert_eq!(rational.len(), 2, "{rational:?}");
+    let step = of_free("tanh(1e3*(t - 321)) + tanh(1e3*(654 - t)) - 1", 1000.0, "taylor", None);
+    assert_eq!(step.len(), 2, "{step:?}");
+    // a ripple that shows only beside zero: g' = 1 + 10 cos(10⁴ t) changes sign twice a ripple
+    let ripple = of_free("t - 5 + 0.001*sin(1e4*t)", 10.0, "taylor", None);
+    let g = |t: f64| t - 5.0 + 0.001 * (1e4 * t).sin();
+    let fine = (0..=400_000).map(|k| g(4.998 + 1e-8 * f64::from(k)).signum());
+    let mut last = -1.0;
+    let crossings = fine.filter(|&s| std::mem::replace(&mut last, s) != s).count();
+    assert!(crossings > 3);
+    assert_eq!(ripple.len(), crossings);
+    // what has no slope at all but where it jumps
+    assert_eq!(of_free("sign(sin(10*t + 1)) - 0.5", 100.0, "taylor", None).len(), 318);
+    assert_eq!(of_free("abs(sin(10*x)) - 0.5", 100.0, "taylor", None).len(), 637);
+    assert_eq!(of_free("max(sin(10*x), cos(10*x), 0.9) - 0.95", 100.0, "taylor", None).len(), 637);
+}
+
+#[test]
+fn a_function_faster_than_the_clock_is_a_fault() {
+    // at t = 10⁴ the digits of the clock are 1.8e-12 apart
+    for (speed, told) in [("1e10", false), ("1e13", true)] {
+        let text = format!(
+            "{FREE}\n[[events]]\nname = 'e'\nwhen = 'sin({speed}*(t - 10000))'\n[run]\nstart = 10000.0\n"
+        );
+        let mut free = file(&text);
+        free.advance(10_000.000_001, 10_000);
+        assert_eq!(
+            matches!(free.status(), Status::Faulted(_)),
+            told,
+            "{speed}: {:?}",
+            free.status()
+        );
+    }
+}
+
 #[test]
 fn an_event_may_end_the_motion() {
     let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");

@@ -24,6 +24,7 @@ mod record;
 mod reference;
 mod rigid_body;
 mod screen;
+mod starts;
 mod system;
 mod taylor;
 mod terminal;

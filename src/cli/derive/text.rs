@@ -163,6 +163,10 @@ impl Page<'_> {
             }
         }
         self.section("Forces of constraint", &rows);
+        self.line(
+            "  (they stand beside the other forces, each constraint as written; many programs have the \
+             opposite sign)",
+        );
     }
 
     /// The Lagrangian that has the constraints put into it, and what it is not.

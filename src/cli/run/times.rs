@@ -2,6 +2,7 @@
 
 use crate::cli::decimal::{divisions, multiples};
 use crate::cli::failure::Failure;
+use crate::integrate::spacing;
 use crate::model::RunSettings;
 use crate::printable;
 
@@ -10,6 +11,9 @@ const LENGTH: f64 = 10.0;
 
 /// How many intervals lie between its rows where nobody says.
 const INTERVALS: u32 = 200;
+
+/// The shortest time between two rows: below it the powers of a step underflow.
+const SHORTEST: f64 = 1e-280;
 
 /// The times of a run.
 #[derive(Clone, PartialEq, Debug)]
@@ -66,6 +70,16 @@ impl Times {
                 ));
             }
         }
+        if !(end - start).is_finite() {
+            return wrong(format!("from {start:e} to {end:e} is farther than the clock reaches"));
+        }
+        if end == start && at.is_none() && until.is_none() && run.until.is_none() {
+            return wrong(format!(
+                "the clock cannot tell t = {start:e} from {LENGTH} later: its digits are {:e} apart \
+                 there; begin earlier, or say --until",
+                spacing(start)
+            ));
+        }
         let rows = match (every, at) {
             (Some(gap), _) if gap <= 0.0 => {
                 return wrong(format!(
@@ -77,7 +91,38 @@ impl Times {
             (None, Some(at)) => Which::At(at.to_vec()),
             (None, None) => Which::Even,
         };
-        Ok(Times { start, end, rows })
+        let times = Times { start, end, rows };
+        times.check()?;
+        Ok(times)
+    }
+
+    /// Whether the clock can tell the rows apart, wherever they lie.
+    fn check(&self) -> Result<(), Failure> {
+        let Times { start, end, .. } = *self;
+        let gap = match &self.rows {
+            _ if end == start => return Ok(()),
+            Which::Even => (end - start) / f64::from(INTERVALS),
+            Which::Every(gap) => *gap,
+            // they increase as they were given
+            Which::At(_) => end - start,
+        };
+        let finest = spacing(start.abs().max(end.abs()));
+        if gap < finest {
+            let message = format!(
+                "the clock cannot tell rows {gap:e} apart at t = {:e}: its digits are {finest:e} \
+                 apart there",
+                if end.abs() > start.abs() { end } else { start }
+            );
+            return Err(Failure::WrongUse(message));
+        }
+        if gap < SHORTEST {
+            let message = format!(
+                "rows {gap:e} apart are closer than a motion can be followed, {SHORTEST:e}; take a \
+                 larger unit of time"
+            );
+            return Err(Failure::WrongUse(message));
+        }
+        Ok(())
     }
 
     /// The time of the initial values.

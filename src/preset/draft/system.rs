@@ -177,7 +177,7 @@ fn parameter<'d>(
         DeValue::Table(entries) => {
             let mut table = Table::new(called, parameter.name.span(), entries);
             let found = table.require("value", "write { value = 1.0 }");
-            parameter.value = found.and_then(|(_, v)| value::number(v, "`value`", mistakes));
+            parameter.value = found.and_then(|(_, v)| value::constant(v, "`value`", mistakes));
             parameter.min = table.number("min", mistakes);
             parameter.max = table.number("max", mistakes);
             parameter.scale = table.text("scale", mistakes);
@@ -186,12 +186,7 @@ fn parameter<'d>(
             parameter.about = table.line("about", mistakes);
             table.finish(mistakes);
         }
-        DeValue::String(_) => {
-            let message = format!("{called} must be a number, not a text in quotes");
-            let help = "what follows from other parameters stands in [definitions]";
-            mistakes.push(Mistake::error(entry.span(), message).with_help(help));
-        }
-        _ => parameter.value = value::number(entry, &called, mistakes),
+        _ => parameter.value = value::constant(entry, &called, mistakes),
     }
     parameter
 }

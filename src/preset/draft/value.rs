@@ -5,6 +5,7 @@ use toml::de::{DeArray, DeValue};
 
 use super::table::Value;
 use super::{Formula, Mistake, Mistakes};
+use crate::model::{Allowed, Model, Scope};
 use crate::printable::is_steering;
 
 /// What a value is, with its article.
@@ -88,6 +89,29 @@ pub(super) fn number(
         }
     };
     digits.parse().ok().map(|number| Spanned::new(value.span(), number))
+}
+
+/// A finite number, or an expression of numbers in quotes: `"2*pi"`.
+pub(super) fn constant(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Mistakes,
+) -> Option<Spanned<f64>> {
+    let DeValue::String(text) = value.get_ref() else {
+        return number(value, called, mistakes);
+    };
+    let mut nothing = Model::new("");
+    let mut scope = Scope::new(&nothing, Allowed::Parameters, "a number");
+    let read = scope.read(&mut nothing.pool, text).filter(|_| scope.mistakes.is_empty());
+    let found = read.map(|e| nothing.pool.evaluate(e, &|_| f64::NAN));
+    let Some(found) = found.filter(|x| x.is_finite()) else {
+        let message = format!("{called} must be a finite number, or an expression of numbers");
+        let help =
+            "write 2.5 or \"2*pi\"; what follows from other parameters stands in [definitions]";
+        mistakes.push(Mistake::error(value.span(), message).with_help(help));
+        return None;
+    };
+    Some(Spanned::new(value.span(), found))
 }
 
 /// A number or an expression in quotes.

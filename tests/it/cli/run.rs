@@ -353,3 +353,82 @@ fn an_event_that_stops_ends_the_run_well_and_its_moment_still_has_a_row() {
         assert!(events[1]["jump"].is_null(), "a stop is no blow");
     }
 }
+
+#[test]
+fn a_clock_that_cannot_tell_rows_or_steps_apart_is_refused_before_the_first_row() {
+    for (arguments, why) in [
+        (&["--until", "1e-320"][..], "closer than a motion can be followed"),
+        (&["--until", "1.9e-278"], "closer than a motion can be followed"),
+        (&["--init", "t=1e300"], "cannot tell t = 1e300 from 10 later"),
+        (&["--init", "t=1e17"], "cannot tell rows"),
+        (&["--every", "1e-300"], "cannot tell rows 1e-300 apart"),
+        (&["--until", "1", "--every", "2e-16"], "cannot tell rows 2e-16 apart"),
+        (&["--until", "1.7e38"], "cannot tell steps of"),
+        (&["--until", "1e300", "--every", "1e299"], "cannot tell steps of"),
+        (&["--method", "rk4", "--step", "1e-300"], "cannot tell steps of 1e-300 apart"),
+        (
+            &["--method", "leapfrog", "--until", "1", "--step", "2e-16"],
+            "cannot tell steps of 2e-16",
+        ),
+        (&["--init", "t=-1.7e308", "--until", "1.7e308"], "farther than the clock reaches"),
+    ] {
+        run(arguments).fails(2, &["phaselab: ", why]);
+    }
+    // the other side of each
+    assert_eq!(csv(&run(&["--until", "2.1e-278"]).success()).len(), 201);
+    assert_eq!(csv(&run(&["--init", "t=1e300", "--at", "1e300"]).success()).len(), 1);
+    assert_eq!(csv(&run(&["--until", "1.4e-15", "--every", "2e-16"]).success()).len(), 8);
+    let steps = ["--method", "rk4", "--until", "1e-13", "--step", "2e-16", "--at", "1e-13"];
+    assert_eq!(csv(&run(&steps).success()).len(), 1);
+    // a free particle is followed in one step, however far
+    let free = "title = 'free'\n[coordinates]\nx = { initial = 0, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2\"\n";
+    let far = with_file(free, &["run", "system.toml", "--at", "1e38"]).success();
+    assert_eq!(csv(&far)[0][1], 1e38);
+}
+
+#[test]
+fn which_constraints_repeat_others_is_judged_where_the_run_begins() {
+    let file = r#"
+        title = "a slope that is none"
+        [coordinates]
+        k = { initial = 1, velocity = 0 }
+        y = { initial = 0, velocity = 0 }
+        z = { initial = 0, velocity = 0 }
+        [lagrangian]
+        L = "1/2*(k'^2 + y'^2 + z'^2) + y"
+        [[constraints]]
+        name = "level"
+        expression = "z'"
+        [[constraints]]
+        name = "slope"
+        expression = "z' + k*y'"
+    "#;
+    let at = |init: &str| {
+        let done = with_file(file, &["run", "system.toml", "--init", init, "--at", "2"]);
+        (csv(&done.stdout)[0][2], done.stderr.contains("`slope` repeats"))
+    };
+    assert_eq!((at("k=1"), at("k=0")), ((0.0, false), (2.0, true)));
+}
+
+#[test]
+fn a_run_tells_of_the_singular_configurations_it_passed() {
+    let file = r#"
+        title = "crossing lines"
+        [coordinates]
+        x = { initial = -1, velocity = 1 }
+        y = { initial = -1 }
+        [lagrangian]
+        L = "1/2*(x'^2 + y'^2)"
+        [[constraints]]
+        name = "lines"
+        expression = "x^2 - y^2"
+    "#;
+    let told = |until: &str| with_file(file, &["run", "system.toml", "--until", until]).stderr;
+    assert_eq!(told("0.9"), "");
+    let passed = told("3");
+    assert!(
+        passed.contains("passed a singular configuration of the constraints at t = 1"),
+        "{passed}"
+    );
+}

@@ -1,0 +1,21 @@
+//! What a clock of `f64` can tell apart.
+//!
+//! In: a time. Out: the distance to the next one. Never here: steps.
+
+/// The distance from a time to the next one that the clock can show.
+pub fn spacing(time: f64) -> f64 {
+    let size = time.abs();
+    size.next_up() - size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spacing;
+
+    #[test]
+    fn the_digits_of_a_clock_become_coarser_with_time() {
+        assert_eq!(spacing(1.0), f64::EPSILON);
+        assert_eq!(spacing(-1e17), 16.0);
+        assert_eq!(spacing(0.0), 5e-324);
+    }
+}
