@@ -28,6 +28,7 @@ mod rates;
 mod series;
 mod solve;
 mod state;
+mod terms;
 mod value;
 mod watch;
 
@@ -42,4 +43,5 @@ pub use program::{Program, Singular};
 pub use rates::Rates;
 pub use series::Series;
 pub use state::{Form, Given, State};
+pub use terms::TermWatch;
 pub use value::Values;

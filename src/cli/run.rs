@@ -21,6 +21,7 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
 use crate::system::System;
 
+use invariants::Departure;
 use progress::{Bar, Interrupt};
 use times::Times;
 
@@ -71,6 +72,10 @@ pub(super) struct Arguments {
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+    /// Ends with exit code 1 where what the law of motion conserves has left its value by more than a millionth of what
+    /// moves; the rows are written all the same.
+    #[arg(long)]
+    strict: bool,
     /// Writes to a file, which appears when it is complete and takes the place of an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -124,7 +129,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
         .map_err(|why| Failure::WrongUse(why.to_string()))?;
     let interrupt = Interrupt::watch();
     let out = Output::open(arguments.output.as_deref())?;
-    Run { experiment, times, columns: system.columns(), interrupt }.write(
+    let strict = arguments.strict;
+    Run { experiment, times, columns: system.columns(), interrupt, strict }.write(
         arguments.format,
         out,
         &header,
@@ -137,6 +143,8 @@ struct Run {
     times: Times,
     columns: usize,
     interrupt: Interrupt,
+    /// Whether a motion that is not the one of its law is a failure.
+    strict: bool,
 }
 
 /// How a run ended before its time.
@@ -166,10 +174,24 @@ impl Run {
             let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
+        let snapshot = self.experiment.snapshot();
+        let departure = Departure::of(&snapshot.gauges, &snapshot.method);
+        let failed = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
+        let line = departure.map(|departure| departure.line).unwrap_or_default();
         match end {
-            Err(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
-            Err(End::Signal(signal)) => Err(Failure::Signal(signal)),
-            _ => Ok(()),
+            Err(End::Fault(fault)) => {
+                stderr::tell(&line);
+                Err(Failure::CouldNot(fault.message))
+            }
+            Err(End::Signal(signal)) => {
+                stderr::tell(&line);
+                Err(Failure::Signal(signal))
+            }
+            _ if failed => Err(Failure::CouldNot(line)),
+            _ => {
+                stderr::tell(&line);
+                Ok(())
+            }
         }
     }
 

@@ -245,7 +245,7 @@ const MEASURES: [(&str, Measure); 5] = [
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 /// The first words of verdicts.
-const VERDICTS: [Word; 5] = ["exact", "bounded", "secular", "broken", "open"];
+const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
 
 fn assert(line: &mut Line<'_>) -> Result<Said, Mistake> {
     if line.take("status") {
