@@ -7,7 +7,6 @@ mod attitude;
 mod chronicle;
 mod command;
 mod deviation;
-mod excursion;
 mod export;
 mod gauges;
 mod law;

@@ -224,9 +224,9 @@ impl Gauges {
     }
 
     /// Takes note of the terms at the end of a step, or within.
-    pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch) {
+    pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
         let floor = self.floor(steps);
-        self.needles.iter_mut().for_each(|needle| needle.step(time, terms, floor));
+        self.needles.iter_mut().for_each(|needle| needle.step(time, terms, floor, dense));
     }
 
     /// What rounding may have done to a value of size 1 since the reference.

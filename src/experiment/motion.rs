@@ -159,7 +159,7 @@ impl Motion {
                 if due && self.observer.observe(state, values).is_ok() {
                     gauges.look_on_the_way(time, steps, values, terms);
                 }
-                gauges.step(time, steps, terms);
+                gauges.step(time, steps, terms, false);
             }
         }
         let (Watch { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
@@ -170,7 +170,7 @@ impl Motion {
             {
                 gauges.look_on_the_way(end, steps, values, terms);
             }
-            gauges.step(end, steps, terms);
+            gauges.step(end, steps, terms, !sparse);
         }
     }
 

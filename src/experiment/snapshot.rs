@@ -117,10 +117,11 @@ pub struct Gauge {
     /// When that was taken.
     pub reference_time: f64,
     /// |value − reference| over what moves: what the terms of the quantity have more than at rest, and by how much the
-    /// rest of them has changed; on the mean, or now where that is more. What rounding explains is relative to the
+    /// rest of them has changed; on the mean. What rounding explains is relative to the
     /// terms themselves.
     pub drift: f64,
-    /// The greatest drift since the reference, over all steps.
+    /// The greatest drift since the reference, over all steps; each over what moved until then on the mean, or at that
+    /// time where that was more.
     pub max_drift: f64,
     /// Since when it is more than a millionth, if the physics keeps the quantity.
     pub left: Option<f64>,

@@ -228,6 +228,11 @@ impl TermWatch {
         self.terms(quantity).map(|(term, _)| term).sum()
     }
 
+    /// The size of the terms of a quantity: what rounding is relative to, at least.
+    pub fn size(&self, quantity: usize) -> f64 {
+        self.terms(quantity).map(|(term, _)| term.abs()).sum()
+    }
+
     /// What each term of a quantity is at rest.
     pub fn at_rest(&self, quantity: usize) -> Vec<f64> {
         self.terms(quantity).map(|(_, rest)| rest).collect()

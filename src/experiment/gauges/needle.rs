@@ -4,7 +4,6 @@
 
 use super::LEDGER;
 use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
-use crate::experiment::excursion::Excursions;
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::TermWatch;
@@ -38,11 +37,11 @@ pub(super) struct Needle {
     rounding: f64,
     /// How much of it moves on the mean.
     moving: Mean,
-    /// How much of it moves now.
-    moves: f64,
     /// The greatest distance from the reference since then.
     farthest: f64,
-    excursions: Excursions,
+    /// The greatest distance over what moved on the mean until then, or at that time where that was more. What moves
+    /// after a motion was ruined is no measure of it.
+    worst: f64,
     /// When it left its value by more than it may.
     left: Option<f64>,
     /// The distances, with their signs.
@@ -81,9 +80,8 @@ impl Needle {
             at_rest: Vec::new(),
             rounding: 0.0,
             moving: Mean::default(),
-            moves: 0.0,
             farthest: 0.0,
-            excursions: Excursions::default(),
+            worst: 0.0,
             left: None,
             distances: History::new(),
         }
@@ -98,7 +96,7 @@ impl Needle {
         self.rounding = 0.0;
         self.moving = Mean { time, ..Mean::default() };
         self.farthest = 0.0;
-        self.excursions = Excursions::default();
+        self.worst = 0.0;
         self.left = None;
         self.distances = History::new();
     }
@@ -111,10 +109,7 @@ impl Needle {
         let scale = known.scale.unwrap_or_else(|| known.from.abs());
         self.moving = Mean::of(scale, time - known.since, time);
         self.farthest = known.farthest.unwrap_or(known.max_drift * scale);
-        self.excursions = Excursions::default();
-        if known.max_drift > 0.0 {
-            self.excursions.note(self.farthest, self.farthest / known.max_drift);
-        }
+        self.worst = known.max_drift;
         self.left = known.left;
     }
 
@@ -141,15 +136,18 @@ impl Needle {
         Some(terms.value(quantity) - work)
     }
 
-    fn moving(&self, terms: &TermWatch) -> f64 {
-        self.quantity.map_or(0.0, |quantity| terms.moving(quantity, &self.at_rest))
+    /// How much of it moves; and its terms may have grown since its error was measured.
+    fn moving(&mut self, terms: &TermWatch) -> f64 {
+        let Some(quantity) = self.quantity else { return 0.0 };
+        self.measure(terms.size(quantity));
+        terms.moving(quantity, &self.at_rest)
     }
 
     /// Takes note of a value known to its last digit; `floor` is what rounding may do to a value of size 1.
     pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
         let distance = values[self.channel] - self.reference;
-        self.moves = self.moving(terms);
-        self.note(time, distance, self.moves, floor);
+        let moving = self.moving(terms);
+        self.note(time, distance, moving, floor);
         distance
     }
 
@@ -160,14 +158,17 @@ impl Needle {
     }
 
     /// Takes note of the value at the end of a step, or within. What rounding explains says nothing here.
-    pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64) {
+    pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
         let Some(value) = self.rough(terms) else { return };
         let distance = value - self.rough_reference;
         let moving = self.moving(terms);
         self.moving.note(time, moving);
         if distance.abs() > floor * self.rounding {
             self.note(time, distance, moving, floor);
-            self.distances.push(time, distance);
+            // where rows lie within a step, they are the history
+            if !dense {
+                self.distances.push(time, distance);
+            }
         }
     }
 
@@ -177,10 +178,11 @@ impl Needle {
             self.farthest = distance;
         }
         if distance > floor * self.rounding {
-            self.excursions.note(distance, moving);
+            let moving = moving.max(self.moving.value());
+            let drift = if moving > 0.0 { distance / moving } else { distance / self.rounding };
+            self.worst = self.worst.max(drift);
             // rows lie before the end of the step that was looked at first
-            let earlier = self.left.is_none_or(|left| time < left);
-            if earlier && distance > LEFT * moving.max(self.moving.value()) {
+            if drift > LEFT && self.left.is_none_or(|left| time < left) {
                 self.left = Some(time);
             }
         }
@@ -196,16 +198,15 @@ impl Needle {
         let value = values[self.channel];
         let (scale, rounding) = (self.scale(), floor * self.rounding);
         // what is rounding is small beside what is rounded
-        let drift = |distance: f64, moving: f64| match distance {
+        let drift = |distance: f64| match distance {
             0.0 => 0.0,
             _ if distance <= rounding => distance / scale.max(self.rounding),
-            _ => distance / scale.max(moving),
+            _ => distance / scale,
         };
-        let drift_now = drift((value - self.reference).abs(), self.moves);
+        let distance = (value - self.reference).abs();
         let beyond = self.farthest > rounding;
-        let max_drift =
-            if beyond { self.excursions.drift(scale) } else { drift(self.farthest, 0.0) };
-        let max_drift = max_drift.max(drift_now);
+        let max_drift = if beyond { self.worst } else { drift(self.farthest.max(distance)) };
+        let drift_now = drift(distance).min(max_drift);
         let left = beyond && max_drift > LEFT;
         let verdict = match &self.broken {
             Some(law) => Verdict::Broken(law.clone()),
@@ -230,7 +231,7 @@ impl Needle {
             drift: drift_now,
             max_drift,
             left: (left && self.broken.is_none()).then(|| self.left.unwrap_or(since)),
-            history: history.map(|peak| drift(peak, 0.0) as f32).collect(),
+            history: history.map(|peak| drift(peak) as f32).collect(),
             verdict,
         }
     }
@@ -241,27 +242,30 @@ impl Needle {
 struct Mean {
     /// When it was last looked at.
     time: f64,
-    last: f64,
-    sum: f64,
+    value: f64,
     weight: f64,
 }
 
 impl Mean {
     /// The one of a past so long.
     fn of(value: f64, weight: f64, time: f64) -> Mean {
-        Mean { time, last: value, sum: value * weight, weight }
+        Mean { time, value, weight }
     }
 
     fn note(&mut self, time: f64, value: f64) {
         if value.is_finite() {
             let weight = (time - self.time).abs();
-            self.sum += value * weight;
             self.weight += weight;
-            (self.time, self.last) = (time, value);
+            if self.weight > 0.0 {
+                self.value += (value - self.value) * (weight / self.weight);
+            } else {
+                self.value = value;
+            }
+            self.time = time;
         }
     }
 
     fn value(&self) -> f64 {
-        if self.weight > 0.0 { self.sum / self.weight } else { self.last }
+        self.value
     }
 }

@@ -226,7 +226,7 @@ pub const CLAIMS: [(&str, &str); 9] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "what is thought of a gauge: `exact`, `bounded`, `secular`, `broken`, `open`",
+        "what is thought of a gauge: `exact`, `bounded`, `secular`, `lost`, `broken`, `open`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
