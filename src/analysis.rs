@@ -15,4 +15,4 @@ pub use claims::{false_claims, flaws};
 pub use history::{History, Stretch};
 pub use inquiry::{Answer, Inquiry};
 pub use landscape::{Curve, Grid, Landscape, Plane};
-pub use verdict::{Growth, Verdict, rounding_floor};
+pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -282,7 +282,8 @@ impl Experiment {
         let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
         let limit = self.setup.end.unwrap_or(self.time() + ahead).max(time);
         let reached = loop {
-            match self.motion.reach(time, limit, budget) {
+            let gauges = (&mut self.gauges, self.recorder.spacing());
+            match self.motion.reach(time, limit, budget, gauges) {
                 Ok(Reached::Happened(happening)) => {
                     let name = happening.name.clone();
                     match self.note(happening) {
@@ -350,7 +351,8 @@ impl Experiment {
     fn record(&mut self) {
         self.recorder.record(self.motion.time(), self.motion.values());
         self.recorder.set_spacing(self.spacing());
-        self.gauge(Gauges::sample);
+        let dense = self.recorder.spacing() <= self.motion.step_size().abs();
+        self.gauge(|gauges, now| gauges.sample(now, dense));
     }
 
     /// The time to the next row: so short that the curve through the rows is smooth, which a step
@@ -373,6 +375,7 @@ impl Experiment {
 
     /// Has the gauges look at the present.
     fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
+        self.motion.look_at_terms();
         let body = self.motion.system().body_values(&self.setup.parameters);
         let parameter = |symbol| self.setup.constant(&self.model, &body, symbol);
         look(&mut self.gauges, &self.motion.present(&parameter));

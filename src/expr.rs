@@ -8,6 +8,7 @@
 //! forms, zero proofs, and three ways of writing ([`Pool::text`], [`Pool::unicode`],
 //! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numbers in motion.
 
+mod conditioning;
 mod derivative;
 mod double;
 mod evaluate;

@@ -29,6 +29,7 @@ mod resolution;
 mod series;
 mod solve;
 mod state;
+mod terms;
 mod value;
 mod watch;
 
@@ -43,4 +44,5 @@ pub use program::{Program, Singular};
 pub use rates::Rates;
 pub use series::Series;
 pub use state::{Form, Given, State};
+pub use terms::TermWatch;
 pub use value::Values;

@@ -46,10 +46,10 @@ pub(super) struct Invariant {
     /// Its value at the end; with blows it may be another, and drift is what there is beside them.
     #[serde(rename = "final")]
     pub(super) last: f64,
-    /// Its greatest distance from the initial value, relative to the size of its terms at the start
-    /// (and later, while it is kept but for rounding); what blows give does not count.
+    /// Its greatest distance from the initial value over all steps, relative to what of its terms moves; what blows
+    /// give does not count.
     pub(super) max_drift: f64,
-    /// `exact`, `bounded`, `secular`, `broken by the physics`, `open`.
+    /// `exact`, `bounded`, `secular`, `lost`, `broken by the physics`, `open`.
     pub(super) verdict: &'static str,
 }
 

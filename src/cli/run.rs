@@ -26,6 +26,7 @@ use crate::model::Model;
 use crate::printable;
 use crate::system::System;
 
+use invariants::Departure;
 use progress::Bar;
 use times::Times;
 
@@ -76,6 +77,10 @@ pub(super) struct Arguments {
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+    /// Ends with exit code 1 where what the law of motion conserves has left its value by more than a millionth of what
+    /// moves; the rows are written all the same.
+    #[arg(long)]
+    strict: bool,
     /// Writes to a file, which appears when it is complete and takes the place of an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -152,8 +157,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         Format::Json | Format::Jsonl => Form::Json,
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
-    let run =
-        Run { experiment, times, columns: system.columns(), interrupt, steps: STEPS_PER_LOOK };
+    let (columns, strict) = (system.columns(), arguments.strict);
+    let run = Run { experiment, times, columns, interrupt, steps: STEPS_PER_LOOK, strict };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // whatever else went wrong meanwhile
         (Err(_), Some(signal)) => Err(Failure::Signal(signal)),
@@ -169,6 +174,8 @@ struct Run<'i> {
     interrupt: &'i Interrupt,
     /// How many steps are taken before the next look at the clock and at signals.
     steps: u64,
+    /// Whether a motion that is not the one of its law is a failure.
+    strict: bool,
 }
 
 /// How a run ended before its time.
@@ -239,6 +246,15 @@ impl Run<'_> {
         if let Some(passed) = self.experiment.singular_passages() {
             stderr::tell(&passed);
         }
+        let snapshot = self.experiment.snapshot();
+        let departure = Departure::of(&snapshot.gauges, &snapshot.method);
+        let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
+        let line = departure.map(|departure| departure.line).unwrap_or_default();
+        let cut_short = matches!(end, Some(End::Fault(_) | End::Signal(_)));
+        if refused && !cut_short {
+            return Err(Failure::CouldNot(line));
+        }
+        stderr::tell(&line);
         match end {
             Some(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
             Some(End::Signal(signal)) => Err(Failure::Signal(signal)),

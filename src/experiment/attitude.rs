@@ -3,8 +3,8 @@
 //!
 //! In: the nine entries. Out: a [`Gauge`]. Never here: where they come from.
 
-use super::Gauge;
 use super::deviation::Deviation;
+use super::{Gauge, Reference};
 use crate::expr::portable;
 use crate::system::{ChannelKind, System};
 
@@ -17,6 +17,9 @@ pub(super) struct Attitude {
 }
 
 impl Attitude {
+    /// What its gauge is called.
+    pub(super) const NAME: &'static str = "attitude";
+
     /// The gauge, where the system has an attitude.
     pub(super) fn of(system: &System) -> Option<Attitude> {
         let mut kinds = system.channels().iter().map(|c| c.kind);
@@ -36,6 +39,16 @@ impl Attitude {
         self.deviation.sample(time, missing(&self.matrix(values)));
     }
 
+    /// How far it is from a rotation.
+    pub(super) fn now(&self, values: &[f64]) -> f64 {
+        missing(&self.matrix(values))
+    }
+
+    /// Goes on from what was known of it.
+    pub(super) fn restore(&mut self, known: &Reference) {
+        self.deviation.restore(known);
+    }
+
     fn matrix(&self, values: &[f64]) -> [[f64; 3]; 3] {
         let row = |i: usize| [0, 1, 2].map(|j| values[self.first + 3 * i + j]);
         [row(0), row(1), row(2)]
@@ -46,7 +59,7 @@ impl Attitude {
         let (angle, axis) = turn(&a);
         let [x, y, z] = axis.map(|x| if x.abs() < 5e-4 { 0.0 } else { x });
         let reason = format!("turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})");
-        self.deviation.gauge("attitude", "A Aᵀ = 1, det A = 1", reason, missing(&a))
+        self.deviation.gauge(Self::NAME, "A Aᵀ = 1, det A = 1", reason, missing(&a))
     }
 }
 

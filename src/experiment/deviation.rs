@@ -3,8 +3,8 @@
 //! In: deviations, measured by the size of what they are deviations of. Out: the numbers of a
 //! [`Gauge`]. Never here: what the condition is.
 
-use super::Gauge;
-use crate::analysis::{Growth, History, Stretch, Verdict};
+use super::{Gauge, Reference};
+use crate::analysis::{Growth, History, LOST, Stretch, Verdict};
 
 /// A deviation below this is rounding: a few units in the last place.
 const ROUNDING: f64 = 1e-14;
@@ -23,6 +23,12 @@ impl Deviation {
         Deviation { since: time, farthest: 0.0, history: History::new() }
     }
 
+    /// Goes on from what was known of the same condition.
+    pub(super) fn restore(&mut self, known: &Reference) {
+        self.since = known.since;
+        self.farthest = self.farthest.max(known.farthest.unwrap_or(known.max_drift));
+    }
+
     /// Takes note of a deviation.
     pub(super) fn look(&mut self, now: f64) {
         self.farthest = self.farthest.max(now);
@@ -36,12 +42,16 @@ impl Deviation {
 
     /// The gauge that shows it.
     pub(super) fn gauge(&self, name: &str, shown: &str, reason: String, now: f64) -> Gauge {
-        let exact = self.farthest <= ROUNDING;
-        let verdict = if exact { Verdict::Exact(Growth::Level) } else { Verdict::Bounded };
+        let verdict = match self.farthest {
+            ..=ROUNDING => Verdict::Exact(Growth::Level),
+            ..=LOST => Verdict::Bounded,
+            _ => Verdict::Lost,
+        };
         Gauge {
             name: name.to_owned(),
             shown: shown.to_owned(),
             reason,
+            proved: false,
             value: now,
             initial: 0.0,
             scale: 1.0,
@@ -50,6 +60,7 @@ impl Deviation {
             reference_time: self.since,
             drift: now,
             max_drift: self.farthest,
+            left: None,
             history: self.history.stretches().iter().map(|s| Stretch::peak(s) as f32).collect(),
             verdict,
         }

@@ -1,8 +1,10 @@
 //! The gauges of one motion: which quantities should be constant and why, what they were at the
 //! reference, and how far they have drifted since.
 //!
-//! In: what follows from the law of motion, and the values of the channels at even times. Out:
-//! [`Gauge`]s. Never here: how the values were computed.
+//! In: what follows from the law of motion; the values of the channels at some times, the terms of what is conserved
+//! after every step. Out: [`Gauge`]s. Never here: how the values were computed.
+
+mod needle;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,24 +13,21 @@ use super::attitude::Attitude;
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::Residual;
 use super::{Gauge, Reference};
-use crate::analysis::{History, Stretch, Verdict, rounding_floor};
+use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, casimir_rate};
 use crate::model::{Mechanics, Model};
-use crate::system::{ChannelKind, System};
+use crate::system::{ChannelKind, System, TermWatch};
+use needle::{Needle, Subject};
 
 /// The gauge that is constant by the law of the energy's change.
 const LEDGER: &str = "energy ledger";
 
-/// A value is kept but for rounding while its drift is below this: half of all digits.
-const KEPT: f64 = 1e-8;
-
-/// Sizes are measured at every so many samples.
+/// Errors are measured at every so many samples.
 const MEASURED: u64 = 16;
 
-/// Where a motion begins near rest its terms grow from almost nothing: a drift that is as small as this beside the terms
-/// that are there now is no harm either.
-const SMALL: f64 = 1e-6;
+/// How many times as far as what is proved a supposed invariant leaves its value, where it is not the method's doing.
+const CONTRADICTED: f64 = 100.0;
 
 /// All gauges of one system.
 #[derive(Clone, Debug)]
@@ -44,36 +43,6 @@ pub(super) struct Gauges {
     samples: u64,
 }
 
-/// One gauge's own memory.
-#[derive(Clone, Debug)]
-struct Needle {
-    name: String,
-    shown: String,
-    reason: String,
-    /// Why it is not constant, where it is not.
-    broken: Option<String>,
-    channel: usize,
-    /// What its size is measured by.
-    expression: Expr,
-    /// Whether its reference jumps with a blow.
-    jumps: bool,
-    /// Its value when the reference was taken.
-    initial: f64,
-    /// What distances are measured from: the initial value, and what blows have added to it.
-    reference: f64,
-    /// The greatest size of its terms seen since the reference: what rounding is relative to.
-    size: f64,
-    /// The same, as long as the value was kept but for rounding: what drift is relative to. The size of what a method
-    /// has ruined measures nothing.
-    scale: f64,
-    /// The greatest distance from the reference since then.
-    farthest: f64,
-    /// What it was at the last blow, which makes other terms of the old ones.
-    settled: f64,
-    /// The distances, with their signs.
-    distances: History,
-}
-
 impl Gauges {
     /// The gauges of what `equations` finds conserved in `model`; where the energy is not, the
     /// energy with the law of its change, and the energy ledger, which is constant by that law.
@@ -81,32 +50,54 @@ impl Gauges {
         let equations = &Arc::new(with_energy_opened(equations));
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
         let mut needles = Vec::new();
-        let mut add = |name: &str, reason: String, broken, kind, expression| {
+        let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
             let Some(channel) = find(kind) else { return };
             let shown = system.channels()[channel].shown.clone();
-            needles.push(Needle::new(name, shown, reason, broken, channel, expression));
+            let name = name.to_owned();
+            let subject = Subject {
+                name,
+                shown,
+                reason,
+                proved: true,
+                broken,
+                channel,
+                quantity,
+                expression,
+            };
+            needles.push(Needle::new(subject));
         };
+        // the first quantity of a `TermWatch`
+        let energy = Some(0);
         if !equations.conserved.iter().any(|c| c.name == "energy") {
             let law = EnergyLaw::of(model, equations);
-            add("energy", law.cause, Some(law.rate), ChannelKind::Energy, equations.energy);
+            let kind = ChannelKind::Energy;
+            add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
             let reason = "E less the work done on it".to_owned();
-            add(LEDGER, reason, None, ChannelKind::Ledger, equations.energy);
+            add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         } else if !model.impulses.is_empty() {
             let reason = "E less what the blows gave".to_owned();
-            add(LEDGER, reason, None, ChannelKind::Ledger, equations.energy);
-        }
-        for (i, conserved) in equations.conserved.iter().enumerate() {
-            let kind = if conserved.name == "energy" {
-                ChannelKind::Energy
-            } else {
-                ChannelKind::Conserved(i)
-            };
-            let reason = conserved.reason.to_string();
-            add(&conserved.name, reason, None, kind, conserved.expression);
+            add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
             let reason = "Casimir; a force acts".to_owned();
-            add(&name, reason, Some(law), ChannelKind::Casimir(i), casimir);
+            add(&name, reason, Some(law), ChannelKind::Casimir(i), None, casimir);
+        }
+        for (i, conserved) in equations.conserved.iter().enumerate() {
+            let is_energy = conserved.name == "energy";
+            let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
+            let quantity = Some(if is_energy { 0 } else { i + 1 });
+            needles.extend(find(kind).map(|channel| {
+                Needle::new(Subject {
+                    name: conserved.name.clone(),
+                    shown: system.channels()[channel].shown.clone(),
+                    reason: conserved.reason.to_string(),
+                    proved: conserved.reason.is_proved(),
+                    broken: None,
+                    channel,
+                    quantity,
+                    expression: conserved.expression,
+                })
+            }));
         }
         // the energy first, whatever else there is
         needles.sort_by_key(|needle| needle.channel != find(ChannelKind::Energy).unwrap_or(0));
@@ -146,59 +137,55 @@ impl Gauges {
         self.reference_steps = now.steps;
         self.samples = 0;
         for needle in &mut self.needles {
-            needle.refer(now.values);
+            needle.refer(now.time, now.values, now.terms);
         }
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
-        self.sample(now);
+        self.sample(now, true);
     }
 
     /// Measures from where other gauges of the same names measured from, where these show the same values as those did.
-    pub(super) fn restore(&mut self, references: &[Reference]) {
-        let known = |needle: &Needle| {
-            let value = needle.reference.to_bits();
-            references.iter().find(|r| r.name == needle.name && r.value.to_bits() == value)
+    pub(super) fn restore(&mut self, references: &[Reference], now: &Present<'_>) {
+        let known = |name: &str, value: f64| {
+            let same = |r: &&Reference| r.name == name && r.value.to_bits() == value.to_bits();
+            references.iter().find(same)
         };
-        let Some(since) = self.needles.iter().find_map(known).map(|r| r.since) else { return };
-        self.reference_time = since;
-        self.reference_steps = 0;
-        // the sizes are known; they are measured again when it is their turn
-        self.samples = MEASURED;
         for needle in &mut self.needles {
-            if let Some(reference) = known(needle) {
-                needle.reference = reference.from;
-                needle.initial = reference.initial.unwrap_or(reference.from);
-                needle.size = needle.size.max(reference.from.abs());
-                needle.scale = reference.scale.unwrap_or(needle.scale.max(reference.from.abs()));
-                needle.size = needle.size.max(needle.scale);
-                needle.farthest = reference.farthest.unwrap_or(reference.max_drift * needle.scale);
+            if let Some(reference) = known(&needle.name, now.values[needle.channel]) {
+                self.reference_time = reference.since;
+                self.reference_steps = 0;
+                needle.restore(reference, now.time);
             }
+        }
+        for residual in &mut self.residuals {
+            let reference = known(residual.name(), residual.now(now.residuals));
+            reference.into_iter().for_each(|reference| residual.restore(reference));
+        }
+        if let Some(attitude) = &mut self.attitude {
+            let reference = known(Attitude::NAME, attitude.now(now.values));
+            reference.into_iter().for_each(|reference| attitude.restore(reference));
         }
     }
 
     /// A blow has led from some values to others: the references jump with them, so that drift is
     /// told from what the blow gave. The energy ledger knows that by its own law.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
-        for needle in self.needles.iter_mut().filter(|needle| needle.jumps) {
-            let jump = after[needle.channel] - before[needle.channel];
-            if jump.is_finite() {
-                needle.reference += jump;
-                needle.settled = needle.farthest;
-            }
-        }
+        self.needles.iter_mut().for_each(|needle| needle.shift(before, after));
     }
 
-    /// Takes note of the values at one of the evenly spaced times.
-    pub(super) fn sample(&mut self, now: &Present<'_>) {
-        self.look(now);
+    /// Takes note of the values at one of the evenly spaced times. Where these lie farther apart than the steps, they
+    /// may always meet a motion at the same phase, and the histories are made of other looks.
+    pub(super) fn sample(&mut self, now: &Present<'_>, dense: bool) {
         self.samples += 1;
-        // sizes change slowly, and cost more than all else
+        // errors change slowly, and cost more than all else
         if self.samples.is_power_of_two() || self.samples.is_multiple_of(MEASURED) {
             self.measure(now);
         }
-        for needle in &mut self.needles {
-            needle.distances.push(now.time, now.values[needle.channel] - needle.reference);
+        if dense {
+            self.look_on_the_way(now.time, now.steps, now.values, now.terms);
+        } else {
+            self.look(now);
         }
         for residual in &mut self.residuals {
             residual.sample(now.time, now.residuals);
@@ -210,11 +197,9 @@ impl Gauges {
 
     /// Takes note of the values at any other time.
     pub(super) fn look(&mut self, now: &Present<'_>) {
+        let floor = self.floor(now.steps);
         for needle in &mut self.needles {
-            let distance = (now.values[needle.channel] - needle.reference).abs();
-            if distance > needle.farthest {
-                needle.farthest = distance;
-            }
+            needle.look(now.time, now.values, now.terms, floor);
         }
         for residual in &mut self.residuals {
             residual.look(now.residuals);
@@ -224,18 +209,45 @@ impl Gauges {
         }
     }
 
+    /// Takes note of the values at a time at which the motion is not met on purpose.
+    pub(super) fn look_on_the_way(
+        &mut self,
+        time: f64,
+        steps: u64,
+        values: &[f64],
+        terms: &TermWatch,
+    ) {
+        let floor = self.floor(steps);
+        for needle in &mut self.needles {
+            needle.sample(time, values, terms, floor);
+        }
+    }
+
+    /// Takes note of the terms at the end of a step, or within.
+    pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
+        let floor = self.floor(steps);
+        self.needles.iter_mut().for_each(|needle| needle.step(time, terms, floor, dense));
+    }
+
+    /// What rounding may have done to a value of size 1 since the reference.
+    fn floor(&self, steps: u64) -> f64 {
+        rounding_floor(steps.saturating_sub(self.reference_steps))
+    }
+
     /// What they show.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
-        let floor = rounding_floor(now.steps.saturating_sub(self.reference_steps));
+        let floor = self.floor(now.steps);
         let show = |needle: &Needle| needle.show(now.values, self.reference_time, floor);
+        let mut shown: Vec<Gauge> = self.needles.iter().map(show).collect();
+        contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let held = self.residuals.iter().enumerate().map(|(k, residual)| {
             residual.show(now.values, now.residuals, now.system.is_released(k))
         });
-        self.needles.iter().map(show).chain(held).chain(attitude).collect()
+        shown.into_iter().chain(held).chain(attitude).collect()
     }
 
-    /// Measures the size of every gauge's terms.
+    /// Measures the rounding error of every gauge's value.
     fn measure(&mut self, now: &Present<'_>) {
         let equations = &self.equations;
         let at = |symbol: Symbol| {
@@ -248,18 +260,30 @@ impl Gauges {
             }
         };
         for needle in &mut self.needles {
-            let (_, size) = equations.pool.evaluate_with_size(needle.expression, &at);
+            let (_, error) = equations.pool.evaluate_with_error(needle.expression, &at);
             // where its terms cannot be told apart, the value itself is the measure
-            let size = if size.is_finite() { size } else { now.values[needle.channel].abs() };
-            if size.is_finite() {
-                needle.grow(size);
-            }
+            let value = now.values[needle.channel].abs();
+            needle.measure(if error.is_finite() { error.max(value) } else { value });
         }
     }
 }
 
-/// The same with the energy opened in what is conserved: the size of an invariant's terms is that of the terms of the
-/// energy in it, which may nearly cancel.
+/// An invariant that has no proof and leaves its value far more than what has one is none: the run says so. Where it does
+/// not, it may be the method that does not keep it.
+fn contradict(gauges: &mut [Gauge]) {
+    let proved = gauges.iter().filter(|gauge| gauge.proved).map(|gauge| gauge.max_drift);
+    let proved = proved.fold(0.0, f64::max);
+    for gauge in gauges.iter_mut().filter(|gauge| !gauge.proved && gauge.left.is_some()) {
+        if gauge.max_drift > CONTRADICTED * proved {
+            gauge.reason.push_str("; contradicted by the run");
+        } else {
+            gauge.left = None;
+        }
+    }
+}
+
+/// The same with the energy opened in what is conserved: the error of an invariant is that of the terms of the energy in
+/// it, which may nearly cancel.
 fn with_energy_opened(equations: &Equations) -> Equations {
     let mut equations = equations.clone();
     let energy = HashMap::from([(equations.symbols.energy, equations.energy)]);
@@ -295,86 +319,50 @@ pub(super) struct Present<'a> {
     /// How far the motion is from keeping each constraint: in position and in velocity.
     pub(super) residuals: &'a [[f64; 2]],
     pub(super) action: f64,
+    /// The terms of what is conserved.
+    pub(super) terms: &'a TermWatch,
     pub(super) system: &'a System,
     /// The value of a parameter's symbol.
     pub(super) parameter: &'a dyn Fn(Symbol) -> f64,
 }
 
-impl Needle {
-    fn new(
-        name: &str,
-        shown: String,
-        reason: String,
-        broken: Option<String>,
-        channel: usize,
-        expression: Expr,
-    ) -> Needle {
-        Needle {
-            name: name.to_owned(),
-            shown,
-            reason,
-            broken,
-            channel,
-            expression,
-            jumps: name != LEDGER,
-            initial: f64::NAN,
-            reference: f64::NAN,
-            size: 0.0,
-            scale: 0.0,
-            farthest: 0.0,
-            settled: 0.0,
-            distances: History::new(),
-        }
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Verdict;
 
-    fn refer(&mut self, values: &[f64]) {
-        self.initial = values[self.channel];
-        self.reference = self.initial;
-        self.size = self.reference.abs();
-        self.scale = self.size;
-        self.farthest = 0.0;
-        self.settled = 0.0;
-        self.distances = History::new();
-    }
-
-    /// Its terms have been as large as this.
-    fn grow(&mut self, size: f64) {
-        self.size = self.size.max(size);
-        let since = self.farthest - self.settled;
-        if self.scale == 0.0 || since <= KEPT * self.scale || since <= SMALL * size {
-            self.scale = self.scale.max(size);
-        }
-    }
-
-    fn show(&self, values: &[f64], reference_time: f64, floor: f64) -> Gauge {
-        let value = values[self.channel];
-        let verdict = match &self.broken {
-            Some(law) => Verdict::Broken(law.clone()),
-            None => match Verdict::of(&self.distances, floor * self.size) {
-                Verdict::Secular(slope) => Verdict::Secular(slope / self.scale),
-                other => other,
-            },
-        };
-        let history = self.distances.stretches().iter().map(Stretch::peak);
+    fn gauge(proved: bool, max_drift: f64) -> Gauge {
         Gauge {
-            name: self.name.clone(),
-            shown: self.shown.clone(),
-            reason: self.reason.clone(),
-            value,
-            initial: self.initial,
-            scale: self.scale,
-            farthest: self.farthest,
-            reference: self.reference,
-            reference_time,
-            drift: self.relative((value - self.reference).abs()),
-            max_drift: self.relative(self.farthest),
-            history: history.map(|peak| self.relative(peak) as f32).collect(),
-            verdict,
+            name: "G".to_owned(),
+            shown: "G".to_owned(),
+            reason: "declared".to_owned(),
+            proved,
+            value: 1.0,
+            initial: 1.0,
+            scale: 1.0,
+            farthest: max_drift,
+            reference: 1.0,
+            reference_time: 0.0,
+            drift: max_drift,
+            max_drift,
+            left: (max_drift > 1e-6).then_some(0.5),
+            history: Arc::default(),
+            verdict: Verdict::Bounded,
         }
     }
 
-    /// A distance over the size of the terms.
-    fn relative(&self, distance: f64) -> f64 {
-        if distance == 0.0 || self.scale == 0.0 { 0.0 } else { distance / self.scale }
+    /// A hundred times what the method does to a proved invariant is not the method's doing.
+    #[test]
+    fn what_is_supposed_is_contradicted_where_the_method_is_not_to_blame() {
+        for (supposed, proved, contradicted) in
+            [(1e-3, 0.99e-5, true), (1e-3, 1.01e-5, false), (2e-6, 0.0, true), (0.9e-6, 0.0, false)]
+        {
+            let mut gauges = [gauge(true, proved), gauge(false, supposed)];
+            contradict(&mut gauges);
+            let said = gauges[1].reason == "declared; contradicted by the run";
+            assert_eq!(said, contradicted, "{supposed} beside {proved}");
+            assert_eq!(gauges[1].left.is_some(), contradicted, "{supposed} beside {proved}");
+            assert_eq!(gauges[0].reason, "declared");
+        }
     }
 }

@@ -120,6 +120,9 @@ pub struct Reference {
     /// The greatest distance, which is the greatest drift times that.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub farthest: Option<f64>,
+    /// Since when the drift is more than it may be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left: Option<f64>,
 }
 
 impl Moment {
@@ -197,6 +200,7 @@ impl Whereabouts {
             initial: Some(gauge.initial),
             scale: Some(gauge.scale),
             farthest: Some(gauge.farthest),
+            left: gauge.left,
         };
         Some(Whereabouts {
             time: state.time,
@@ -366,7 +370,7 @@ impl Experiment {
         self.recorder.restart(present.time);
         self.gauge(Gauges::refer);
         if exact {
-            self.gauges.restore(&present.references);
+            self.gauge(|gauges, now| gauges.restore(&present.references, now));
             let model = std::sync::Arc::clone(&self.model);
             let same = |name: &&String| model.events.iter().any(|e| e.name == **name);
             self.ended = present.ended.as_ref().filter(same).cloned();

@@ -3,10 +3,10 @@
 //! In: a state, parameters, times. Out: the state and every channel's value at the present. Never
 //! here: rows, gauges, commands.
 
-use super::gauges::Present;
+use super::gauges::{Gauges, Present};
 use crate::expr::Symbol;
 use crate::integrate::{self, Happening, Kind, Method, Reached, Refusal, Settings};
-use crate::system::{Fault, Observer, State, System};
+use crate::system::{Fault, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.
 pub(super) struct Motion {
@@ -14,7 +14,41 @@ pub(super) struct Motion {
     observer: Observer,
     values: Vec<f64>,
     residuals: Vec<[f64; 2]>,
+    watch: Watch,
 }
+
+/// What looks at the motion after every step.
+struct Watch {
+    terms: TermWatch,
+    /// When the channels are to be looked at next.
+    next: f64,
+    /// A number of (0, 1) that never comes back: the times of looks meet no period.
+    golden: f64,
+    /// A state on the way, and its channels.
+    state: State,
+    values: Vec<f64>,
+}
+
+impl Watch {
+    fn of(system: &System, parameters: &[f64]) -> Watch {
+        Watch {
+            terms: system.term_watch(parameters),
+            next: f64::NEG_INFINITY,
+            golden: 0.5,
+            state: State::new(0.0, system.form(), Vec::new()),
+            values: vec![f64::NAN; system.channels().len()],
+        }
+    }
+
+    /// The next of the numbers whose multiples of the golden section's are as evenly spread as can be (Weyl's sequence).
+    fn turn(&mut self) -> f64 {
+        self.golden = (self.golden + GOLDEN).fract();
+        self.golden
+    }
+}
+
+/// The golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Motion {
     /// A motion that has yet to [begin](Motion::begin).
@@ -29,6 +63,7 @@ impl Motion {
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
             residuals: Vec::new(),
+            watch: Watch::of(system, parameters),
         })
     }
 
@@ -46,6 +81,7 @@ impl Motion {
     pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
+        self.watch = Watch::of(self.inner.system(), parameters);
         self.look()
     }
 
@@ -59,6 +95,7 @@ impl Motion {
     ) -> Result<(), Fault> {
         self.inner.take_up(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
+        self.watch = Watch::of(self.inner.system(), parameters);
         self.look()
     }
 
@@ -71,24 +108,70 @@ impl Motion {
     pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.inner.go_on(state, parameters)?;
         self.observer.set_parameters(parameters);
+        self.watch.terms.set_parameters(parameters);
         self.look()
     }
 
     /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
-    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed.
+    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed. The gauges look at every
+    /// step; rows are `spacing` apart.
     pub(super) fn reach(
         &mut self,
         time: f64,
         limit: f64,
         budget: &mut u64,
+        (gauges, spacing): (&mut Gauges, f64),
     ) -> Result<Reached, Fault> {
-        let reached = self.inner.reach(time, limit, budget)?;
-        match &reached {
-            Reached::Happened(happening) => self.take_in(happening)?,
-            Reached::There => self.look()?,
-            Reached::Underway | Reached::Ended => {}
+        loop {
+            let (before, mut one) = (self.inner.steps(), (*budget).min(1));
+            let reached = self.inner.reach(time, limit, &mut one)?;
+            if self.inner.steps() != before {
+                *budget -= 1;
+                self.look_at_step(gauges, spacing);
+            }
+            match &reached {
+                Reached::Underway if *budget > 0 => continue,
+                Reached::Happened(happening) => self.take_in(happening)?,
+                Reached::There => self.look()?,
+                Reached::Underway | Reached::Ended => {}
+            }
+            return Ok(reached);
         }
-        Ok(reached)
+    }
+
+    /// Has the gauges look at the last step: at its end, and where rows may lie farther apart than steps also within, if
+    /// the method tells the states there as well as those at the ends. What cannot be looked at is passed over: it is
+    /// met again where it is asked for.
+    fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64) {
+        let (begin, end) = self.inner.undisturbed();
+        let whole = end == self.inner.computed().time;
+        let steps = self.inner.steps();
+        let sparse = (end - begin).abs() < spacing;
+        let due = sparse && end >= self.watch.next;
+        if due {
+            self.watch.next = end + spacing * (0.5 + self.watch.turn());
+        }
+        // the state of a series is known within a step as at its end
+        if sparse && self.inner.method().order.is_none() {
+            let time = begin + self.watch.turn() * (end - begin);
+            let Watch { terms, state, values, .. } = &mut self.watch;
+            if self.inner.inside(time, state).is_ok() && terms.look(state) {
+                if due && self.observer.observe(state, values).is_ok() {
+                    gauges.look_on_the_way(time, steps, values, terms);
+                }
+                gauges.step(time, steps, terms, false);
+            }
+        }
+        let (Watch { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
+        if whole && terms.look(state) {
+            if due
+                && self.inner.method().order.is_some()
+                && self.observer.observe(state, values).is_ok()
+            {
+                gauges.look_on_the_way(end, steps, values, terms);
+            }
+            gauges.step(end, steps, terms, !sparse);
+        }
     }
 
     /// Strikes the present.
@@ -178,7 +261,12 @@ impl Motion {
         !self.state().values.is_empty()
     }
 
-    /// What the gauges look at.
+    /// Looks at the terms of what is conserved at the present.
+    pub(super) fn look_at_terms(&mut self) {
+        self.watch.terms.look(self.inner.state());
+    }
+
+    /// What the gauges look at, once the terms were [looked at](Motion::look_at_terms).
     pub(super) fn present<'a>(&'a self, parameter: &'a dyn Fn(Symbol) -> f64) -> Present<'a> {
         let action = self.state().values.get(self.system().driven());
         Present {
@@ -186,6 +274,7 @@ impl Motion {
             steps: self.steps(),
             values: &self.values,
             residuals: &self.residuals,
+            terms: &self.watch.terms,
             system: self.system(),
             action: action.copied().unwrap_or(f64::NAN),
             parameter,

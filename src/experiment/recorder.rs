@@ -61,6 +61,11 @@ impl Recorder {
         *self = Recorder { origin, ..Recorder::new(self.width - 1, self.spacing) };
     }
 
+    /// The time between two rows.
+    pub(super) fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
     /// Changes the time between two rows, from the last one on.
     pub(super) fn set_spacing(&mut self, spacing: f64) {
         if spacing != self.spacing {

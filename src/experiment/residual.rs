@@ -3,8 +3,8 @@
 //! In: residuals measured by the size of their terms, and the multiplier's value. Out: a [`Gauge`].
 //! Never here: how a constraint is kept.
 
-use super::Gauge;
 use super::deviation::Deviation;
+use super::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -59,8 +59,17 @@ impl Residual {
         self.deviation.sample(time, self.now(residuals));
     }
 
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Goes on from what was known of it.
+    pub(super) fn restore(&mut self, known: &Reference) {
+        self.deviation.restore(known);
+    }
+
     /// The larger of what is missing in position and in velocity.
-    fn now(&self, residuals: &[[f64; 2]]) -> f64 {
+    pub(super) fn now(&self, residuals: &[[f64; 2]]) -> f64 {
         residuals.get(self.index).map_or(0.0, |r| r[0].max(r[1]))
     }
 

@@ -102,6 +102,8 @@ pub struct Gauge {
     pub shown: String,
     /// Where it comes from: `cyclic φ`, `∂L/∂t = 0`, `declared`.
     pub reason: String,
+    /// Whether it follows from the law of motion, without a number being looked at.
+    pub proved: bool,
     /// Its value now.
     pub value: f64,
     /// Its value when the reference was taken.
@@ -114,15 +116,28 @@ pub struct Gauge {
     pub reference: f64,
     /// When that was taken.
     pub reference_time: f64,
-    /// |value − reference| over the size of its terms: the sum of their magnitudes, the greatest for as long as nothing
-    /// but rounding had changed the value.
+    /// |value − reference| over what moves: what the terms of the quantity have more than at rest, and by how much the
+    /// rest of them has changed; on the mean. What rounding explains is relative to the
+    /// terms themselves.
     pub drift: f64,
-    /// The greatest drift since the reference.
+    /// The greatest drift since the reference, over all steps; each over what moved until then on the mean, or at that
+    /// time where that was more.
     pub max_drift: f64,
+    /// Since when it is more than a millionth, if the physics keeps the quantity.
+    pub left: Option<f64>,
     /// Drift at past times (evenly thinned), the oldest first: the small history.
     pub history: Arc<[f32]>,
     /// What to think of it.
     pub verdict: Verdict,
+}
+
+impl Gauge {
+    /// Of those that the law of motion keeps the one that has left its value by the most, if any has by more than a
+    /// millionth of what moves: the motion computed is not the one of that law.
+    pub fn departed(gauges: &[Gauge]) -> Option<&Gauge> {
+        let departed = gauges.iter().filter(|gauge| gauge.proved && gauge.left.is_some());
+        departed.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))
+    }
 }
 
 /// The method in use.

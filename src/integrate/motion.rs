@@ -358,6 +358,25 @@ impl Motion {
         &self.before
     }
 
+    /// The state at the end of the last step; the present may lie before it.
+    pub fn computed(&self) -> &State {
+        self.stepper.state()
+    }
+
+    /// The part of the last step in which nothing happens.
+    pub fn undisturbed(&self) -> (f64, f64) {
+        let (begin, end) = self.stepper.interval();
+        (begin, end.min(self.clear))
+    }
+
+    /// The state at a time within the last step, as the method tells it: not put back on constraints.
+    ///
+    /// # Errors
+    /// Where it cannot be told.
+    pub fn inside(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+        self.stepper.at(time, out)
+    }
+
     /// Moves the present to the end of what was computed.
     ///
     /// # Errors

@@ -230,6 +230,15 @@ impl CoordinateSymbols {
 }
 
 impl Reason {
+    /// Whether it follows from the law of motion, without a number being looked at.
+    pub fn is_proved(&self) -> bool {
+        match self {
+            Reason::Numerically | Reason::Declared => false,
+            Reason::BetweenBlows(reason) => reason.is_proved(),
+            _ => true,
+        }
+    }
+
     /// Whether there is only the file's word for it.
     pub fn is_declared(&self) -> bool {
         match self {

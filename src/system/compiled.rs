@@ -10,6 +10,7 @@ use super::legendre::{self, Legendre, Unsolved};
 use super::moments::Moments;
 use super::motion::{Quadratures, Split, Writer};
 use super::program::{Program, Singular};
+use super::terms::{Quantities, TermWatch, Terms};
 use super::value::Values;
 use super::watch::{List, Watch};
 use super::{Channel, Form, Given, Observer, Occasions, State};
@@ -35,6 +36,7 @@ struct Shared {
     quadratures: Quadratures,
     motion: Motion,
     watch: Watch,
+    terms: Terms,
     occasions: Occasions,
     moments: Option<Moments>,
     legendre: Arc<Program>,
@@ -88,6 +90,7 @@ impl System {
     ) -> Result<System, CompileError> {
         let mut equations = equations.clone();
         let list = List::of(model, &mut equations, extra);
+        let quantities = Quantities::of(&mut equations);
         let quadratures = Quadratures {
             action: list.depends(&equations, equations.symbols.action),
             work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
@@ -105,7 +108,8 @@ impl System {
         writer.parameters.extend(moments.iter().flat_map(|m| m.names().to_vec()));
         let constraints = Constrained::of(model, &mut writer, moments.as_ref()).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
-        let shared = Self::write(model, &mut writer, list, constraints).map_err(unknown)?;
+        let shared =
+            Self::write(model, &mut writer, (list, quantities), constraints).map_err(unknown)?;
         if writer.pool.is_full() {
             return Err(CompileError::TooLarge);
         }
@@ -122,7 +126,7 @@ impl System {
     fn write(
         model: &Model,
         writer: &mut Writer<'_>,
-        list: List,
+        (list, quantities): (List, Quantities),
         constraints: Option<Constrained>,
     ) -> Result<Shared, Symbol> {
         let split = match writer.split() {
@@ -159,6 +163,7 @@ impl System {
             energy,
             occasions: Occasions::of(model, writer)?,
             watch: list.compile(writer)?,
+            terms: quantities.compile(writer)?,
             moments: None,
         })
     }
@@ -420,6 +425,11 @@ impl System {
     /// What looks at states of this system.
     pub fn observer(&self, parameters: &[f64]) -> Observer {
         Observer::new(self.clone(), parameters)
+    }
+
+    /// Looks at the terms of what is conserved, at these parameters.
+    pub fn term_watch(&self, parameters: &[f64]) -> TermWatch {
+        TermWatch::new(self.clone(), &self.shared.terms, parameters)
     }
 
     pub(super) fn constrained(&self) -> Option<&Constrained> {

@@ -170,6 +170,14 @@ impl Writer<'_> {
         Some(lowering)
     }
 
+    /// The same, with the numbers carried along behind them.
+    pub(super) fn on_full_canonical_state(&mut self) -> Option<Lowering<'_>> {
+        let equations = self.equations;
+        let mut lowering = self.on_canonical_state()?;
+        bind_carried(&mut lowering, equations);
+        Some(lowering)
+    }
+
     /// Rates of change of a state (q, p); for a Lagrangian system that has no velocities in closed
     /// form they are functions of (q, q̇), and `false` says so.
     pub(super) fn canonical_rates(&mut self) -> Result<(Arc<Program>, bool), Symbol> {
@@ -190,8 +198,7 @@ impl Writer<'_> {
             outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
             lowering.finish(outputs)
         };
-        if let Some(mut lowering) = self.on_canonical_state() {
-            bind_carried(&mut lowering, equations);
+        if let Some(lowering) = self.on_full_canonical_state() {
             return Ok((finish(lowering)?, true));
         }
         Ok((finish(self.on_full_state())?, false))

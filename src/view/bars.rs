@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
-use super::gauges::finding;
+use super::gauges::{departed, finding};
 use super::glyphs::Glyphs;
 use super::help::keys;
 use super::number::{brief, fitted};
@@ -100,6 +100,9 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             ],
             vec![canvas.span(Role::Text, method(snapshot, canvas))],
         ];
+    if let Some((role, text)) = departed(snapshot, glyphs) {
+        pieces.insert(1, vec![canvas.span(role, text)]);
+    }
     if app.recording {
         let mark = canvas.span(Role::Bad, format!("{} rec", glyphs.pick("●", "o")));
         pieces.insert(1, vec![mark]);

@@ -138,7 +138,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
     };
     // Between the corners, with a blank at each side.
     let room = usize::from(area.width.saturating_sub(6));
-    let title = match plot {
+    let mut title = match plot {
         Plot::Space(eye) => space::title(canvas, lab, eye),
         Plot::Phase { x, y, .. } => {
             let title = plot.title(&lab.loaded).unwrap_or("Phase");
@@ -150,6 +150,9 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
             None => Vec::new(),
         },
     };
+    if let Some((role, _)) = gauges::departed(q.snapshot, canvas.look.glyphs) {
+        title.insert(0, canvas.span(role, "! "));
+    }
     let inner = canvas.pane(area, &title, focused);
     canvas.spot(area, Spot::Pane(Pane::Plot(index)));
     let frame = match plot {

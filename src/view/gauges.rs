@@ -16,7 +16,7 @@ use super::values::window;
 use super::wrap::words;
 use crate::analysis::{Growth, Verdict};
 use crate::app::Spot;
-use crate::experiment::Gauge;
+use crate::experiment::{Gauge, Snapshot};
 
 /// Columns of a verdict, a drift and a value.
 const VERDICT: u16 = 7;
@@ -116,8 +116,26 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Exact(Growth::Faster) => ("exact", Role::Warn),
         Verdict::Bounded => ("bounded", Role::Good),
         Verdict::Secular(_) => ("secular", Role::Bad),
+        Verdict::Lost => ("lost", Role::Bad),
         Verdict::Broken(_) => ("broken", Role::Warn),
     }
+}
+
+/// That the motion shown is not the one of the law, if a gauge tells so, and how much that is.
+pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, String)> {
+    let gauge = Gauge::departed(&snapshot.gauges)?;
+    let (word, role) = match gauge.verdict {
+        Verdict::Lost => ("lost", Role::Bad),
+        Verdict::Bounded => ("swings", Role::Warn),
+        _ => ("off", Role::Bad),
+    };
+    let name = glyphs.pick(&gauge.shown, &gauge.name);
+    let drift = gauge.max_drift;
+    let drift = match drift {
+        0.01..10.0 => format!("{:.0} %", 100.0 * drift),
+        _ => number::drift(drift),
+    };
+    Some((role, format!("! {name} {word} {drift}")))
 }
 
 /// A sentence on a verdict.
@@ -135,6 +153,7 @@ fn sentence(verdict: &Verdict) -> String {
         Verdict::Secular(slope) => {
             format!("grows by {} per unit of time: the method eats it", number::drift(*slope))
         }
+        Verdict::Lost => "has left its value by more than a tenth of what moves".to_owned(),
         Verdict::Broken(law) => format!("not conserved, by the physics: {law}"),
     }
 }

@@ -6,6 +6,7 @@ mod export;
 mod gauges;
 mod moment;
 mod record;
+mod verdicts;
 
 use std::sync::Arc;
 

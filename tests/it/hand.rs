@@ -97,6 +97,7 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
         name: name.to_owned(),
         shown: shown.to_owned(),
         reason: "∂L/∂t = 0".to_owned(),
+        proved: true,
         value,
         initial: value,
         scale: value.abs(),
@@ -105,6 +106,7 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
         reference_time: 0.0,
         drift: 2.5e-16,
         max_drift: 3e-16,
+        left: None,
         history: [0.0, 1e-16, 2.5e-16].into(),
         verdict,
     }

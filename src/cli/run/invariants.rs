@@ -1,7 +1,9 @@
 //! What the gauges say at the end of a run.
 
+use crate::analysis::Verdict;
 use crate::cli::report::Invariant;
-use crate::experiment::Gauge;
+use crate::experiment::{Gauge, MethodFact};
+use crate::integrate::{METHODS, Stepping};
 
 /// One invariant a gauge.
 pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
@@ -14,4 +16,84 @@ pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
         verdict: gauge.verdict.word(),
     };
     gauges.iter().map(invariant).collect()
+}
+
+/// That something conserved has left its value, and what may help, in one line.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Departure {
+    pub(super) line: String,
+    /// Whether it is conserved by the law of motion, so that the motion is not the one of that law.
+    pub(super) proved: bool,
+}
+
+impl Departure {
+    /// The one that matters most, if there is any.
+    pub(super) fn of(gauges: &[Gauge], method: &MethodFact) -> Option<Departure> {
+        if let Some(worst) = Gauge::departed(gauges) {
+            let others = gauges.iter().filter(|g| g.proved && g.left.is_some()).count() - 1;
+            let others = match others {
+                0 => String::new(),
+                1 => ", and so does another invariant".to_owned(),
+                n => format!(", and so do {n} others"),
+            };
+            let line = format!("{}{others}; {}", told(worst, ""), advice(method));
+            return Some(Departure { line, proved: true });
+        }
+        let contradicted = gauges.iter().filter(|g| g.left.is_some());
+        let worst = contradicted.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))?;
+        let line = told(worst, &format!(" ({})", worst.reason));
+        Some(Departure { line, proved: false })
+    }
+}
+
+/// What became of it.
+fn told(gauge: &Gauge, about: &str) -> String {
+    let (name, drift) = (&gauge.name, size(gauge.max_drift));
+    let since = gauge.left.map_or_else(String::new, |time| format!(" since t = {}", short(time)));
+    let name = format!("`{name}`{about}");
+    match gauge.verdict {
+        Verdict::Lost => format!("{name} is lost: off by {drift} of what moves{since}"),
+        Verdict::Bounded => {
+            format!("{name} swings without trend, by {drift} of what moves{since}")
+        }
+        Verdict::Secular(_) => format!("{name} drifts away: off by {drift} of what moves{since}"),
+        _ => format!("{name} leaves its value by {drift} of what moves{since}"),
+    }
+}
+
+/// What to try.
+fn advice(method: &MethodFact) -> String {
+    let row = METHODS.iter().find(|row| row.name == method.name);
+    match (row.map(|row| row.stepping), method.tolerance) {
+        (Some(Stepping::Fixed), _) => {
+            format!("try a --step below {}, or the default method", short(method.step))
+        }
+        (_, Some(tolerance)) => {
+            format!("try a --tolerance below {}, or leave it out", short(tolerance))
+        }
+        (_, None) => {
+            let other = if method.name == "dop853" { "taylor" } else { "dop853" };
+            format!("the motion may have passed a singular point: compare with --method {other}")
+        }
+    }
+}
+
+/// A relative size in two digits.
+fn size(x: f64) -> String {
+    match x {
+        0.01..1000.0 => format!("{x:.2}"),
+        _ if x.is_finite() => format!("{x:.1e}"),
+        _ => "more than can be told".to_owned(),
+    }
+}
+
+/// A number in four digits.
+fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    let value: f64 = digits.parse().unwrap_or(x);
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }

@@ -226,7 +226,7 @@ pub const CLAIMS: [(&str, &str); 9] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "what is thought of a gauge: `exact`, `bounded`, `secular`, `broken`, `open`",
+        "what is thought of a gauge: `exact`, `bounded`, `secular`, `lost`, `broken`, `open`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
@@ -245,7 +245,7 @@ const MEASURES: [(&str, Measure); 5] = [
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 /// The first words of verdicts.
-const VERDICTS: [Word; 5] = ["exact", "bounded", "secular", "broken", "open"];
+const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
 
 fn assert(line: &mut Line<'_>) -> Result<Said, Mistake> {
     if line.take("status") {

@@ -6,7 +6,8 @@ const FLOOR: f64 = 1e-12;
 
 /// The verdict on `count` values of `drift` at times 0, 0.1, ….
 fn verdict(count: u32, drift: impl FnMut(f64) -> f64) -> Verdict {
-    Verdict::of(&history(count, drift), FLOOR)
+    let history = history(count, drift);
+    Verdict::of(&history, history.peak(), FLOOR)
 }
 
 fn history(count: u32, mut drift: impl FnMut(f64) -> f64) -> History {
@@ -172,4 +173,120 @@ fn the_floor_rises_like_brouwers_walk() {
     assert!(rounding_floor(0) < 4e-15);
     let ratio = rounding_floor(100_000_000) / rounding_floor(1_000_000);
     assert!((9.0..10.1).contains(&ratio), "{ratio}");
+}
+
+/// The verdict on 8192 values, 64 to a stretch: what changes its sign with every value has no mean there.
+fn alternating(swing: f64, of: impl Fn(f64) -> f64) -> Verdict {
+    let mut sign = -1.0;
+    verdict(8192, |t| {
+        sign = -sign;
+        sign * swing + of(t / 819.2)
+    })
+}
+
+/// A mean rises by 0.75 s from the first quarter to the last; within a quarter the values swing by 2 + 0.25 s.
+#[test]
+fn a_rise_of_a_hundredth_of_the_swing_is_a_trend() {
+    let total = |share: f64| 2.0 * share / (0.75 - 0.25 * share);
+    assert!(secular(&alternating(1.0, |t| total(0.0105) * t)).is_some());
+    assert_eq!(alternating(1.0, |t| total(0.0095) * t), Verdict::Bounded);
+}
+
+/// The means of stretches lie one up, one down: six of their standard errors in a quarter of 31 are 1.08.
+#[test]
+fn a_rise_clears_the_scatter() {
+    let scattered = |rise: f64| {
+        let mut count = 0;
+        verdict(8192, |t| {
+            count += 1;
+            let side = if ((count - 1) / 64) % 2 == 0 { 1.0 } else { -1.0 };
+            side + rise * 128.0 / 96.0 * t / 819.2
+        })
+    };
+    assert!(secular(&scattered(1.3)).is_some());
+    assert_eq!(scattered(0.9), Verdict::Bounded);
+}
+
+/// The least values rise by 0.3, the greatest by a part of that.
+#[test]
+fn both_extremes_rise_with_a_trend() {
+    let drawn = |part: f64| {
+        let mut low = false;
+        verdict(8192, |t| {
+            low = !low;
+            if low { 0.3 * t / 819.2 } else { 1.0 + part * 0.3 * t / 819.2 }
+        })
+    };
+    // 2 part/(1 + part) of the mean: a fifth at 1/9
+    assert!(secular(&drawn(0.13)).is_some());
+    assert_eq!(drawn(0.09), Verdict::Bounded);
+}
+
+/// In the middle half the rise is a part of what it is at the ends.
+#[test]
+fn a_trend_does_not_rest() {
+    let resting = |part: f64| {
+        alternating(1.0, move |t| match t {
+            ..0.25 => t,
+            0.25..0.75 => 0.25 + part * (t - 0.25),
+            _ => t - 0.5 + 0.5 * part,
+        })
+    };
+    assert!(secular(&resting(0.22)).is_some());
+    assert_eq!(resting(0.13), Verdict::Bounded);
+}
+
+/// A jump in the middle of a swing of 2.
+#[test]
+fn a_level_that_is_left_lies_more_than_a_swing_away() {
+    let jump = |height: f64| alternating(1.0, move |t| if t < 0.5 { 0.0 } else { height });
+    assert!(secular(&jump(2.5)).is_some());
+    assert_eq!(jump(2.3), Verdict::Bounded);
+}
+
+#[test]
+fn a_level_that_is_left_lies_far_above_rounding() {
+    let jump = |height: f64| verdict(8192, |t| if t < 400.0 { 0.0 } else { height * FLOOR });
+    assert!(secular(&jump(8.2)).is_some());
+    assert_eq!(jump(7.8), Verdict::Bounded);
+    assert!(matches!(jump(0.99), Verdict::Exact(_)));
+    assert_eq!(jump(1.01), Verdict::Bounded);
+}
+
+#[test]
+fn seventeen_stretches_are_enough() {
+    assert_eq!(verdict(16, |t| t), Verdict::Open);
+    assert_ne!(verdict(17, |t| t), Verdict::Open);
+}
+
+/// What is looked at a thousand times as often in one part of the time weighs no more there.
+#[test]
+fn stretches_are_of_time_and_not_of_looks() {
+    let mut history = History::new();
+    for k in 0..1000 {
+        history.push(f64::from(k), 0.0);
+    }
+    for k in 0..100_000 {
+        history.push(1000.0 + 0.001 * f64::from(k), 1e-3);
+    }
+    assert_eq!(history.len(), 101_000);
+    let late = history.stretches().iter().filter(|s| s.start >= 1000.0).count();
+    assert!((5..=8).contains(&late), "{late}");
+    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR)).is_some());
+}
+
+#[test]
+fn an_older_value_goes_where_it_belongs() {
+    let mut history = History::new();
+    for time in [0.0, 1.0, 2.0, 5.0, 3.0, 4.2, 5.5] {
+        history.push(time, time);
+    }
+    let starts: Vec<f64> = history.stretches().iter().map(|s| s.start).collect();
+    assert_eq!(starts, [0.0, 1.0, 2.0, 3.0, 4.2, 5.0]);
+}
+
+#[test]
+fn the_floor_is_a_few_units_and_a_walk_of_four_deviations() {
+    assert_eq!(rounding_floor(0), 16.0 * f64::EPSILON);
+    assert_eq!(rounding_floor(10_000), 416.0 * f64::EPSILON);
 }

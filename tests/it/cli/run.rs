@@ -432,3 +432,70 @@ fn a_run_tells_of_the_singular_configurations_it_passed() {
         "{passed}"
     );
 }
+/// One line on standard error, and its words.
+fn told(done: &Done, words: &[&str]) {
+    assert_eq!(done.stderr.lines().count(), 1, "{}", done.stderr);
+    for word in words {
+        assert!(done.stderr.contains(word), "no `{word}` in: {}", done.stderr);
+    }
+}
+
+#[test]
+fn an_invariant_that_is_lost_is_told_in_one_line() {
+    let coarse = ["--method", "leapfrog", "--step", "2.5", "--until", "100"];
+    let done = run(&coarse);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    told(&done, &["`energy` is lost", "of what moves since t = ", "--step below 2.5"]);
+    assert_eq!(csv(&done.stdout).len(), 201);
+    let strict = run(&[&coarse[..], &["--strict"]].concat());
+    assert_eq!(strict.code, 1, "{}", strict.stderr);
+    assert_eq!(
+        (strict.stderr.as_str(), strict.stdout.as_str()),
+        (done.stderr.as_str(), done.stdout.as_str())
+    );
+}
+
+#[test]
+fn a_symplectic_swing_is_told_as_what_it_is() {
+    let done = run(&["--method", "leapfrog", "--step", "0.1", "--until", "60", "--strict"]);
+    assert_eq!(done.code, 1, "{}", done.stderr);
+    told(&done, &["`energy` swings without trend, by "]);
+    let fine = run(&["--method", "yoshida8", "--step", "0.05", "--until", "60", "--strict"]);
+    assert_eq!((fine.code, fine.stderr.as_str()), (0, ""));
+}
+
+#[test]
+fn a_run_by_the_default_method_is_strict() {
+    run(&["--strict", "--until", "50"]).success();
+    phaselab(&["run", "damped-pendulum", "--strict"]).success();
+}
+
+/// The drift of an energy is the same whatever constant is added to the potential.
+#[test]
+fn a_constant_in_the_potential_hides_no_drift() {
+    let drift = |constant: &str| {
+        let file = format!(
+            "title = \"T\"\n[coordinates]\ntheta = {{ initial = 2.0 }}\n\
+             [lagrangian]\nL = \"1/2*theta'^2 + 9.81*cos(theta){constant}\"\n"
+        );
+        let arguments = [
+            "run",
+            "system.toml",
+            "--method",
+            "leapfrog",
+            "--step",
+            "0.05",
+            "--until",
+            "20",
+            "--format",
+            "json",
+        ];
+        let done = with_file(&file, &arguments);
+        told(&done, &["`energy` swings without trend"]);
+        let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
+        assert_eq!(object["invariants"][0]["verdict"], "bounded");
+        object["invariants"][0]["max_drift"].as_f64().expect("a number")
+    };
+    let (without, with) = (drift(""), drift(" - 1e6"));
+    assert!((with / without - 1.0).abs() < 1e-5, "{with:e} and {without:e}");
+}

@@ -97,7 +97,8 @@ fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     run(&mut system, 60.0);
     let snapshot = system.snapshot();
     let wrong = gauge(&snapshot, "amplitude");
-    assert_eq!((wrong.reason.as_str(), &wrong.verdict), ("declared", &Verdict::Bounded));
+    assert_eq!(wrong.reason, "declared; contradicted by the run");
+    assert_eq!(wrong.verdict, Verdict::Lost);
     assert!(wrong.max_drift > 0.6);
     assert_eq!(gauge(&snapshot, "energy").verdict, Verdict::Exact(Growth::Level));
     assert!(wrong.history.len() >= 64 && wrong.history.iter().all(|x| x.is_finite()));
@@ -115,19 +116,25 @@ fn energy_under(preset: &str, method: &str, step: f64, time: f64) -> Gauge {
 }
 
 /// A step far too long leads into close encounters that are none, and loses energy unevenly. Neither is bounded, and
-/// the terms' size after the harm is no measure of it.
+/// great terms for a moment are no measure of it.
 #[test]
 fn what_a_method_ruins_is_neither_bounded_nor_small() {
     for (preset, time, least) in [
         ("restricted-three-body", 20.0, 0.3),
-        ("double-pendulum", 25.0, 0.05),
-        ("double-pendulum", 60.0, 0.2),
-        ("swinging-atwood", 60.0, 0.1),
+        ("double-pendulum", 25.0, 0.03),
+        ("double-pendulum", 60.0, 0.1),
+        ("swinging-atwood", 60.0, 0.05),
     ] {
         let energy = energy_under(preset, "rk4", 0.05, time);
         assert!(energy.drift > least, "{preset}: {energy:?}");
-        let Verdict::Secular(rate) = energy.verdict else { panic!("{preset}: {energy:?}") };
-        assert_eq!(rate > 0.0, energy.value > energy.reference, "{preset}: {rate}");
+        match energy.verdict {
+            Verdict::Secular(rate) => {
+                assert!(energy.max_drift <= 0.1, "{preset}: {energy:?}");
+                assert_eq!(rate > 0.0, energy.value > energy.reference, "{preset}: {rate}");
+            }
+            Verdict::Lost => assert!(energy.max_drift > 0.1, "{preset}: {energy:?}"),
+            _ => panic!("{preset}: {energy:?}"),
+        }
     }
 }
 

@@ -90,6 +90,7 @@ fn verdicts_have_their_colours() {
         (Verdict::Exact(Growth::Root), "exact", Role::Good),
         (Verdict::Bounded, "bounded", Role::Good),
         (Verdict::Secular(1e-9), "secular", Role::Bad),
+        (Verdict::Lost, "lost", Role::Bad),
         (Verdict::Broken("−2F".into()), "broken", Role::Warn),
     ] {
         let mut app = in_lab();
@@ -101,6 +102,39 @@ fn verdicts_have_their_colours() {
             let at = find(&buffer, word).unwrap_or_else(|| panic!("{word} at {size:?}"));
             assert_eq!(buffer[at].fg, look.theme[role].fg.unwrap(), "{word}");
         }
+    }
+}
+
+/// A motion that is not the one of its law is marked on every picture, and the status says by how much.
+#[test]
+fn a_departed_invariant_marks_the_picture() {
+    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    for (verdict, drift, word) in [
+        (Verdict::Lost, 0.3, "lost 30 %"),
+        (Verdict::Bounded, 2.3e-4, "swings 2.3e-4"),
+        (Verdict::Secular(1e-9), 5.0e-5, "off 5.0e-5"),
+    ] {
+        let mut app = in_lab();
+        let mut seen = snapshot(&pendulum(), 2.0);
+        let of =
+            |left| Gauge { left, max_drift: drift, ..gauge("energy", "E", 4.0, verdict.clone()) };
+        seen.gauges = [of(Some(1.5))].into();
+        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        for (look, size) in [(rich(), (80, 24)), (rich(), (120, 40)), (plain.clone(), (80, 24))] {
+            let rows = rows(&screen(&app, &look, size));
+            let name = if look.glyphs.is_ascii() { "energy" } else { "E" };
+            let mark = format!("! {name} {word}");
+            assert!(rows.iter().any(|row| row.contains(&mark)), "{size:?}: {}", rows.join("\n"));
+            assert!(
+                rows.iter().any(|row| row.contains("! Phase")),
+                "{size:?}: {}",
+                rows.join("\n")
+            );
+        }
+        seen.gauges = [of(None)].into();
+        app.update(Event::Snapshot(Arc::new(seen)));
+        let rows = rows(&screen(&app, &rich(), (80, 24)));
+        assert!(!rows.iter().any(|row| row.contains("! ")), "{}", rows.join("\n"));
     }
 }
 

@@ -1,0 +1,92 @@
+//! How uncertain rounding makes the value of an expression: running error analysis, node by node
+//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, SIAM 2002, § 3.3).
+
+use rustc_hash::FxHashMap;
+
+use super::evaluate::real_power;
+use super::number::Number;
+use super::pool::{Expr, Node, Pool};
+use super::symbol::Symbol;
+use crate::expr::portable;
+
+/// What one rounding does, in units of ε times the value.
+const HALF: f64 = 0.5;
+
+/// The part of an argument by which the slope of a function is looked for.
+const NUDGE: f64 = 1e-7;
+
+impl Pool {
+    /// The value of `e`, and its error in units of ε where every number that goes in is rounded to an `f64` and every
+    /// operation is done in such. In a sum that cancels the error is that of the terms; where a factor or a power makes
+    /// the error of a part harmless, it counts for no more than it does.
+    pub fn evaluate_with_error(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
+        let mut known: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rounded = |value: f64| (value, HALF * value.abs());
+            let result = match self.node(part) {
+                Node::Number(n) => rounded(n.value()),
+                Node::Pi => rounded(std::f64::consts::PI),
+                Node::Symbol(s) => rounded(at(*s)),
+                Node::Sum(constant, terms) => {
+                    let mut total = constant.value();
+                    let mut error = HALF * total.abs();
+                    for (c, t) in terms {
+                        let (value, part) = known[t];
+                        let (value, part) = (c.value() * value, (c.value() * part).abs());
+                        total += value;
+                        error += part + HALF * value.abs();
+                    }
+                    (total, error)
+                }
+                Node::Product(c, factors) => product(c.value(), factors, &known),
+                Node::Power(base, exponent) => {
+                    let ((b, b_error), (n, n_error)) = (known[base], known[exponent]);
+                    let value = portable::powf(b, n);
+                    let of_base =
+                        if b_error == 0.0 { 0.0 } else { (n * value / b).abs() * b_error };
+                    let of_exponent = if n_error == 0.0 {
+                        0.0
+                    } else {
+                        (portable::ln(b) * value).abs() * n_error
+                    };
+                    (value, HALF * value.abs() + of_base + of_exponent)
+                }
+                Node::Call(function, arguments) => {
+                    let f = function.row().value;
+                    let values: Vec<f64> = arguments.iter().map(|a| known[a].0).collect();
+                    let value = f(&values);
+                    let mut error = HALF * value.abs();
+                    for (i, argument) in arguments.iter().enumerate() {
+                        let (x, own) = known[argument];
+                        let nudge = NUDGE * x.abs().max(own);
+                        if nudge > 0.0 {
+                            let mut beside = values.clone();
+                            beside[i] = x + nudge;
+                            error += ((f(&beside) - value) / nudge).abs() * own;
+                        }
+                    }
+                    (value, error)
+                }
+            };
+            known.insert(part, result);
+        }
+        known[&e]
+    }
+}
+
+/// A product and its error: every factor's own, times the others.
+fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64)>) -> (f64, f64) {
+    let powers: Vec<f64> = factors.iter().map(|(base, n)| real_power(known[base].0, *n)).collect();
+    let value = powers.iter().fold(c, |product, power| product * power);
+    let mut error = HALF * value.abs();
+    for (i, (base, n)) in factors.iter().enumerate() {
+        let (b, own) = known[base];
+        let exponent = n.value();
+        let slope =
+            if exponent == 1.0 { 1.0 } else { exponent * portable::powf(b.abs(), exponent - 1.0) };
+        let others = powers.iter().enumerate().filter(|(j, _)| *j != i);
+        let others = others.fold(c, |product, (_, power)| product * power);
+        error += (others * slope).abs() * own;
+    }
+    (value, error)
+}

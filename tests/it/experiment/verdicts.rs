@@ -1,0 +1,222 @@
+//! Labelled runs: what a verdict must be is known without the program, by what is known of the method and the system.
+//!
+//! The oscillator under a Runge–Kutta method of order four loses (hω)⁶/72 of its energy a step (Hairer, Lubich, Wanner,
+//! *Geometric Numerical Integration*, § IX); symplectic methods swing with a power of the step and without trend, and
+//! keep momenta of rotation; Gauss methods keep quadratic invariants (§ IV.2). A series to the last digit keeps all.
+
+use phaselab::experiment::Experiment;
+use phaselab::integrate::Settings;
+
+use super::{build, gauge, run};
+
+/// How long, in periods: whole and not, short and long.
+const LENGTHS: [f64; 4] = [10.0, 10.3, 100.0, 97.31];
+
+/// A method and its step in parts of a period (an adaptive one has none), and the word for the energy by the length.
+type Label = (&'static str, f64, fn(f64) -> &'static str);
+
+/// Runs it as `phaselab run` does: a thousand rows.
+fn carried(text: &str, method: &str, step: Option<f64>, time: f64) -> Experiment {
+    let mut experiment = build(text, |setup| {
+        method.clone_into(&mut setup.method);
+        setup.settings = Settings { step, tolerance: None };
+        setup.end = Some(time);
+        setup.spacing = time / 1000.0;
+    });
+    run(&mut experiment, time);
+    experiment
+}
+
+/// Holds every label at every length for a file of this period; returns how many runs that were.
+fn hold(text: &str, period: f64, labels: &[Label], gauges: &[(&str, Option<&str>)]) -> usize {
+    let mut wrong = Vec::new();
+    for &(method, part, word) in labels {
+        for length in LENGTHS {
+            let step = (part > 0.0).then_some(part * period);
+            let snapshot = carried(text, method, step, length * period).snapshot();
+            for &(name, of_its_own) in gauges {
+                let gauge = gauge(&snapshot, name);
+                let label = of_its_own.unwrap_or_else(|| word(length));
+                if gauge.verdict.word() != label {
+                    let (is, drift) = (gauge.verdict.word(), gauge.max_drift);
+                    wrong.push(format!(
+                        "{name} under {method}, {part} for {length}: {is} is not {label} ({drift:e})"
+                    ));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{text}\n{}", wrong.join("\n"));
+    labels.len() * LENGTHS.len()
+}
+
+/// Units: the mass, the frequency and the amplitude of an oscillator.
+const UNITS: [(f64, f64, f64); 3] =
+    [(1.0, 1.0, 1.0), (9.1e-31, 4.1e16, 5.3e-11), (2.0e30, 7.9e-16, 3.1e20)];
+
+/// An oscillator, with a constant in V that is so many times its energy.
+fn oscillator((m, w, x): (f64, f64, f64), offset: f64) -> String {
+    let (k, v) = (m * w * w, x * w * 0.8);
+    let constant = offset * 0.5 * k * x * x;
+    format!(
+        "title = \"Oscillator\"\n[coordinates]\nx = {{ initial = {x:e}, velocity = {v:e} }}\n\
+         [lagrangian]\nL = \"1/2*{m:e}*x'^2 - 1/2*{k:e}*x^2 - {constant:e}\"\n"
+    )
+}
+
+#[test]
+fn an_oscillator_in_any_units() {
+    let labels: [Label; 7] = [
+        ("taylor", 0.0, |_| "exact"),
+        ("leapfrog", 0.03, |_| "bounded"),
+        ("yoshida4", 0.03, |_| "bounded"),
+        ("yoshida6", 0.03, |_| "bounded"),
+        ("gauss4", 0.03, |_| "exact"),
+        ("rk4", 0.03, |_| "secular"),
+        // (hω)⁶/72 = 4.5e-4 a step, eleven of them a period: 0.05 after ten, a third after a hundred
+        ("rk4", 0.09, |length| if length > 50.0 { "lost" } else { "secular" }),
+    ];
+    let runs: usize = UNITS
+        .iter()
+        .map(|&units| {
+            let period = std::f64::consts::TAU / units.1;
+            hold(&oscillator(units, 0.0), period, &labels, &[("energy", None)])
+        })
+        .sum();
+    assert_eq!(runs, 84);
+}
+
+/// A constant in V changes no word: not a large one, nor one beside which the energy is small.
+#[test]
+fn an_oscillator_with_a_constant_in_its_potential() {
+    let labels: [Label; 5] = [
+        ("taylor", 0.0, |_| "exact"),
+        ("leapfrog", 0.03, |_| "bounded"),
+        ("yoshida4", 0.03, |_| "bounded"),
+        ("rk4", 0.03, |_| "secular"),
+        ("rk4", 0.09, |length| if length > 50.0 { "lost" } else { "secular" }),
+    ];
+    let mut runs = 0;
+    for (units, offset) in [(UNITS[0], 1e6), (UNITS[1], 1e6), (UNITS[2], -1e4)] {
+        let period = std::f64::consts::TAU / units.1;
+        runs += hold(&oscillator(units, offset), period, &labels, &[("energy", None)]);
+    }
+    assert_eq!(runs, 60);
+}
+
+/// The period of L = θ'²/2 + cos θ from rest at θ₀: 2π over the arithmetic-geometric mean of 1 and cos θ₀/2.
+fn period_of_pendulum(from: f64) -> f64 {
+    let (mut a, mut b) = (1.0, (from / 2.0).cos());
+    while (a - b).abs() > 1e-15 {
+        (a, b) = (f64::midpoint(a, b), (a * b).sqrt());
+    }
+    std::f64::consts::TAU / a
+}
+
+#[test]
+fn a_pendulum_from_rest() {
+    let labels: [Label; 6] = [
+        ("taylor", 0.0, |_| "exact"),
+        ("leapfrog", 0.025, |_| "bounded"),
+        ("yoshida4", 0.025, |_| "bounded"),
+        ("gauss4", 0.025, |_| "bounded"),
+        ("rk4", 0.025, |_| "secular"),
+        ("leapfrog", 0.4, |_| "lost"),
+    ];
+    let mut runs = 0;
+    for (from, constant) in [(1.0, 0.0), (2.0, 0.0), (2.0, 1e6)] {
+        let text = format!(
+            "title = \"Pendulum\"\n[coordinates]\ntheta = {{ initial = {from} }}\n\
+             [lagrangian]\nL = \"1/2*theta'^2 + cos(theta) - {constant}\"\n"
+        );
+        // beside a constant of a million what gauss4 swings by is rounding
+        let told = |label: &&Label| constant == 0.0 || label.0 != "gauss4";
+        let labels: Vec<Label> = labels.iter().filter(told).copied().collect();
+        runs += hold(&text, period_of_pendulum(from), &labels, &[("energy", None)]);
+    }
+    assert_eq!(runs, 68);
+}
+
+#[test]
+fn a_planet_in_a_plane() {
+    let text = "title = \"Planet\"\n[coordinates]\nx = { initial = 1.5 }\n\
+                y = { initial = 0, velocity = \"1/sqrt(3)\" }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)\"\n\
+                [[observables]]\nname = \"A\"\n\
+                expression = \"x'*(x*y' - y*x') + y/sqrt(x^2 + y^2)\"\nconserved = true\n";
+    let period = std::f64::consts::TAU;
+    let swung: [Label; 2] =
+        [("leapfrog", 0.002, |_| "bounded"), ("yoshida4", 0.005, |_| "bounded")];
+    let mut runs = hold(text, period, &swung, &[("energy", None), ("L_z", Some("exact"))]);
+    runs += hold(text, period, &[("taylor", 0.0, |_| "exact")], &[("energy", None), ("A", None)]);
+    runs += hold(text, period, &[("rk4", 0.005, |_| "secular")], &[("energy", None)]);
+    assert_eq!(runs, 16);
+}
+
+#[test]
+fn friction_breaks_the_energy_under_any_method() {
+    let text = "title = \"Damped\"\n[coordinates]\nx = { initial = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"0.02*x'^2\"\n";
+    let broken: Label = ("taylor", 0.0, |_| "broken by the physics");
+    let coarse: Label = ("rk4", 0.05, |_| "broken by the physics");
+    let period = std::f64::consts::TAU;
+    let runs = hold(text, period, &[broken], &[("energy", None), ("energy ledger", Some("exact"))])
+        + hold(text, period, &[coarse], &[("energy", None)]);
+    assert_eq!(runs, 8);
+}
+
+/// Looks at whole periods only would take these swings for nothing, or for a trend.
+#[test]
+fn a_swing_is_as_great_whenever_rows_are_written() {
+    let period = std::f64::consts::TAU;
+    let text = oscillator(UNITS[0], 0.0);
+    let drift = |length: f64| {
+        let snapshot = carried(&text, "yoshida4", Some(0.01 * period), length * period).snapshot();
+        gauge(&snapshot, "energy").max_drift
+    };
+    let (whole, other) = (drift(1000.0), drift(1000.3));
+    assert!((whole / other - 1.0).abs() < 0.01, "{whole:e} and {other:e}");
+}
+
+/// Two particles that move freely: G = y' + a x leaves its value evenly, and so does what moves of it grow.
+fn leaving(a: f64) -> phaselab::experiment::Gauge {
+    let text = format!(
+        "title = \"Free\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\n\
+         y = {{ initial = 0, velocity = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n\
+         [[observables]]\nname = \"G\"\nexpression = \"y' + {a:e}*x\"\nconserved = true\n"
+    );
+    gauge(&carried(&text, "taylor", None, 1.0).snapshot(), "G")
+}
+
+/// a/(1 + a) of what moves is a tenth at a = 1/9.
+#[test]
+fn beyond_a_tenth_of_what_moves_a_quantity_is_lost() {
+    let (kept, lost) = (leaving(0.1100), leaving(0.1122));
+    assert_eq!(kept.verdict.word(), "secular", "{kept:?}");
+    assert_eq!(lost.verdict.word(), "lost", "{lost:?}");
+    assert!((kept.max_drift - 0.11 / 1.11).abs() < 1e-9, "{kept:?}");
+}
+
+#[test]
+fn beyond_a_millionth_of_what_moves_it_is_told() {
+    let (kept, left) = (leaving(0.99e-6), leaving(1.01e-6));
+    assert_eq!(kept.left, None, "{kept:?}");
+    assert!(left.left.is_some_and(|since| (0.9..=1.0).contains(&since)), "{left:?}");
+    assert_eq!(kept.reason, "declared");
+    assert_eq!(left.reason, "declared; contradicted by the run");
+}
+
+/// At rest nothing moves, and nothing is off.
+#[test]
+fn an_equilibrium_is_exact() {
+    let text = "title = \"Rest\"\n[coordinates]\nx = { initial = 0 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 - 5\"\n";
+    for (method, step) in [("taylor", None), ("leapfrog", Some(0.1)), ("rk4", Some(0.1))] {
+        let energy = gauge(&carried(text, method, step, 20.0).snapshot(), "energy");
+        assert_eq!(
+            (energy.verdict.word(), energy.max_drift),
+            ("exact", 0.0),
+            "{method}: {energy:?}"
+        );
+    }
+}
