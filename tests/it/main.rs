@@ -29,4 +29,5 @@ mod screen;
 mod system;
 mod taylor;
 mod terminal;
+mod thresholds;
 mod worker;
