@@ -5,25 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The rooms from the ground up.
-const ROOMS: [&str; 15] = [
-    "cancel",
-    "expr",
-    "model",
-    "preset",
-    "mechanics",
-    "system",
-    "integrate",
-    "analysis",
-    "experiment",
-    "worker",
-    "app",
-    "view",
-    "record",
-    "shell",
-    "cli",
-];
-
 /// What each room may use.
 type Table = BTreeMap<String, BTreeSet<String>>;
 
@@ -45,7 +26,7 @@ fn table_of(text: &str) -> Table {
         let mut allowed = BTreeSet::new();
         for word in uses.split([',', ';']).map(str::trim).filter(|w| !w.is_empty() && *w != "–") {
             let known = |name: &str| {
-                assert!(ROOMS.contains(&name), "{word:?} in the row of `{room}`");
+                assert!(rooms.contains(&name), "{word:?} in the row of `{room}`");
                 name.to_owned()
             };
             if word.starts_with("all") {
@@ -65,7 +46,7 @@ fn table_of(text: &str) -> Table {
         table.insert(room.to_owned(), allowed);
         rooms.push(room);
     }
-    assert_eq!(rooms, ROOMS, "the rooms of the table, from the ground up");
+    assert!(rooms.len() >= 15, "{rooms:?}");
     table
 }
 
@@ -115,10 +96,6 @@ fn files() -> Vec<File> {
     files
 }
 
-fn is_room(name: &str) -> bool {
-    ROOMS.contains(&name)
-}
-
 /// The rooms that code names: after `crate::`, inside `crate::{…}`, and after more `super::` than the room is deep.
 fn rooms_named(code: &str, depth: usize) -> Vec<String> {
     let mut named = Vec::new();
@@ -166,7 +143,8 @@ fn word(text: &str) -> Option<String> {
 
 /// What is wrong with a use of one room by another.
 fn refusal(table: &Table, from: &str, to: &str) -> Option<String> {
-    if from == to || !is_room(from) || !is_room(to) || table[from].contains(to) {
+    let Some(allowed) = table.get(from) else { return None };
+    if from == to || !table.contains_key(to) || allowed.contains(to) {
         return None;
     }
     Some(format!("{from} uses {to}, which the table of ARCHITECTURE.md does not allow"))
@@ -176,7 +154,7 @@ fn refusal(table: &Table, from: &str, to: &str) -> Option<String> {
 fn every_room_uses_only_what_it_may() {
     let table = table();
     let mut wrong = Vec::new();
-    for file in files().iter().filter(|file| is_room(&file.room)) {
+    for file in &files() {
         for named in rooms_named(&file.code, file.depth) {
             wrong.extend(refusal(&table, &file.room, &named).map(|why| (file.path.clone(), why)));
         }
@@ -218,7 +196,7 @@ fn the_table_is_read_as_it_is_meant() {
 #[test]
 fn the_world_outside_stays_where_it_is_let_in() {
     let (files, mut wrong) = (files(), Vec::new());
-    for file in files.iter().filter(|file| is_room(&file.room)) {
+    for file in files.iter().filter(|file| !["lib", "main"].contains(&file.room.as_str())) {
         for (what, words, rooms) in OUTSIDE.iter().filter(|o| !o.2.contains(&file.room.as_str())) {
             let found = words.iter().filter(|word| file.code.contains(**word));
             wrong.extend(found.map(|word| (&file.path, what, word, rooms)));
@@ -229,8 +207,9 @@ fn the_world_outside_stays_where_it_is_let_in() {
 
 #[test]
 fn every_room_stands_in_the_table() {
+    let table = table();
     for file in files() {
-        let known = is_room(&file.room) || ["lib", "main"].contains(&file.room.as_str());
+        let known = table.contains_key(&file.room) || ["lib", "main"].contains(&file.room.as_str());
         assert!(known, "{} belongs to no room of the table", file.path.display());
     }
 }
