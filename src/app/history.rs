@@ -144,3 +144,23 @@ impl History {
         Some(change)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many changes are taken back of two that follow each other after so many milliseconds.
+    fn changes(milliseconds: u64) -> usize {
+        let mut history = History::default();
+        history.note(Change::Parameter { index: 0, numbers: [1.0, 2.0] });
+        history.tick(Duration::from_millis(milliseconds));
+        history.note(Change::Parameter { index: 0, numbers: [2.0, 3.0] });
+        std::iter::from_fn(|| history.undo()).count()
+    }
+
+    #[test]
+    fn what_follows_within_eight_tenths_of_a_second_is_one_change() {
+        assert_eq!(changes(790), 1);
+        assert_eq!(changes(810), 2);
+    }
+}

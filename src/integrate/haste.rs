@@ -32,3 +32,52 @@ impl Haste {
         count >= PATIENCE && gap <= HASTE * (time - start).abs()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the last of events with these gaps, the first of which comes at 1, piles up.
+    fn piles_up(gaps: &[f64]) -> bool {
+        let mut haste = Haste::NONE;
+        let mut time = 1.0;
+        let mut last = haste.comes(time, 0.0);
+        for gap in gaps {
+            time += gap;
+            last = haste.comes(time, 0.0);
+        }
+        last
+    }
+
+    #[test]
+    fn four_gaps_in_a_row_are_enough_and_three_are_not() {
+        let gaps = [8e-10, 4e-10, 2e-10, 1e-10];
+        assert!(piles_up(&gaps));
+        assert!(!piles_up(&gaps[..3]));
+        // one that comes later begins the count anew
+        assert!(!piles_up(&[8e-10, 4e-10, 5e-10, 1e-10, 5e-11, 2e-11]));
+    }
+
+    #[test]
+    fn it_comes_ever_faster_only_where_the_gaps_shrink() {
+        let shrinking = |factor: f64| {
+            let mut gap = 5e-10;
+            let gaps = [(); 6].map(|()| {
+                gap *= factor;
+                gap
+            });
+            piles_up(&gaps)
+        };
+        assert!(shrinking(0.999));
+        // rounding of the clock is near 2e-16
+        assert!(!shrinking(0.99995));
+        assert!(!shrinking(1.0));
+    }
+
+    #[test]
+    fn the_last_gap_is_a_small_part_of_the_time() {
+        let ending = |last: f64| piles_up(&[4e-8, 2e-8, 1e-8, last]);
+        assert!(ending(0.95e-9));
+        assert!(!ending(1.1e-9));
+    }
+}

@@ -220,9 +220,18 @@ mod tests {
 
     #[test]
     fn a_log_that_is_not_wanted_costs_nothing() {
+        /// Must not be turned into text.
+        struct Costly;
+        impl Display for Costly {
+            fn fmt(&self, _: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                panic!("a line that nobody wants was put together");
+            }
+        }
         let mut log = Log::default();
-        log.info("nothing");
+        log.info(Costly);
+        log.error(Costly);
         log.guard();
         log.close();
+        assert!(log.writer.is_none());
     }
 }

@@ -34,3 +34,23 @@ impl Pace {
         target
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_delay_is_made_up_for_and_a_long_one_is_given_up() {
+        let start = Instant::now();
+        let after = |milliseconds: u64| start + Duration::from_millis(milliseconds);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        // 45 ms at twice the speed are not lost
+        let mut pace = Pace::new(start, 1.0, 2.0);
+        assert!(near(pace.target(after(45), 1.0), 1.09));
+        assert!(near(pace.target(after(90), 1.09), 1.18));
+        // of 60 ms ten are, for good
+        let mut pace = Pace::new(start, 1.0, 2.0);
+        assert!(near(pace.target(after(60), 1.0), 1.1));
+        assert!(near(pace.target(after(70), 1.1), 1.12));
+    }
+}

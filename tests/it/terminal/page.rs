@@ -39,7 +39,7 @@ fn signals_restore_and_tell_their_number() {
         page.signal(signal);
         let (ended, took) = page.ends();
         assert_eq!(ended, status, "{signal:?}");
-        assert!(took < Duration::from_millis(500), "{signal:?} took {took:?}");
+        assert!(took < Duration::from_millis(200), "{signal:?} took {took:?}");
         page.assert_restored();
     }
 }

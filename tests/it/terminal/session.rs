@@ -5,9 +5,8 @@
 use std::ffi::OsString;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -79,22 +78,20 @@ impl Setup {
     }
 }
 
-/// The example's program, built as this test is.
+/// The example's program, which `cargo test` builds along with this test; never one older than its source.
 fn page() -> PathBuf {
-    static PAGE: OnceLock<PathBuf> = OnceLock::new();
-    let build = || {
-        let test = std::env::current_exe().expect("this test");
-        let folder = test.parent().and_then(|deps| deps.parent()).expect("target/debug/deps");
-        let target = folder.parent().expect("target");
-        let mut cargo = Command::new(std::env::var_os("CARGO").expect("tests are run by cargo"));
-        cargo.args(["build", "--quiet", "--example", "page", "--target-dir"]).arg(target);
-        if folder.ends_with("release") {
-            cargo.arg("--release");
-        }
-        assert!(cargo.status().expect("cargo").success(), "the example does not build");
-        folder.join("examples/page")
-    };
-    PAGE.get_or_init(build).clone()
+    let test = std::env::current_exe().expect("this test");
+    let folder = test.parent().and_then(|deps| deps.parent()).expect("target/debug/deps");
+    let page = folder.join("examples/page");
+    let time = |path: &Path| path.metadata().and_then(|file| file.modified()).ok();
+    let made_of = std::fs::read_to_string(page.with_extension("d")).unwrap_or_default();
+    let sources = made_of.split_whitespace().filter(|word| word.ends_with(".rs"));
+    let newest = sources.map(|source| time(Path::new(source))).max().flatten();
+    assert!(
+        newest.is_some() && time(&page) >= newest,
+        "the example `page` is not built, or older than its source: run `cargo build --example page`"
+    );
+    page
 }
 
 /// A program that runs on a pseudo-terminal.

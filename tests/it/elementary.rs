@@ -1,0 +1,70 @@
+//! The elementary functions against true values at hard points: `tests/elementary.txt`, made by mpmath at 2400 bits.
+
+use std::collections::BTreeMap;
+
+use phaselab::expr::portable;
+
+/// The greatest error allowed, in units of the last place of the true value.
+const CLAIMED: f64 = 2.0;
+
+/// Fewer points than this of a function say little.
+const FEWEST: usize = 140;
+
+/// Where a double stands among all of them.
+fn rank(x: f64) -> i64 {
+    let bits = x.abs().to_bits() as i64;
+    if x.is_sign_negative() { -bits } else { bits }
+}
+
+fn value(name: &str, x: f64, y: f64) -> f64 {
+    match name {
+        "sin" => portable::sin(x),
+        "cos" => portable::cos(x),
+        "tan" => portable::tan(x),
+        "asin" => portable::asin(x),
+        "acos" => portable::acos(x),
+        "atan" => portable::atan(x),
+        "atan2" => portable::atan2(x, y),
+        "sinh" => portable::sinh(x),
+        "cosh" => portable::cosh(x),
+        "tanh" => portable::tanh(x),
+        "exp" => portable::exp(x),
+        "exp2" => portable::exp2(x),
+        "ln" => portable::ln(x),
+        "ln_1p" => portable::ln_1p(x),
+        "log2" => portable::log2(x),
+        "log10" => portable::log10(x),
+        "cbrt" => portable::cbrt(x),
+        "hypot" => portable::hypot(x, y),
+        "powf" => portable::powf(x, y),
+        _ => panic!("there is no function {name}"),
+    }
+}
+
+#[test]
+fn elementary_functions_keep_to_two_units_of_the_last_place() {
+    let mut worst: BTreeMap<&str, (usize, f64, f64, f64)> = BTreeMap::new();
+    for line in include_str!("../elementary.txt").lines().filter(|line| !line.starts_with('#')) {
+        let words: Vec<&str> = line.split(' ').collect();
+        let (name, rest) = words.split_first().unwrap();
+        let (beyond, numbers) = rest.split_last().unwrap();
+        let number = |word: &&str| f64::from_bits(u64::from_str_radix(word, 16).unwrap());
+        let numbers: Vec<f64> = numbers.iter().map(number).collect();
+        let (nearest, arguments) = numbers.split_last().unwrap();
+        let (x, y) = (arguments[0], arguments.get(1).copied().unwrap_or(f64::NAN));
+        let found = value(name, x, y);
+        let beyond: f64 = beyond.parse().unwrap();
+        let error = ((rank(found) - rank(*nearest)) as f64 - beyond).abs();
+        let error = if found.is_nan() { f64::INFINITY } else { error };
+        let entry = worst.entry(name).or_insert((0, 0.0, x, y));
+        entry.0 += 1;
+        if error > entry.1 {
+            (entry.1, entry.2, entry.3) = (error, x, y);
+        }
+    }
+    assert_eq!(worst.len(), 19, "{worst:?}");
+    let wrong = |(count, error, ..): &(usize, f64, f64, f64)| *count < FEWEST || *error > CLAIMED;
+    assert!(!worst.values().any(wrong), "points, greatest error, where: {worst:#?}");
+    // an error of a whole place is seen
+    assert!(worst.values().any(|(_, error, ..)| *error > 0.5), "{worst:?}");
+}

@@ -1,0 +1,119 @@
+//! Random systems, some hundreds: completed and accurate, or a fault with its place; never neither. The same generator and
+//! judge as of `examples/property`, which runs as long as one likes.
+
+mod case;
+mod dice;
+mod extrapolation;
+mod jet;
+mod judge;
+mod oracle;
+mod random;
+mod shrink;
+mod tree;
+
+use std::time::Duration;
+
+use case::{Case, Law, Units};
+use extrapolation::follow;
+use judge::{Budget, Kind, Outcome, judged, judged_as};
+use tree::{Kinked, Tree, kinked, number, power, product, quotient, sum, variable};
+
+const SEED: u64 = 1;
+
+/// Enough that every kind of term, unit and method comes up.
+const CASES: u64 = 120;
+
+/// A fault of the default method with its place is an answer, but seldom one where the motion goes on.
+const GIVEN_UP: f64 = 0.02;
+
+/// Of so many the judge must be able to tell.
+const DECIDED: f64 = 0.75;
+
+/// The watchdog is for hangs alone: no case takes a hundredth of it.
+const BUDGET: Budget =
+    Budget { steps: 20_000, evaluations: 10_000, watchdog: Duration::from_secs(60) };
+
+#[test]
+fn a_run_is_accurate_or_says_where_it_fails() {
+    let mut failures = Vec::new();
+    let (mut decided, mut accurate, mut given_up) = (0, 0, 0);
+    for index in 0..CASES {
+        let case = random::case(SEED, index);
+        match judged(&case, BUDGET) {
+            Outcome::Accurate => {
+                decided += 1;
+                accurate += 1;
+            }
+            Outcome::Faulted | Outcome::Unfit => decided += 1,
+            Outcome::Undecided(_) => {}
+            Outcome::Failed(failure) if failure.kind == Kind::GivesUp => given_up += 1,
+            Outcome::Failed(failure) => {
+                decided += 1;
+                let fails = |case: &Case| matches!(judged(case, BUDGET), Outcome::Failed(f) if f.kind == failure.kind);
+                let looks = if failure.kind == Kind::Hang { 0 } else { 60 };
+                let text = shrink::shrunk(&case, looks, &fails).toml();
+                failures.push(format!(
+                    "case {index}: {failure}\n{text}\nagain: cargo run --release --example property -- \
+                     --seed {SEED} --case {index}"
+                ));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n\n"));
+    assert!(f64::from(decided) >= DECIDED * CASES as f64, "{decided} of {CASES} decided");
+    assert!(f64::from(given_up) <= GIVEN_UP * CASES as f64, "{given_up} of {CASES} given up");
+    assert!(f64::from(accurate) >= 0.5 * CASES as f64, "{accurate} of {CASES} accurate");
+}
+
+/// ½ x'² with a potential, from a start.
+fn particle(potential: Tree, start: [f64; 2], length: f64) -> Case {
+    Case {
+        law: Law::Lagrangian,
+        names: vec!["x".to_owned()],
+        kinetic: vec![product([number(0.5), power(variable(1), 2)])],
+        potential: vec![potential],
+        dissipation: Vec::new(),
+        forces: Vec::new(),
+        constraint: None,
+        start: start.to_vec(),
+        impulse: None,
+        stop: None,
+        length,
+        method: "auto".to_owned(),
+        step: None,
+        tolerance: None,
+        units: Units::natural(1),
+    }
+}
+
+#[test]
+fn the_judge_knows_motions_in_closed_form() {
+    let oscillator = particle(product([number(0.5), power(variable(0), 2)]), [1.0, 0.0], 20.0);
+    let end = follow(&oscillator, &oscillator.start, 1e-13, 100_000).unwrap().state;
+    assert!((end[0] - 20.0_f64.cos()).abs() < 1e-11, "{end:?}");
+    // between the kinks of |x| parabolas: a period takes 4 √2 from rest at 1
+    let wedge = particle(kinked(Kinked::Root, variable(0)), [1.0, 0.0], 8.0 * 2.0_f64.sqrt());
+    let end = follow(&wedge, &wedge.start, 1e-13, 100_000).unwrap().state;
+    assert!((end[0] - 1.0).abs() < 1e-11 && end[1].abs() < 1e-11, "{end:?}");
+}
+
+#[test]
+fn the_judge_tells_a_run_that_is_wrong() {
+    let spring = |k: f64| product([number(0.5 * k), power(variable(0), 2)]);
+    let case = particle(spring(1.0), [1.0, 0.0], 5.0);
+    assert_eq!(judged(&case, BUDGET), Outcome::Accurate);
+    let kind = |case: &Case, run: &Case| match judged_as(case, run, BUDGET) {
+        Outcome::Failed(failure) => Some(failure.kind),
+        _ => None,
+    };
+    // 1e-9 of the force is seen in the state
+    let stronger = particle(spring(1.0 + 1e-9), [1.0, 0.0], 5.0);
+    assert_eq!(kind(&case, &stronger), Some(Kind::Wrong));
+    // a motion that ends sooner than it should
+    let stopped = Case { stop: Some(sum([variable(0), number(0.5)])), ..case.clone() };
+    assert_eq!(judged(&stopped, BUDGET), Outcome::Accurate);
+    assert_eq!(kind(&case, &stopped), Some(Kind::Wrong));
+    // a start that is none
+    let pole = particle(quotient(number(1.0), variable(0)), [0.0, 0.0], 1.0);
+    assert_ne!(judged(&pole, BUDGET), Outcome::Accurate);
+}

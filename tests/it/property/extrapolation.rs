@@ -1,0 +1,229 @@
+//! A motion by extrapolated midpoint steps (Gragg 1965, Bulirsch & Stoer 1966), with kinks located to the last bit: what the
+//! program's own methods are held against.
+
+use super::case::Case;
+use super::oracle::{rates, struck};
+use super::tree::Branches;
+
+/// Columns of the table: the last is of order 12.
+const COLUMNS: usize = 6;
+
+/// Where a motion has come to.
+#[derive(Clone, Debug)]
+pub(crate) struct Arrival {
+    pub(crate) time: f64,
+    pub(crate) state: Vec<f64>,
+    /// Whether the event ended it.
+    pub(crate) stopped: bool,
+    /// Times and states on the way.
+    pub(crate) way: Vec<(f64, Vec<f64>)>,
+}
+
+/// Why there is no motion to compare with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Lost {
+    /// Not even a first rate.
+    AtStart,
+    /// A pole or a domain's end.
+    NotFinite,
+    /// It would take too long.
+    TooLong,
+    /// It rests on a kink, or meets ever more of them.
+    Sticks,
+}
+
+struct Walker<'a> {
+    case: &'a Case,
+    tolerance: f64,
+    branches: Branches,
+    budget: u64,
+}
+
+/// One attempt at a step.
+struct Step {
+    state: Vec<f64>,
+    error: f64,
+    /// A kink lies in it.
+    crossed: bool,
+}
+
+/// Follows the case to its end; `budget` counts evaluations.
+pub(crate) fn follow(
+    case: &Case,
+    start: &[f64],
+    tolerance: f64,
+    budget: u64,
+) -> Result<Arrival, Lost> {
+    let mut walker = Walker { case, tolerance, branches: Branches::default(), budget };
+    let mut state = start.to_vec();
+    let mut time = 0.0;
+    let mut way = Vec::new();
+    if let Some((at, i, by)) = case.impulse.filter(|(at, ..)| *at <= case.length) {
+        let stopped = walker.to(&mut time, &mut state, at, &mut way)?;
+        if stopped {
+            return Ok(Arrival { time, state, stopped, way });
+        }
+        state = struck(case, time, &state, i, by).ok_or(Lost::NotFinite)?;
+    }
+    let stopped = walker.to(&mut time, &mut state, case.length, &mut way)?;
+    Ok(Arrival { time, state, stopped, way })
+}
+
+impl Walker<'_> {
+    fn rates(&mut self, time: f64, state: &[f64]) -> Result<Vec<f64>, Lost> {
+        self.budget = self.budget.checked_sub(1).ok_or(Lost::TooLong)?;
+        Ok(rates(self.case, time, state, &mut self.branches))
+    }
+
+    /// Whether a value lies on the other side of its branch.
+    fn crossed(&self) -> bool {
+        let pairs = self.branches.values.iter().zip(&self.branches.above);
+        pairs.into_iter().any(|(value, above)| match above {
+            Some(true) => *value < 0.0,
+            Some(false) => *value > 0.0,
+            None => false,
+        })
+    }
+
+    /// Takes the sides where the motion is about to be.
+    fn choose(&mut self, time: f64, state: &[f64]) -> Result<(), Lost> {
+        self.branches = Branches::default();
+        let rate = self.rates(time, state)?;
+        if rate.iter().any(|r| !r.is_finite()) {
+            return Err(if time == 0.0 { Lost::AtStart } else { Lost::NotFinite });
+        }
+        let values = self.branches.values.clone();
+        let mut above: Vec<Option<bool>> = values.iter().map(|v| Some(*v > 0.0)).collect();
+        if values.contains(&0.0) {
+            // half a step ahead, the accelerations included
+            let h = 1e-6_f64;
+            let mut ahead: Vec<f64> =
+                state.iter().zip(&rate).map(|(x, r)| h.mul_add(*r, *x)).collect();
+            let later = self.rates(time + h, &ahead)?;
+            for (x, (r, s)) in ahead.iter_mut().zip(rate.iter().zip(&later)) {
+                *x += 0.5 * h * (s - r);
+            }
+            self.branches.above.clear();
+            self.rates(time + h, &ahead)?;
+            for (side, (value, later)) in
+                above.iter_mut().zip(values.iter().zip(&self.branches.values))
+            {
+                if *value == 0.0 {
+                    if *later == 0.0 {
+                        return Err(Lost::Sticks);
+                    }
+                    *side = Some(*later > 0.0);
+                }
+            }
+        }
+        self.branches.above = above;
+        Ok(())
+    }
+
+    fn to(
+        &mut self,
+        time: &mut f64,
+        state: &mut Vec<f64>,
+        end: f64,
+        way: &mut Vec<(f64, Vec<f64>)>,
+    ) -> Result<bool, Lost> {
+        self.choose(*time, state)?;
+        let stop = self.case.stop.as_ref().map(|_| self.branches.above.len() - 1);
+        let mut h = (0.01_f64).min(end - *time);
+        let mut hurried = 0;
+        while *time < end {
+            h = h.min(end - *time);
+            if *time + h <= *time {
+                return Err(Lost::NotFinite);
+            }
+            let step = self.step(*time, state, h)?;
+            if !(step.error <= 1.0) {
+                let factor = 0.9 * step.error.powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0));
+                h *= if factor.is_finite() { factor.clamp(0.1, 0.9) } else { 0.2 };
+                continue;
+            }
+            if !step.crossed {
+                let last = end - *time <= h * (1.0 + 1e-12);
+                *time = if last { end } else { *time + h };
+                *state = step.state;
+                way.push((*time, state.clone()));
+                let factor = 0.9 * (step.error + 1e-10).powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0));
+                h *= factor.clamp(0.5, 4.0);
+                hurried = 0;
+                continue;
+            }
+            // the shortest step that crosses
+            let (mut low, mut high) = (0.0, h);
+            while high - low > 1e-16_f64.max(f64::EPSILON * time.abs()) {
+                let middle = f64::midpoint(low, high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                match self.step(*time, state, middle)?.crossed {
+                    true => high = middle,
+                    false => low = middle,
+                }
+            }
+            let step = self.step(*time, state, high)?;
+            hurried = if high < 1e-9 { hurried + 1 } else { 0 };
+            if hurried > 3 {
+                return Err(Lost::Sticks);
+            }
+            *time += high;
+            *state = step.state;
+            way.push((*time, state.clone()));
+            self.rates(*time, state)?;
+            let pairs = self.branches.values.iter().zip(&mut self.branches.above);
+            for (k, (value, above)) in pairs.enumerate() {
+                if *above == Some(true) && *value < 0.0 || *above == Some(false) && *value > 0.0 {
+                    *above = above.map(|side| !side);
+                    if stop == Some(k) {
+                        return Ok(true);
+                    }
+                }
+            }
+            h = h.min(0.1);
+        }
+        Ok(false)
+    }
+
+    fn step(&mut self, time: f64, state: &[f64], h: f64) -> Result<Step, Lost> {
+        let first = self.rates(time, state)?;
+        let mut table: Vec<Vec<f64>> = Vec::new();
+        let mut previous = Vec::new();
+        let mut crossed = false;
+        for k in 0..COLUMNS {
+            let count = 2 * (k + 1);
+            let part = h / count as f64;
+            let mut before = state.to_vec();
+            let mut now: Vec<f64> = state.iter().zip(&first).map(|(x, r)| x + part * r).collect();
+            crossed = false;
+            for i in 1..count {
+                let rate = self.rates(time + i as f64 * part, &now)?;
+                crossed |= self.crossed();
+                let next = before.iter().zip(&rate).map(|(x, r)| x + 2.0 * part * r).collect();
+                before = std::mem::replace(&mut now, next);
+            }
+            let mut row = vec![now];
+            for j in 1..=k {
+                let ratio = ((k + 1) as f64 / (k + 1 - j) as f64).powi(2) - 1.0;
+                let pairs = row[j - 1].iter().zip(&table[j - 1]);
+                row.push(pairs.map(|(a, b)| a + (a - b) / ratio).collect());
+            }
+            previous = row[k.saturating_sub(1)].clone();
+            table = row;
+        }
+        let state_after = table[COLUMNS - 1].clone();
+        let error = state_after
+            .iter()
+            .zip(&previous)
+            .zip(state)
+            .map(|((a, b), x)| (a - b).abs() / (self.tolerance * (1.0 + a.abs().max(x.abs()))))
+            .fold(0.0, |most: f64, e| if e.is_nan() { f64::INFINITY } else { most.max(e) });
+        if error.is_finite() && error <= 1.0 {
+            self.rates(time + h, &state_after)?;
+            crossed |= self.crossed();
+        }
+        Ok(Step { state: state_after, error, crossed })
+    }
+}

@@ -1,0 +1,429 @@
+//! The property: a run is completed and accurate, or it ends with a fault that says where; never neither.
+
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+use phaselab::analysis::false_claims;
+use phaselab::cancel::Cancel;
+use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
+use phaselab::mechanics::derive;
+use phaselab::preset::{Document, Severity};
+use phaselab::system::{ChannelKind, System};
+
+use super::case::{Case, Law};
+use super::extrapolation::{Arrival, Lost, follow};
+use super::oracle::energy;
+
+/// What may be wrong.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Kind {
+    Panic,
+    Hang,
+    /// It takes many more steps than the motion needs.
+    Slow,
+    /// A file that is right is refused.
+    Refused,
+    /// `check` has something against a file that runs well.
+    CheckRefuses,
+    /// `check` accepts what cannot start.
+    DoesNotStart,
+    /// A motion that goes on is ended by a fault of the default method.
+    GivesUp,
+    /// A fault that does not say what and where.
+    NoPlace,
+    /// Completed, and wrong.
+    Wrong,
+    /// The energy is lost, and nothing says so.
+    Silent,
+    /// The value of the energy is not that of the state.
+    EnergyWrong,
+    /// Said to be conserved, and it changes.
+    FalselyConserved,
+    /// Conserved by the form of the law, and not said to be.
+    NotConserved,
+    /// Another answer in other units.
+    UnitsMatter,
+}
+
+/// What is wrong with a case.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Failure {
+    pub(crate) kind: Kind,
+    pub(crate) message: String,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}: {}", self.kind, self.message)
+    }
+}
+
+/// What came of a case.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Outcome {
+    /// Completed and accurate.
+    Accurate,
+    /// A fault with its place, where the motion indeed cannot go on or be told.
+    Faulted,
+    /// The method does not fit and says so.
+    Unfit,
+    /// The judge cannot tell.
+    Undecided(&'static str),
+    Failed(Failure),
+}
+
+fn failed(kind: Kind, message: impl Into<String>) -> Outcome {
+    Outcome::Failed(Failure { kind, message: message.into() })
+}
+
+/// How much work a case may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget {
+    /// Steps and rows of the program.
+    pub(crate) steps: u64,
+    /// Evaluations of the judge.
+    pub(crate) evaluations: u64,
+    pub(crate) watchdog: Duration,
+}
+
+/// Judges a case.
+pub(crate) fn judged(case: &Case, budget: Budget) -> Outcome {
+    judged_as(case, case, budget)
+}
+
+/// Judges the run of another system as if it were this case's, on a thread of its own: one that does not come back is a
+/// hang.
+pub(crate) fn judged_as(case: &Case, run: &Case, budget: Budget) -> Outcome {
+    let (sender, receiver) = channel();
+    let (case, run) = (case.clone(), run.clone());
+    let cancel = Cancel::new();
+    let token = cancel.clone();
+    let work = move || {
+        let outcome = catch_unwind(AssertUnwindSafe(|| judge(&case, &run, budget, &token)));
+        let outcome = outcome.unwrap_or_else(|panic| {
+            let text = panic.downcast_ref::<String>().cloned();
+            let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+            failed(Kind::Panic, text.unwrap_or_default())
+        });
+        let _ = sender.send(outcome);
+    };
+    std::thread::spawn(work);
+    match receiver.recv_timeout(budget.watchdog) {
+        Ok(outcome) => outcome,
+        Err(RecvTimeoutError::Timeout) => {
+            cancel.cancel();
+            failed(Kind::Hang, format!("no answer within {:?}", budget.watchdog))
+        }
+        Err(RecvTimeoutError::Disconnected) => failed(Kind::Panic, "the thread is gone"),
+    }
+}
+
+/// A gauge at the end of a run.
+struct Gauge {
+    name: String,
+    word: &'static str,
+    broken: bool,
+    max_drift: f64,
+}
+
+/// What the program makes of a case, in natural units.
+struct Told {
+    end: End,
+    time: f64,
+    state: Vec<f64>,
+    energy: Option<f64>,
+    steps: u64,
+    gauges: Vec<Gauge>,
+    conserved: Vec<String>,
+    check: Vec<String>,
+}
+
+enum End {
+    Completed,
+    Stopped,
+    OutOfBudget,
+    Fault(String),
+}
+
+/// Runs a case; a refusal is an outcome.
+fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
+    let document = Document::new("case.toml", case.toml());
+    let refused = |what: String| failed(Kind::Refused, what);
+    let checked = document.read().map_err(|m| refused(document.report(&m, false)))?;
+    let mut model = checked.model;
+    model.pool.set_cancel(cancel.clone());
+    let equations = derive(&model).map_err(|why| refused(why.to_string()))?;
+    let mistakes = false_claims(&model, &equations);
+    let errors = mistakes.iter().filter(|m| m.severity == Severity::Error);
+    let check = errors.map(|m| m.message.clone()).collect();
+    let system =
+        System::compile(&model, &equations, &[]).map_err(|why| refused(why.to_string()))?;
+    let conserved = equations.conserved.iter().map(|c| c.name.clone()).collect();
+    let (model, equations) = (Arc::new(model), Arc::new(equations));
+    let end = case.length * case.units.time;
+    let setup = Setup { end: Some(end), spacing: end / 1000.0, ..Setup::of(&model) };
+    let mut experiment =
+        Experiment::new(&model, &equations, &system, setup).map_err(|_| Outcome::Unfit)?;
+    let mut left = budget.steps;
+    let reached = loop {
+        let part = left.min(4096);
+        left -= part;
+        match experiment.advance(end, part) {
+            Progress::Arrived => break End::Completed,
+            Progress::Ended => break End::Stopped,
+            Progress::Stuck => break End::Fault(String::new()),
+            Progress::Underway if left == 0 => break End::OutOfBudget,
+            Progress::Underway => {}
+        }
+    };
+    let reached = match experiment.status() {
+        Status::Faulted(fault) => End::Fault(fault.message),
+        _ => reached,
+    };
+    let snapshot = experiment.snapshot();
+    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
+    let value = |kind| find(kind).map_or(f64::NAN, |channel| snapshot.values[channel]);
+    let n = case.count();
+    let mut state: Vec<f64> = (0..n).map(|i| value(ChannelKind::Position(i))).collect();
+    match case.law {
+        Law::Lagrangian => state.extend((0..n).map(|i| value(ChannelKind::Velocity(i)))),
+        Law::Hamiltonian => state.extend((0..n).map(|i| value(ChannelKind::Momentum(i)))),
+        Law::Poisson => {}
+    }
+    state.iter_mut().zip(case.state_units()).for_each(|(x, unit)| *x /= unit);
+    let gauge = |gauge: &phaselab::experiment::Gauge| Gauge {
+        name: gauge.name.clone(),
+        word: gauge.verdict.word(),
+        broken: matches!(gauge.verdict, Verdict::Broken(_)),
+        max_drift: gauge.max_drift,
+    };
+    Ok(Told {
+        end: reached,
+        time: snapshot.time / case.units.time,
+        state,
+        energy: find(ChannelKind::Energy)
+            .map(|channel| snapshot.values[channel] / case.units.energy),
+        steps: snapshot.method.steps,
+        gauges: snapshot.gauges.iter().map(gauge).collect(),
+        conserved,
+        check,
+    })
+}
+
+/// The motion as the judge sees it.
+struct Known {
+    arrival: Arrival,
+    /// The size of its numbers.
+    scale: f64,
+    /// How much a small change of the start grows.
+    growth: f64,
+    /// How well the judge knows it, relative to the scale.
+    error: f64,
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, |most, d| if d.is_nan() { d } else { d.max(most) })
+}
+
+fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
+    let arrival = follow(case, &case.start, 1e-13, budget.evaluations)?;
+    let coarse = follow(case, &case.start, 1e-10, budget.evaluations)?;
+    let states = arrival.way.iter().map(|(_, state)| state);
+    let scale = states.chain([&case.start]).flatten().fold(1e-3_f64, |most, x| most.max(x.abs()));
+    let mut error = distance(&arrival.state, &coarse.state) / scale;
+    error = error.max((arrival.time - coarse.time).abs() / case.length);
+    let mut growth = (error / 1e-10).max(1.0);
+    if arrival.stopped != coarse.stopped {
+        return Err(Lost::Sticks);
+    }
+    if case.constraint.is_none() {
+        for sign in [-1.0] {
+            let push =
+                |(i, x): (usize, &f64)| x + 1e-9 * scale * if i % 2 == 0 { 1.0 } else { sign };
+            let start: Vec<f64> = case.start.iter().enumerate().map(push).collect();
+            let pushed = follow(case, &start, 1e-12, budget.evaluations)?;
+            if arrival.stopped != pushed.stopped {
+                return Err(Lost::Sticks);
+            }
+            let moved = distance(&arrival.state, &pushed.state) / scale;
+            growth = growth.max((moved + (arrival.time - pushed.time).abs() / case.length) / 1e-9);
+        }
+    }
+    // the coarse one is known a hundred times worse
+    Ok(Known { arrival, scale, growth, error: 0.01 * error + 1e-14 * growth })
+}
+
+/// How far a run may be from the truth beyond which the judge says nothing.
+const UNTOLD: f64 = 0.01;
+
+fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome {
+    let known = know(case, budget);
+    let told = match run(as_run, budget, cancel) {
+        Ok(told) => told,
+        Err(outcome) => return outcome,
+    };
+    if let End::Fault(message) = &told.end {
+        if !message.contains(" at t = ") && told.time > 0.0 || message.is_empty() {
+            return failed(Kind::NoPlace, message);
+        }
+        if told.time == 0.0 && told.check.is_empty() {
+            return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
+        }
+    }
+    let known = match known {
+        Ok(known) => known,
+        Err(Lost::AtStart) => {
+            return match told.end {
+                End::Fault(_) => Outcome::Faulted,
+                _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
+            };
+        }
+        Err(why) => {
+            return match (told.end, why) {
+                (End::Fault(_), _) => Outcome::Faulted,
+                (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
+                (_, Lost::TooLong) => Outcome::Undecided("too long"),
+                (_, _) => Outcome::Undecided("a kink that holds"),
+            };
+        }
+    };
+    let adaptive = ["auto", "taylor", "dop853"].contains(&case.method.as_str());
+    let default = case.method == "auto";
+    match &told.end {
+        End::Fault(message) if default => {
+            return failed(Kind::GivesUp, message);
+        }
+        End::Fault(_) => return Outcome::Faulted,
+        End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
+            let message = format!("{} steps to t = {}", told.steps, told.time);
+            return failed(Kind::Slow, message);
+        }
+        End::OutOfBudget => return Outcome::Undecided("out of budget"),
+        End::Completed | End::Stopped => {}
+    }
+    if !told.check.is_empty() {
+        return failed(Kind::CheckRefuses, told.check.join("; "));
+    }
+    if let Some(failure) = energy_failure(case, &known, &told) {
+        return Outcome::Failed(failure);
+    }
+    if let Some(failure) = form_failure(case, &told) {
+        return Outcome::Failed(failure);
+    }
+    if !adaptive {
+        return Outcome::Accurate;
+    }
+    let least = if case.method == "dop853" { 1e-13 } else { 1e-15 };
+    let asked = case.tolerance.unwrap_or(least).max(least);
+    let room = if case.method == "dop853" { 30.0 } else { 100.0 };
+    let steps = (10 + told.steps) as f64;
+    let allowed = 1e-11 + room * steps * asked * known.growth + 10.0 * known.error;
+    if allowed.is_nan() || allowed > UNTOLD {
+        return Outcome::Undecided("too sensitive");
+    }
+    if matches!(told.end, End::Stopped) != known.arrival.stopped {
+        let (t, end) = (told.time, known.arrival.time);
+        return failed(Kind::Wrong, format!("the event is missed: t = {t} in place of {end}"));
+    }
+    let off = distance(&told.state, &known.arrival.state) / known.scale;
+    if off.is_nan() || off > allowed {
+        let message = format!(
+            "off by {off:.1e} where {allowed:.1e} is allowed (growth {:.1e}, {} steps): {:?} in place of {:?}",
+            known.growth, told.steps, told.state, known.arrival.state
+        );
+        return failed(Kind::Wrong, message);
+    }
+    let late = (told.time - known.arrival.time).abs() / case.length;
+    if late > allowed {
+        return failed(Kind::Wrong, format!("the event is {late:.1e} of the run late"));
+    }
+    if let Some(gauge) =
+        told.gauges.iter().find(|g| !g.broken && g.max_drift > 1e-8_f64.max(1000.0 * allowed))
+    {
+        let Gauge { name, word, max_drift, .. } = gauge;
+        let message = format!("`{name}` drifts by {max_drift:.1e}, {word}");
+        return failed(Kind::FalselyConserved, message);
+    }
+    let allowed = allowed * known.scale;
+    let failure = twin_failure(as_run, &told, allowed, budget, cancel);
+    failure.map_or(Outcome::Accurate, Outcome::Failed)
+}
+
+/// What is wrong with the energy at the end, and what is said of it.
+fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
+    let (now, size) = energy(case, told.time, &told.state);
+    let wrong = |kind, message: String| Some(Failure { kind, message });
+    let shown = told.energy?;
+    if size.is_finite() && (shown - now).abs() > 1e-9 * size + 1e-300 {
+        return wrong(Kind::EnergyWrong, format!("{shown} is shown, {now} it is"));
+    }
+    if !case.keeps_energy() {
+        return None;
+    }
+    let (first, first_size) = energy(case, 0.0, &case.start);
+    let way = known.arrival.way.iter().map(|(t, state)| energy(case, *t, state).1);
+    let size = way.fold(first_size, f64::max).max(1e-300);
+    let drift = (now - first).abs() / size;
+    let gauge = told.gauges.iter().find(|g| g.name == "energy")?;
+    let said = gauge.max_drift;
+    if drift > 1e-3 && said < 0.1 * drift {
+        return wrong(
+            Kind::Silent,
+            format!("the energy is off by {drift:.1e}, {said:.1e} is told"),
+        );
+    }
+    if drift.is_nan() || drift > 0.3 && ["exact", "bounded"].contains(&gauge.word) {
+        let word = gauge.word;
+        return wrong(Kind::Silent, format!("the energy is off by {drift:.1e}, {word}"));
+    }
+    None
+}
+
+/// What the form of the law says is conserved, and the program does not.
+fn form_failure(case: &Case, told: &Told) -> Option<Failure> {
+    let wrong = |message: String| Some(Failure { kind: Kind::NotConserved, message });
+    let gauge = told.gauges.iter().find(|g| g.name == "energy");
+    if case.keeps_energy() && gauge.is_none_or(|g| g.broken) {
+        return wrong("the energy".to_owned());
+    }
+    let momentum = |i: &usize| format!("p_{}", case.names[*i]);
+    let mut cyclic = (0..case.count()).filter(|i| case.is_cyclic(*i)).map(|i| momentum(&i));
+    let missed = cyclic.find(|name| !told.conserved.contains(name));
+    missed.and_then(wrong)
+}
+
+/// Where the answer in natural units is another.
+fn twin_failure(
+    case: &Case,
+    told: &Told,
+    allowed: f64,
+    budget: Budget,
+    cancel: &Cancel,
+) -> Option<Failure> {
+    let natural = case.in_natural_units();
+    if natural.units == case.units {
+        return None;
+    }
+    let wrong = |message: String| Some(Failure { kind: Kind::UnitsMatter, message });
+    let Ok(twin) = run(&natural, budget, cancel) else {
+        return wrong("the twin is refused".to_owned());
+    };
+    if twin.conserved != told.conserved {
+        let (here, there) = (told.conserved.join(", "), twin.conserved.join(", "));
+        return wrong(format!("conserved are {here}; in natural units {there}"));
+    }
+    let off = distance(&twin.state, &told.state);
+    if off.is_nan() || off > 2.0 * allowed {
+        return wrong(format!("off by {off:.1e} in natural units"));
+    }
+    // where drifts are those of rounding a word may change with the digits
+    let differs =
+        |(a, b): &(&Gauge, &Gauge)| a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10;
+    let pairs = told.gauges.iter().zip(&twin.gauges);
+    let (a, b) = pairs.into_iter().find(differs)?;
+    wrong(format!("`{}` is {} and in natural units {}", a.name, a.word, b.word))
+}
