@@ -87,6 +87,9 @@ const VANISHING: f64 = 1e-11;
 /// What is this near beside the steps before it is reached.
 const TOUCHING: f64 = 1e-15;
 
+/// A step this short beside the time is about to move the clock no longer.
+const STALLED: f64 = 5e-17;
+
 /// On a surface, a step this short beside those before it is no better than none.
 const HOPELESS: f64 = 1e-9;
 
@@ -443,13 +446,17 @@ impl Stepper for Taylor {
         if vanishing && crossing.is_none() {
             if let Some(x) = branches::foretold(&self.series, end) {
                 (last, landed, after) = (false, true, Double::from(x * scale));
-            } else if step < TOUCHING * (self.stride + time.high.abs())
+            } else if (step < TOUCHING * self.stride || step < STALLED * time.high.abs())
                 && self.leap(left.high, BEYOND * step)?
             {
                 return Ok(());
             }
         }
-        let reach = step.min(after.high.abs()) / scale.abs();
+        // near a tip rounding alone makes steps short
+        let reach = if vanishing { 2.0 * step } else { step };
+        let reach = reach.min(left.high.abs()) / scale.abs();
+        let reach =
+            if crossing.is_some() { reach.min(after.high.abs() / scale.abs()) } else { reach };
         let passing = if landed { None } else { branches::first(&self.series, reach) };
         if let Some(passing) = passing {
             let origin = self.state.clone();
