@@ -33,6 +33,7 @@ mod text;
 mod token;
 mod trigonometry;
 mod unicode;
+mod wide;
 
 pub use double::Double;
 pub use function::{Branches, FUNCTIONS, Function, FunctionId, Rule};
@@ -44,3 +45,4 @@ pub use pool::{Expr, NODE_LIMIT, Node, Pool};
 pub use real::{Real, Recurrence, RecurrenceStep};
 pub use symbol::{Rank, Symbol, SymbolInfo};
 pub use syntax::{BinaryOperator, Resolve, Span, Syntax, SyntaxError, SyntaxKind, nearest};
+pub use wide::Wide;

@@ -1,9 +1,11 @@
 //! The arithmetic an expression is evaluated in: `f64`, or [`Double`] where twice its digits are
-//! wanted. Every rule that is written for a [`Real`] serves both.
+//! wanted, or [`Wide`] where something leaves the range of both.
+//! Every rule that is written for a [`Real`] serves all three.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::double::Double;
+use super::wide::Wide;
 use crate::expr::portable;
 
 /// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the
@@ -11,13 +13,15 @@ use crate::expr::portable;
 /// (cos beside sin, 1 + u² beside atan, …); it sets `y[k]` and `w[k]`.
 pub type RecurrenceStep<R> = fn(usize, &[&[R]], &mut [R], &mut [R]);
 
-/// A recurrence for normalised Taylor coefficients, in both precisions.
+/// A recurrence for normalised Taylor coefficients, in every precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Recurrence {
     /// In `f64`.
     pub single: RecurrenceStep<f64>,
     /// In double-double.
     pub double: RecurrenceStep<Double>,
+    /// In double-double of unlimited range.
+    pub wide: RecurrenceStep<Wide>,
 }
 
 /// A real number of some precision, with the functions an expression may call.
@@ -39,6 +43,8 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// Whether its range has no end in practice.
+    const UNBOUNDED: bool = false;
 
     /// The number nearest to a [`Double`].
     fn of(x: Double) -> Self;

@@ -123,7 +123,8 @@ impl Motion {
             self.stepper = stepper;
         }
         self.take_system();
-        self.resume(state)
+        self.resume(state)?;
+        self.system.check_energy(&self.own()?, parameters)
     }
 
     /// Goes on from another state at the present time, or with other parameters: constraints that

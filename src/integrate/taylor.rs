@@ -9,15 +9,20 @@
 //! of high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo,
 //! Monthly Notices of the Royal Astronomical Society 504 (2021) 2614.
 
+mod branches;
+mod bridge;
 mod kinks;
+mod rest;
 mod step_size;
 
+use bridge::Bridge;
 use kinks::Kinks;
+use rest::Rest;
 
 use super::method::{Method, Preserves, Refusal, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::expr::Double;
-use crate::system::{Fault, FaultKind, Form, Series, Side, State, System};
+use crate::system::{ExactRates, Fault, FaultKind, Form, Series, Side, State, System};
 
 /// The tolerance where none is asked for. It lies far below the last digit shown, so that what
 /// is shown carries the error of one rounding at the end and not of all on the way.
@@ -57,7 +62,48 @@ struct Taylor {
     /// still tells the states inside that step.
     taken: Option<f64>,
     kinks: Kinks,
+    rates: ExactRates,
+    bridge: Bridge,
+    /// The longest step since the motion was last bent: what a step is short beside.
+    stride: f64,
+    /// The present state is one from which no series leads on.
+    landed: bool,
+    /// The last step was a bridge from this state, with these rates there if it has none itself.
+    leapt: Option<(State, Option<Vec<Double>>)>,
+    /// The rates of a motion that has come to rest for good: zero but for what is carried along.
+    resting: Option<Vec<Double>>,
+    parameters: Vec<f64>,
+    /// How many such steps there were, and when the last of a round of them was.
+    leaps: (u32, f64),
 }
+
+/// This many leaps have to move the clock, by this part of the time there is.
+const ROUND: u32 = 64;
+const LEAST: f64 = 1e-15;
+
+/// A step this short beside those before it ends at a place where a series has no radius.
+const VANISHING: f64 = 1e-11;
+
+/// What is this near beside the steps before it is reached.
+const TOUCHING: f64 = 1e-15;
+
+/// A step this short beside the time is about to move the clock no longer.
+const STALLED: f64 = 5e-17;
+
+/// On a surface, a step this short beside those before it is no better than none.
+const HOPELESS: f64 = 1e-9;
+
+/// How far beyond such a short step the place is looked for, in steps.
+const BEYOND: f64 = 8.0;
+
+/// The part of the way to a place that is taken where a motion passes it closely.
+const NEARER: f64 = 0.5;
+
+/// How often a step that has left a branch is made shorter.
+const HALVINGS: u32 = 60;
+
+/// A number this small beside the terms of its series is zero: the rest is rounding.
+const ROUNDING: f64 = 1e-18;
 
 impl Taylor {
     fn new(system: &System, settings: &Settings) -> Result<Taylor, Refusal> {
@@ -70,6 +116,7 @@ impl Taylor {
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         let series = system.series(order, exact);
+        let (rates, bridge) = (system.exact_rates(), Bridge::new(system.state_len()));
         let system = system.clone();
         Ok(Taylor {
             system,
@@ -80,6 +127,14 @@ impl Taylor {
             scaled: false,
             taken: None,
             kinks: Kinks::default(),
+            rates,
+            bridge,
+            stride: 0.0,
+            landed: false,
+            leapt: None,
+            resting: None,
+            parameters: Vec::new(),
+            leaps: (0, f64::NAN),
         })
     }
 
@@ -95,40 +150,152 @@ impl Taylor {
     /// gives the size of that step; it may be longer than `left`.
     fn expand(&mut self, left: f64) -> Result<f64, Fault> {
         let (size, direction) = (left.abs(), left.signum());
+        let mut units = Units::default();
         loop {
             self.series.build(&self.state)?;
             let scale = self.series.scale().abs();
-            let Some(step) = step_size::longest(&self.series, self.tolerance) else {
+            let found = step_size::longest(&self.series, self.tolerance);
+            let Some(step) = found.map(|step| step * scale) else {
                 // some coefficient is beyond all range: with a smaller unit it need not be
                 if scale < 1e-280 || (scale <= 1.0 && !step_size::has_velocity(&self.series)) {
                     return Err(self.not_finite());
                 }
-                self.series.set_scale(scale * 1e-6 * direction);
+                units.long = scale;
+                self.series.set_scale(units.next(scale * 1e-6) * direction);
                 continue;
             };
-            let step = step * scale;
             let wanted = step.min(size);
             if (scale * 1e-4..=scale * 1e3).contains(&wanted) {
                 return Ok(step);
             }
-            self.series.set_scale(wanted.clamp(scale * 1e-12, scale * 1e12) * direction);
+            if wanted < scale {
+                units.long = scale;
+            } else {
+                units.short = scale;
+                if units.long <= 2.0 * scale {
+                    // what the unit twice as long says is too much for it: no further than that
+                    return Ok(step.min(units.long));
+                }
+            }
+            let next = units.next(wanted.clamp(scale * 1e-12, scale * 1e12));
+            self.series.set_scale(next * direction);
             if self.series.scale().abs() == scale {
                 return Ok(step);
             }
         }
     }
 
-    /// On a surface: takes the first choice of sides that leads on.
-    fn decide(&mut self, choices: &[Vec<Side>], left: f64) -> Result<(), Fault> {
+    /// On a surface: takes the first choice of sides that leads on, and gives the step there;
+    /// nothing where the surface was left without a series.
+    fn decide(&mut self, choices: &[Vec<Side>], left: f64) -> Result<Option<f64>, Fault> {
+        let mut rough = false;
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
             match self.expand(left) {
-                Ok(step) if self.kinks.leads_on(&self.series, step) => return Ok(()),
-                Err(fault) if fault.kind != FaultKind::Sticks => return Err(fault),
-                _ => {}
+                Ok(step) if self.kinks.leads_on(&self.series, step) => {
+                    let hopeless = step < HOPELESS * self.stride && !rough;
+                    return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
+                }
+                Ok(_) => {}
+                Err(fault) if fault.kind == FaultKind::Sticks => {}
+                Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+                Err(_) if rough => {}
+                Err(_) => {
+                    rough = true;
+                    if self.leap(left, 0.0)? {
+                        return Ok(None);
+                    }
+                }
             }
         }
-        Err(self.system.fault(FaultKind::Sticks, self.state.time, &self.state.values))
+        let kind = if rough { FaultKind::Rough } else { FaultKind::Sticks };
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Leaves a place from which no series leads on, or leads on so far that no more than `least`
+    /// would be gained; false where that cannot be.
+    fn leap(&mut self, left: f64, least: f64) -> Result<bool, Fault> {
+        self.leaps.0 += 1;
+        if self.leaps.0.is_multiple_of(ROUND) {
+            let (before, now) = (self.leaps.1, self.state.time);
+            self.leaps.1 = now;
+            if (now - before).abs() <= LEAST * (now.abs() + left.abs()) {
+                return Ok(false);
+            }
+        }
+        let stride = if self.stride > 0.0 { self.stride.min(left.abs()) } else { left.abs() };
+        let wanted = stride.copysign(left);
+        let mut from = self.state.clone();
+        let mut toward = None;
+        let rates = &mut self.rates;
+        let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
+        if found.is_none() {
+            match rest::of(&self.system, rates, &self.parameters, &from, stride)? {
+                Rest::Unknown => return Ok(false),
+                Rest::Stays(state, rates) => {
+                    self.state = state;
+                    self.begin = self.state.time;
+                    self.resting = Some(rates);
+                    return Ok(true);
+                }
+                Rest::SetsOut(state, rates) => {
+                    (from, toward) = (state, Some(rates));
+                    let (rates, toward) = (&mut self.rates, toward.as_deref());
+                    found =
+                        self.bridge.cross(rates, &from, (wanted, 0.0), toward, &mut self.state)?;
+                }
+            }
+        }
+        let Some(step) = found else { return Ok(false) };
+        self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
+        self.begin = from.time;
+        self.leapt = Some((from, toward));
+        self.landed = false;
+        self.stride = step.abs();
+        self.taken = Some(step.abs());
+        Ok(true)
+    }
+
+    /// Evaluates the rates at the present state.
+    fn look(&mut self) -> Result<(), Fault> {
+        let state = &self.state;
+        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        self.rates.evaluate(state.exact_time(), &numbers)
+    }
+
+    /// Moves along the series and makes the step shorter until no root has left its branch there;
+    /// gives the part of the time that is left.
+    fn advance(&mut self, after: Double) -> Result<f64, Fault> {
+        let (mut part, scale) = (1.0, self.series.scale());
+        if self.series.guards() == 0 {
+            self.series.state_after(after, &mut self.state);
+            return Ok(part);
+        }
+        let from = self.state.clone();
+        for _ in 0..HALVINGS {
+            self.series.state_after(after * part, &mut self.state);
+            let outcome = self.look();
+            let x = after.high * part / scale;
+            if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
+                return Ok(part);
+            }
+            part *= 0.5;
+        }
+        self.state = from;
+        let kind = FaultKind::StepUnderflow(after.high * part);
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Numbers that have come to zero are zero.
+    fn clear(&mut self, x: f64) {
+        for i in 0..self.series.inputs() {
+            let terms = self.series.coefficients(i).iter();
+            let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
+            let largest = terms.zip(powers).fold(0.0_f64, |m, (c, p)| m.max((c * p).abs()));
+            if self.state.values[i].abs() <= ROUNDING * largest {
+                self.state.set(i, Double::ZERO);
+            }
+        }
     }
 
     fn not_finite(&self) -> Fault {
@@ -145,16 +312,83 @@ impl Taylor {
     }
 }
 
+/// The units of time tried for one series: each search narrows the room between those found too
+/// short and those found too long, so that it ends.
+struct Units {
+    short: f64,
+    long: f64,
+    tried: u32,
+}
+
+/// How many units are taken as the series asks for them; after that the room is halved.
+const ASKED_FOR: u32 = 12;
+
+impl Default for Units {
+    fn default() -> Units {
+        Units { short: 0.0, long: f64::INFINITY, tried: 0 }
+    }
+}
+
+impl Units {
+    /// The next unit to try, where one is asked for.
+    fn next(&mut self, wanted: f64) -> f64 {
+        self.tried += 1;
+        let (least, most) = (2.0 * self.short, 0.5 * self.long);
+        if self.short == 0.0 || self.long == f64::INFINITY {
+            return wanted;
+        }
+        if most < least {
+            return self.short;
+        }
+        if self.tried < ASKED_FOR && (least..=most).contains(&wanted) {
+            return wanted;
+        }
+        // halfway between their exponents
+        (self.short.sqrt() * self.long.sqrt()).clamp(least, most)
+    }
+}
+
+impl Taylor {
+    /// The state at a time within the last step.
+    fn tell(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+        if let Some(rates) = &self.resting {
+            let after = time - self.state.exact_time();
+            for (i, &rate) in rates.iter().enumerate() {
+                out.set(i, self.state.exact(i) + rate * after);
+            }
+            (out.time, out.time_carry) = (time.high, time.low);
+            return Ok(());
+        }
+        let Some((from, toward)) = &self.leapt else {
+            self.series.state_after(time - self.series.time(), out);
+            return Ok(());
+        };
+        let after = time - from.exact_time();
+        if after.high == 0.0 {
+            out.copy_from(from);
+            return Ok(());
+        }
+        self.bridge.inside(&mut self.rates, from, after, toward.as_deref(), out)
+    }
+}
+
 impl Stepper for Taylor {
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.begin = self.state.time;
         self.scaled = false;
         self.taken = None;
+        self.stride = 0.0;
+        self.landed = false;
+        self.leapt = None;
+        self.resting = None;
+        self.parameters = parameters.to_vec();
+        self.leaps = (0, f64::NAN);
         let parameters = self.system.inputs(parameters);
         self.series.set_parameters(&parameters);
         self.series.set_scale(1.0);
-        self.kinks.begin(&mut self.series, &self.state)
+        self.rates.set_parameters(&parameters);
+        self.kinks.begin(&mut self.series, &mut self.rates, &self.state)
     }
 
     fn step(&mut self, limit: f64) -> Result<(), Fault> {
@@ -163,11 +397,32 @@ impl Stepper for Taylor {
         }
         let time = self.state.exact_time();
         let left = Double::written(limit) - time;
-        self.aim(left.high);
-        if let Some(sides) = self.kinks.undecided(&self.series) {
-            self.decide(&sides, left.high)?;
+        if self.resting.is_some() {
+            let mut state = self.state.clone();
+            self.tell(Double::written(limit), &mut state)?;
+            self.begin = self.state.time;
+            self.state = state;
+            return Ok(());
         }
-        let step = self.expand(left.high)?;
+        self.aim(left.high);
+        if self.landed {
+            if self.leap(left.high, 0.0)? {
+                return Ok(());
+            }
+            return Err(self.system.fault(FaultKind::Rough, time.high, &self.state.values));
+        }
+        let step = match self.kinks.undecided(&self.series) {
+            Some(sides) => match self.decide(&sides, left.high)? {
+                Some(step) => step,
+                None => return Ok(()),
+            },
+            None => match self.expand(left.high) {
+                Ok(step) => step,
+                Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+                Err(fault) => return if self.leap(left.high, 0.0)? { Ok(()) } else { Err(fault) },
+            },
+        };
+        self.leapt = None;
         if step <= 1e-17 * time.high.abs() {
             let kind = FaultKind::StepUnderflow(step);
             return Err(self.system.fault(kind, time.high, &self.state.values));
@@ -175,16 +430,62 @@ impl Stepper for Taylor {
         let mut last = step >= left.high.abs();
         let mut after = if last { left } else { Double::from(step.copysign(left.high)) };
         let scale = self.series.scale();
-        let crossing = self.kinks.first(&self.series, after.high / scale);
+        let vanishing = step < VANISHING * self.stride;
+        // what makes steps vanish lies a little farther than they reach
+        let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
+        let end = end.min((left.high / scale).abs());
+        let mut crossing = self.kinks.first(&self.series, end);
+        if vanishing {
+            crossing = crossing.filter(|crossing| crossing.is_known(&self.series));
+        }
         if let Some(crossing) = &crossing {
             (last, after) = (false, crossing.after * scale);
         }
         self.begin = self.state.time;
-        self.series.state_after(after, &mut self.state);
+        let mut landed = false;
+        if vanishing && crossing.is_none() {
+            if let Some(x) = branches::foretold(&self.series, end) {
+                (last, landed, after) = (false, true, Double::from(x * scale));
+            } else if (step < TOUCHING * self.stride || step < STALLED * time.high.abs())
+                && self.leap(left.high, BEYOND * step)?
+            {
+                return Ok(());
+            }
+        }
+        // near a tip rounding alone makes steps short
+        let reach = if vanishing { 2.0 * step } else { step };
+        let reach = reach.min(left.high.abs()) / scale.abs();
+        let reach =
+            if crossing.is_some() { reach.min(after.high.abs() / scale.abs()) } else { reach };
+        let passing = if landed { None } else { branches::first(&self.series, reach) };
+        if let Some(passing) = passing {
+            let origin = self.state.clone();
+            let there = passing.after * scale;
+            self.series.state_after(there, &mut self.state);
+            let known = self.look().is_ok();
+            let moment = TOUCHING * self.stride / scale.abs();
+            landed = (known && branches::is_exact(&self.series, &passing, &self.rates, moment))
+                || there.high.abs() < TOUCHING * self.stride;
+            (last, crossing) = (false, None);
+            after = if landed { there } else { there * NEARER };
+            self.state = origin;
+        }
+        if landed || vanishing {
+            self.series.state_after(after, &mut self.state);
+            self.clear(after.high / scale);
+        } else {
+            let part = self.advance(after)?;
+            if part < 1.0 {
+                (last, crossing, after) = (false, None, after * part);
+            }
+        }
+        self.landed = landed;
+        self.stride = if crossing.is_some() { 0.0 } else { self.stride };
+        self.stride = self.stride.max(after.high.abs());
         if last {
             self.state.time = limit;
         } else {
-            self.taken = Some(step.min(left.high.abs()));
+            self.taken = Some(step.min(left.high.abs()).min(4.0 * after.high.abs()));
         }
         if !self.kinks.arrive(crossing, &self.series, &mut self.state) {
             return Err(self.system.fault(FaultKind::Sticks, time.high, &self.state.values));
@@ -207,7 +508,7 @@ impl Stepper for Taylor {
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
         out.copy_from(&self.state);
         if time != self.state.time {
-            self.series.state_after(Double::written(time) - self.series.time(), out);
+            self.tell(Double::written(time), out)?;
             out.time = time;
         }
         Ok(())
@@ -216,7 +517,7 @@ impl Stepper for Taylor {
     fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
         out.copy_from(&self.state);
         if time != self.state.exact_time() {
-            self.series.state_after(time - self.series.time(), out);
+            self.tell(time, out)?;
         }
         Ok(())
     }

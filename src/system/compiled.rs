@@ -417,6 +417,16 @@ impl System {
         Ok(values.output(0))
     }
 
+    /// A fault where a state in the system's own form has no finite energy: where its Lagrangian
+    /// or Hamiltonian has no value, though its derivatives may have.
+    pub(crate) fn check_energy(&self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+        if self.energy_of(state, parameters)?.is_finite() {
+            return Ok(());
+        }
+        let kind = FaultKind::NotFinite("the energy".to_owned());
+        Err(self.fault(kind, state.time, &state.values))
+    }
+
     /// What may happen to its motions.
     pub fn occasions(&self) -> &Occasions {
         &self.shared.occasions

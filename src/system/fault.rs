@@ -58,6 +58,8 @@ pub enum FaultKind {
     PilesUp(String),
     /// Somebody asked that it stop.
     Cancelled,
+    /// The motion comes to a place from which no series leads on.
+    Rough,
     /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
     Sticks,
 }
@@ -113,6 +115,12 @@ impl fmt::Display for Fault {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
             FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
+            FaultKind::Rough => {
+                write!(
+                    f,
+                    "the motion comes to a kink that it cannot be followed through at t = {time}"
+                )?;
+            }
             FaultKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
         }
         for (name, value) in &self.place {
@@ -144,6 +152,9 @@ impl fmt::Display for Fault {
             FaultKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             FaultKind::NoInterval(..) => ": its interval must be above zero",
             FaultKind::PilesUp(_) => ": give the file an event that stops it before",
+            FaultKind::Rough => {
+                ": the rates of change have no limit there; --method dop853 may pass it"
+            }
             FaultKind::Sticks => ": both sides of a kink push towards it",
         })
     }

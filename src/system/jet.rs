@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::program::{LIVE_POWER_BITS, Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::expr::{Double, Real, Rule};
+use crate::expr::{Double, FunctionId, Real, Rule};
 
 /// Which branch the functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -131,18 +131,28 @@ impl<R: Real> Jet<R> {
     }
 
     /// The series of the arguments of all functions that vary.
-    pub fn arguments(&self) -> impl Iterator<Item = &[R]> {
+    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[R])> {
         self.program.body.iter().filter_map(|&r| match self.program.ops[r as usize] {
-            Op::Call(_, [u, _]) => {
-                Some(&self.coefficients[u as usize * self.stride..][..self.stride])
-            }
+            Op::Call(function, [u, _]) => Some((function, self.series(u))),
             _ => None,
         })
+    }
+
+    /// The series of any register.
+    pub(super) fn series(&self, register: Register) -> &[R] {
+        &self.coefficients[register as usize * self.stride..][..self.stride]
     }
 
     /// Takes over the orders below `orders` from a jet of the same program in another precision,
     /// and factors what it has factored.
     pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
+        self.copy(other, orders);
+        let program = Arc::clone(&self.program);
+        (0..program.blocks.len()).try_for_each(|block| self.factor(&program, block))
+    }
+
+    /// Takes over the orders below `orders`, to be read and not to be continued.
+    pub fn copy<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
         let program = Arc::clone(&self.program);
         for register in 0..program.ops.len() {
             if program.fixed[register] {
@@ -160,7 +170,6 @@ impl<R: Real> Jet<R> {
                     R::of(other.weights[switch * other.stride + k].double());
             }
         }
-        (0..program.blocks.len()).try_for_each(|block| self.factor(&program, block))
     }
 
     fn run(&mut self, program: &Program, register: Register, k: usize) {

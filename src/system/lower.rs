@@ -4,8 +4,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::program::{Block, LIVE_POWER_BITS, Op, Program, Register, Term};
-use crate::expr::{Double, Expr, FunctionId, Node, Number, Pool, Rule, Symbol};
+use super::program::{Block, Guard, LIVE_POWER_BITS, Op, Program, Register, Term};
+use crate::expr::{Branches, Double, Expr, FunctionId, Node, Number, Pool, Rule, Symbol};
 
 /// A program being written.
 #[derive(Debug)]
@@ -20,6 +20,8 @@ pub(super) struct Lowering<'a> {
     /// The expression of each switch.
     switches: Vec<Expr>,
     unknown: Option<Symbol>,
+    /// Whether the cut of `atan2` is a switch, as it is to a motion that is pushed by it.
+    cuts: bool,
 }
 
 impl<'a> Lowering<'a> {
@@ -33,6 +35,7 @@ impl<'a> Lowering<'a> {
             constants: HashMap::new(),
             switches: Vec::new(),
             unknown: None,
+            cuts: false,
         };
         lowering.constant_index(Double::ZERO);
         for (i, &symbol) in parameters.iter().enumerate() {
@@ -42,6 +45,11 @@ impl<'a> Lowering<'a> {
         let register = lowering.push(Op::Time);
         lowering.bind(time, register);
         lowering
+    }
+
+    /// From here on the cut of `atan2` is a switching surface.
+    pub(super) fn switch_at_cuts(&mut self) {
+        self.cuts = true;
     }
 
     /// The next input.
@@ -187,6 +195,8 @@ impl<'a> Lowering<'a> {
                 (_, false) => self.program.body.push(r as u32),
             }
         }
+        let guards = self.program.body.iter().filter_map(|&r| guard(&self.program.ops, r));
+        self.program.guards = guards.collect();
         Ok(Arc::new(self.program))
     }
 
@@ -333,6 +343,12 @@ impl<'a> Lowering<'a> {
         if exponent.abs() == Number::HALF {
             return (self.push(Op::Root(base)), exponent.is_negative());
         }
+        let whole = exponent + -Number::HALF;
+        if let Some(n @ 1..) = whole.as_integer() {
+            // the root passes zero as it is, where its cube would touch it
+            let (root, rest) = (self.push(Op::Root(base)), self.integer_power(base, n as u64));
+            return (self.multiply(root, rest), false);
+        }
         let exponent = self.constant_index(exponent.double());
         (self.push(Op::Power(base, exponent)), false)
     }
@@ -347,6 +363,29 @@ impl<'a> Lowering<'a> {
         for &(base, exponent) in factors {
             let inner = match self.pool.node(base).clone() {
                 Node::Product(c, inner) if exponent.as_integer().is_none() => (c, inner),
+                Node::Call(FunctionId::Abs, arguments) => {
+                    let b = arguments[0];
+                    let own = factors.iter().find(|&&(other, _)| other == b).map(|&(_, m)| m);
+                    match (own.filter(|m| m.as_integer().is_some()), exponent.as_integer()) {
+                        // 1/|b| = sign(b)/b, and b |b|^α = sign(b) |b|^(1 + α)
+                        (Some(_), Some(n)) if n % 2 != 0 => {
+                            opened.push((self.pool.call(FunctionId::Sign, &[b]), Number::ONE));
+                            opened.push((b, exponent));
+                            any = true;
+                        }
+                        (Some(m), None) => {
+                            if !even(m) {
+                                opened.push((self.pool.call(FunctionId::Sign, &[b]), Number::ONE));
+                            }
+                            opened.push((base, m));
+                            opened.push((b, -m));
+                            opened.push((base, exponent));
+                            any = true;
+                        }
+                        _ => opened.push((base, exponent)),
+                    }
+                    continue;
+                }
                 _ => {
                     opened.push((base, exponent));
                     continue;
@@ -399,6 +438,13 @@ impl<'a> Lowering<'a> {
 
     fn lower_call(&mut self, function: FunctionId, arguments: &[Expr]) -> Register {
         match function.row().rule {
+            Rule::Series(_) if function == FunctionId::Atan2 && self.cuts => {
+                let branches = half_planes(self.pool, arguments);
+                self.cuts = false;
+                let register = self.select(branches);
+                self.cuts = true;
+                register
+            }
             Rule::Series(_) => {
                 let first = self.known[&arguments[0]];
                 let second = arguments.get(1).map_or(first, |e| self.known[e]);
@@ -412,28 +458,27 @@ impl<'a> Lowering<'a> {
             }
             Rule::Branch(branches) => {
                 let branches = branches(self.pool, arguments);
-                let positive = self.lower(branches.positive);
-                let negative = self.lower(branches.negative);
-                let opposite = self.pool.neg(branches.switch);
-                if let Some(mode) = self.switches.iter().position(|&e| e == opposite) {
-                    let switch = self.program.switches[mode];
-                    let mode = Some(mode as u32);
-                    return self.push(Op::Select {
-                        switch,
-                        mode,
-                        positive: negative,
-                        negative: positive,
-                    });
-                }
-                let switch = self.lower(branches.switch);
-                let mode = (!self.is_fixed(switch)).then(|| self.mode(branches.switch, switch));
-                self.push(Op::Select { switch, mode, positive, negative })
+                self.select(branches)
             }
             Rule::Power => {
                 let base = self.known[&arguments[0]];
                 self.push(Op::Root(base))
             }
         }
+    }
+
+    fn select(&mut self, branches: Branches) -> Register {
+        let positive = self.lower(branches.positive);
+        let negative = self.lower(branches.negative);
+        let opposite = self.pool.neg(branches.switch);
+        if let Some(mode) = self.switches.iter().position(|&e| e == opposite) {
+            let switch = self.program.switches[mode];
+            let mode = Some(mode as u32);
+            return self.push(Op::Select { switch, mode, positive: negative, negative: positive });
+        }
+        let switch = self.lower(branches.switch);
+        let mode = (!self.is_fixed(switch)).then(|| self.mode(branches.switch, switch));
+        self.push(Op::Select { switch, mode, positive, negative })
     }
 
     fn mode(&mut self, e: Expr, register: Register) -> u32 {
@@ -444,4 +489,31 @@ impl<'a> Lowering<'a> {
         self.program.switches.push(register);
         self.switches.len() as u32 - 1
     }
+}
+
+/// What is to be watched of an operation.
+fn guard(ops: &[Op], r: Register) -> Option<Guard> {
+    match ops[r as usize] {
+        Op::Root(under) => Some(Guard { value: r, under: Some(under), passes: true }),
+        Op::Power(under, _) => Some(Guard { value: r, under: Some(under), passes: false }),
+        Op::Call(FunctionId::Asin | FunctionId::Acos, _) => {
+            Some(Guard { value: r + 1, under: None, passes: true })
+        }
+        _ => None,
+    }
+}
+
+/// `atan2(y, x)` on the two sides of y = 0, on each without a cut nearby:
+/// `±π/2 + atan2(∓x, ±y)`. They agree where x > 0, and differ by a turn where x < 0. The cuts of
+/// the calls it is made of lie where the other one is taken.
+fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> Branches {
+    let (y, x) = (arguments[0], arguments[1]);
+    let (minus_y, minus_x) = (pool.neg(y), pool.neg(x));
+    let above = pool.call(FunctionId::Atan2, &[minus_x, y]);
+    let below = pool.call(FunctionId::Atan2, &[x, minus_y]);
+    let pi = pool.pi();
+    let right_angle = pool.scale(Number::HALF, pi);
+    let positive = pool.add(right_angle, above);
+    let negative = pool.sub(below, right_angle);
+    Branches { switch: y, positive, negative }
 }

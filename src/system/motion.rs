@@ -107,6 +107,7 @@ impl Writer<'_> {
         let (equations, quadratures) = (self.equations, self.quadratures);
         let hold = self.hold.clone();
         let mut lowering = self.on_full_state();
+        lowering.switch_at_cuts();
         let mut outputs = match &equations.flow {
             Flow::Lagrange { force, .. } => {
                 let accelerations = hold.bind(&mut lowering, equations, force);

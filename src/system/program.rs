@@ -69,6 +69,18 @@ pub(super) struct Block {
     pub(super) inputs: Vec<usize>,
 }
 
+/// A function of which a series follows one branch, and leaves the branch that is meant where its
+/// root passes zero: roots, fractional powers, inverse sines and cosines.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guard {
+    /// What is positive on the branch meant.
+    pub(super) value: Register,
+    /// What stands under the root.
+    pub(super) under: Option<Register>,
+    /// Whether the value itself passes zero where the branch is left.
+    pub(super) passes: bool,
+}
+
 impl Block {
     pub(super) fn size(&self) -> usize {
         self.right.len()
@@ -90,6 +102,8 @@ pub struct Program {
     pub(super) body: Vec<Register>,
     /// The switching surfaces, one register each.
     pub(super) switches: Vec<Register>,
+    /// The functions whose branch is to be watched.
+    pub(super) guards: Vec<Guard>,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
 }
@@ -151,6 +165,34 @@ impl Program {
     /// parameter.
     pub fn live_len(&self) -> usize {
         self.body.iter().filter(|&&r| self.ops[r as usize] != Op::Time).count()
+    }
+
+    /// Whether any output depends on the time.
+    pub(super) fn depends_on_time(&self) -> bool {
+        let mut timed = vec![false; self.ops.len()];
+        for r in 0..self.ops.len() {
+            let on = |list: &[Register]| list.iter().any(|&r| timed[r as usize]);
+            timed[r] = match self.ops[r] {
+                Op::Time => true,
+                Op::Constant(_) | Op::Parameter(_) | Op::Input(_) => false,
+                Op::Linear { first, count, .. } => self.terms
+                    [first as usize..(first + count) as usize]
+                    .iter()
+                    .any(|term| timed[term.register as usize]),
+                Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::LivePower(a, b) => {
+                    on(&[a, b])
+                }
+                Op::Square(a) | Op::Root(a) | Op::Power(a, _) => on(&[a]),
+                Op::Call(_, arguments) => on(&arguments),
+                Op::Select { switch, positive, negative, .. } => on(&[switch, positive, negative]),
+                Op::Solve(block) => {
+                    let block = &self.blocks[block as usize];
+                    on(&block.matrix) || on(&block.right)
+                }
+                Op::Written => timed[r - 1],
+            };
+        }
+        self.outputs.iter().any(|&r| timed[r as usize])
     }
 
     /// Whether it computes nothing.

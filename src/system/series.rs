@@ -13,7 +13,8 @@ use super::jet::{Jet, Side};
 use super::program::{Program, Singular};
 use super::solve::Factored;
 use super::state::State;
-use crate::expr::{Double, Real, portable};
+use crate::cancel::Cancel;
+use crate::expr::{Double, FunctionId, Real, Wide, portable};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -22,6 +23,9 @@ pub struct Series {
     /// The lowest orders, where they are built in double-double.
     low: Option<Growth<Double>>,
     high: Growth<f64>,
+    /// Both at once in a wider range, once it was needed.
+    wide: Option<Box<Growth<Wide>>>,
+    parameters: Vec<Double>,
     /// The state it starts from.
     origin: Vec<Double>,
     time: Double,
@@ -39,6 +43,8 @@ impl System {
             system: self.clone(),
             low,
             high: Growth::new(Arc::clone(program), inputs, len, order),
+            wide: None,
+            parameters: Vec::new(),
             origin: vec![Double::ZERO; len],
             time: Double::ZERO,
             scale: 1.0,
@@ -54,6 +60,8 @@ impl Series {
             low.jet.set_parameters(parameters);
         }
         self.high.jet.set_parameters(parameters);
+        self.wide = None;
+        self.parameters = parameters.to_vec();
     }
 
     /// The highest order.
@@ -119,24 +127,67 @@ impl Series {
             Err(Halt::Sticks) => {
                 Err(self.system.fault(FaultKind::Sticks, state.time, &state.values))
             }
+            Err(Halt::Cancelled) => {
+                Err(self.system.fault(FaultKind::Cancelled, state.time, &state.values))
+            }
         }
     }
 
+    /// Where something on the way leaves the range of `f64`, all is built once more in a wider one.
     fn grow(&mut self) -> Result<(), Halt> {
+        match self.grow_narrowly() {
+            Ok(()) if self.is_finite() => Ok(()),
+            Err(Halt::Cancelled) => Err(Halt::Cancelled),
+            _ => self.grow_widely(),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let finite = |c: &[f64]| c.iter().all(|x| x.is_finite());
+        (0..self.len()).all(|i| finite(self.coefficients(i)))
+            && (0..self.switches()).all(|i| finite(self.switch(i)))
+    }
+
+    fn grow_widely(&mut self) -> Result<(), Halt> {
+        let clock = Clock { time: self.time, scale: self.scale };
+        let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
+        let program = &self.system.motion().native;
+        let wide = self.wide.get_or_insert_with(|| {
+            let mut wide = Box::new(Growth::new(Arc::clone(program), inputs, len, order));
+            wide.jet.set_parameters(&self.parameters);
+            wide
+        });
+        wide.begin(&self.origin, &self.sides);
+        for k in 0..order {
+            wide.grow(k, clock, self.system.cancel())?;
+        }
+        if !self.sides.is_empty() {
+            wide.watch(clock)?;
+        }
+        if let Some(low) = &mut self.low {
+            low.copy(wide);
+        }
+        self.high.copy(wide);
+        Ok(())
+    }
+
+    fn grow_narrowly(&mut self) -> Result<(), Halt> {
         let mut first = 0;
         let clock = Clock { time: self.time, scale: self.scale };
+        let cancel = self.system.cancel();
         if let Some(low) = &mut self.low {
             low.begin(&self.origin, &self.sides);
             for k in 0..low.order {
-                low.grow(k, clock)?;
+                low.grow(k, clock, cancel)?;
             }
-            first = low.order;
+            // a weight felt two orders later is not yet known at the last order
+            first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
         } else {
             self.high.begin(&self.origin, &self.sides);
         }
         for k in first..self.high.order {
-            self.high.grow(k, clock)?;
+            self.high.grow(k, clock, cancel)?;
         }
         if !self.sides.is_empty() {
             self.high.watch(clock)?;
@@ -166,6 +217,36 @@ impl Series {
         sum(exact, &self.switch(i)[exact.len()..], x)
     }
 
+    /// How many functions there are whose branch a motion may leave.
+    pub fn guards(&self) -> usize {
+        self.system.motion().native.guards.len()
+    }
+
+    /// Whether such a function's series passes zero where its branch is left.
+    pub fn guard_passes(&self, i: usize) -> bool {
+        self.system.motion().native.guards[i].passes
+    }
+
+    /// The coefficients of one, as far as they are known.
+    pub fn guard(&self, i: usize) -> &[f64] {
+        let register = self.system.motion().native.guards[i].value;
+        &self.high.jet.series(register)[..self.high.order]
+    }
+
+    /// Those of what stands under its root.
+    pub fn guard_under(&self, i: usize) -> Option<&[f64]> {
+        let register = self.system.motion().native.guards[i].under?;
+        Some(&self.high.jet.series(register)[..self.high.order])
+    }
+
+    /// Its value at a time after the origin, in the unit of the series, as exact as the lowest
+    /// orders are.
+    pub fn guard_after(&self, i: usize, x: Double) -> Double {
+        let register = self.system.motion().native.guards[i].value;
+        let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.series(register)[..low.order]);
+        sum(exact, &self.guard(i)[exact.len()..], x)
+    }
+
     /// The number of the state that a switch is, if it is one.
     pub fn switch_number(&self, i: usize) -> Option<usize> {
         self.system.motion().native.switch_input(i)
@@ -178,7 +259,7 @@ impl Series {
     }
 
     /// The series of the arguments of functions: how fast these change.
-    pub fn arguments(&self) -> impl Iterator<Item = &[f64]> {
+    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64])> {
         self.high.jet.arguments()
     }
 
@@ -213,6 +294,8 @@ enum Halt {
     Singular(Singular),
     /// No weights keep the switches at zero.
     Sticks,
+    /// Somebody asked that it stop.
+    Cancelled,
 }
 
 impl From<Singular> for Halt {
@@ -232,12 +315,15 @@ struct Growth<R> {
     state: Vec<R>,
     /// The switches that are kept at zero.
     kept: Vec<usize>,
+    /// How many orders later these feel a weight: one where it acts on what they are made of, two
+    /// where it acts on its rate of change.
+    depth: usize,
 }
 
 impl<R: Real> Growth<R> {
     fn new(program: Arc<Program>, inputs: usize, len: usize, order: usize) -> Growth<R> {
         let state = vec![R::ZERO; len * (order + 1)];
-        Growth { jet: Jet::new(program, order), order, inputs, state, kept: Vec::new() }
+        Growth { jet: Jet::new(program, order), order, inputs, state, kept: Vec::new(), depth: 1 }
     }
 
     fn series(&self, i: usize) -> &[R] {
@@ -269,11 +355,25 @@ impl<R: Real> Growth<R> {
             }
         }
         self.kept.clone_from(&other.kept);
+        self.depth = other.depth;
         self.jet.take_over(&other.jet, other.order)
     }
 
+    /// All orders that are known in a wider range, to be read and not to be continued.
+    fn copy(&mut self, wide: &Growth<Wide>) {
+        for i in 0..self.len() {
+            for k in 0..=self.order {
+                self.state[i * (self.order + 1) + k] = R::of(wide.series(i)[k].double());
+            }
+        }
+        self.jet.copy(&wide.jet, self.order + 1);
+    }
+
     /// From order `k` of the state to order `k + 1`.
-    fn grow(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
+    fn grow(&mut self, k: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
+        if cancel.is_cancelled() {
+            return Err(Halt::Cancelled);
+        }
         self.extend(k, clock)?;
         if !self.kept.is_empty() {
             self.keep(k, clock)?;
@@ -311,18 +411,33 @@ impl<R: Real> Growth<R> {
     fn keep(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
+        if k == 0 {
+            self.depth = 1;
+        }
+        if k + self.depth > self.order {
+            kept.iter().for_each(|&switch| self.jet.set_weight(switch, k, R::ZERO));
+            return Ok(());
+        }
         let mut matrix = vec![R::ZERO; n * n];
-        let rest = self.probe(k, clock, &kept, None)?;
-        for (j, &switch) in kept.iter().enumerate() {
-            let moved = self.probe(k, clock, &kept, Some(switch))?;
-            for i in 0..n {
-                matrix[i * n + j] = moved[i] - rest[i];
-            }
-        }
         let mut factored = Factored::new(n);
-        if !factored.factor(|i, j| matrix[i * n + j]) {
-            return Err(Halt::Sticks);
-        }
+        let rest = loop {
+            let rest = self.probe(k, clock, &kept, None)?;
+            for (j, &switch) in kept.iter().enumerate() {
+                let moved = self.probe(k, clock, &kept, Some(switch))?;
+                for i in 0..n {
+                    matrix[i * n + j] = moved[i] - rest[i];
+                }
+            }
+            if factored.factor(|i, j| matrix[i * n + j]) {
+                break rest;
+            }
+            // at rest on the surface a force may hold them there
+            let still = rest.iter().all(|x| x.value() == 0.0);
+            if k > 0 || self.depth > 1 || !still {
+                return Err(Halt::Sticks);
+            }
+            self.depth = 2;
+        };
         let mut weights: Vec<R> = rest.iter().map(|&x| -x).collect();
         factored.solve(&mut weights);
         for (&switch, &w) in kept.iter().zip(&weights) {
@@ -331,7 +446,7 @@ impl<R: Real> Growth<R> {
         Ok(())
     }
 
-    /// The kept switches at order `k + 1` where one weight of order `k` is 1 and the others 0.
+    /// The kept switches `depth` orders on, where one weight of order `k` is 1 and the others 0.
     fn probe(
         &mut self,
         k: usize,
@@ -342,13 +457,18 @@ impl<R: Real> Growth<R> {
         for &switch in kept {
             let weight = if one == Some(switch) { R::ONE } else { R::ZERO };
             self.jet.set_weight(switch, k, weight);
-            self.jet.set_weight(switch, k + 1, R::ZERO);
+            for later in k + 1..=k + self.depth {
+                self.jet.set_weight(switch, later, R::ZERO);
+            }
         }
-        self.extend(k, clock)?;
-        for i in 0..self.inputs {
-            self.jet.set_input(i, k + 1, self.state[i * (self.order + 1) + k + 1]);
+        let last = k + self.depth;
+        for order in k..last {
+            self.extend(order, clock)?;
+            for i in 0..self.inputs {
+                self.jet.set_input(i, order + 1, self.state[i * (self.order + 1) + order + 1]);
+            }
         }
-        self.jet.advance(k + 1, R::of(clock.time), clock.scale)?;
-        Ok(kept.iter().map(|&switch| self.jet.switch(switch)[k + 1]).collect())
+        self.jet.advance(last, R::of(clock.time), clock.scale)?;
+        Ok(kept.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
     }
 }

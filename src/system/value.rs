@@ -1,10 +1,13 @@
 //! The first evaluator of a program: numbers.
+//!
+//! Where something on the way to a result leaves the range of its numbers, as `exp(x)` does in
+//! `1/(1 + exp(x))` far out, the program is evaluated once more in [`Wide`].
 
 use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::expr::{Double, Real, Rule};
+use crate::expr::{Double, Real, Rule, Wide};
 
 /// The registers of one program as numbers, in one precision.
 #[derive(Clone, Debug)]
@@ -13,6 +16,9 @@ pub struct Values<R> {
     registers: Vec<R>,
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
+    parameters: Vec<Double>,
+    /// The same in a wider range, once it was needed.
+    wide: Option<Box<Values<Wide>>>,
 }
 
 impl<R: Real> Values<R> {
@@ -21,12 +27,16 @@ impl<R: Real> Values<R> {
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
         let registers = vec![R::ZERO; program.ops.len()];
-        Values { program, registers, blocks, right: vec![R::ZERO; widest] }
+        let right = vec![R::ZERO; widest];
+        Values { program, registers, blocks, right, parameters: Vec::new(), wide: None }
     }
 
     /// Sets the parameters and evaluates everything that depends on them alone.
     pub fn set_parameters(&mut self, parameters: &[Double]) {
         let program = Arc::clone(&self.program);
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        self.wide = None;
         for &r in &program.prologue {
             match program.ops[r as usize] {
                 Op::Parameter(i) => self.registers[r as usize] = R::of(parameters[i as usize]),
@@ -37,6 +47,44 @@ impl<R: Real> Values<R> {
 
     /// Evaluates at a time and inputs.
     pub fn evaluate(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
+        let outcome = self.evaluate_here(time, inputs);
+        if R::UNBOUNDED || (outcome.is_ok() && self.is_finite()) || !self.left_the_range() {
+            return outcome;
+        }
+        self.evaluate_widely(time, inputs)
+    }
+
+    fn is_finite(&self) -> bool {
+        let mut outputs = self.program.outputs.iter();
+        outputs.all(|&r| self.registers[r as usize].value().is_finite())
+    }
+
+    /// Whether the first number that is not finite comes of the range, or of a division by zero
+    /// that may, and not of an argument outside a function.
+    fn left_the_range(&self) -> bool {
+        let value = |r: &Register| self.registers[*r as usize].value();
+        let first = self.program.body.iter().find(|r| !value(r).is_finite());
+        first.is_some_and(|r| {
+            let divides = matches!(self.program.ops[*r as usize], Op::Divide(..) | Op::Solve(_));
+            divides || (value(r).is_infinite() && !self.program.inputs.contains(r))
+        })
+    }
+
+    fn evaluate_widely(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
+        let wide = self.wide.get_or_insert_with(|| {
+            let mut wide = Box::new(Values::new(Arc::clone(&self.program)));
+            wide.set_parameters(&self.parameters);
+            wide
+        });
+        let inputs: Vec<Wide> = inputs.iter().map(|x| Wide::of(x.double())).collect();
+        wide.evaluate(Wide::of(time.double()), &inputs)?;
+        for (x, wide) in self.registers.iter_mut().zip(&wide.registers) {
+            *x = R::of(wide.double());
+        }
+        Ok(())
+    }
+
+    fn evaluate_here(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
         let program = Arc::clone(&self.program);
         for (&r, &x) in program.inputs.iter().zip(inputs) {
             self.registers[r as usize] = x;
@@ -54,6 +102,16 @@ impl<R: Real> Values<R> {
     /// The value of an output.
     pub fn output(&self, i: usize) -> R {
         self.registers[self.program.outputs[i] as usize]
+    }
+
+    /// The value of a switch.
+    pub fn switch(&self, i: usize) -> R {
+        self.registers[self.program.switches[i] as usize]
+    }
+
+    /// The value of any register.
+    pub(super) fn register(&self, register: Register) -> R {
+        self.registers[register as usize]
     }
 
     fn run(&mut self, program: &Program, register: Register) {

@@ -235,8 +235,14 @@ const ELEMENTARY: [&str; 26] = [
 
 /// Where methods of these names belong to other numbers than `f64`: rules over every `Real`, double-doubles, exact
 /// numbers. There only `clippy.toml` can tell.
-const OTHER_NUMBERS: [&str; 5] =
-    ["expr/function/", "expr/double/", "expr/number.rs", "expr/product.rs", "expr/portable.rs"];
+const OTHER_NUMBERS: [&str; 6] = [
+    "expr/function/",
+    "expr/double/",
+    "expr/number.rs",
+    "expr/product.rs",
+    "expr/portable.rs",
+    "expr/wide.rs",
+];
 
 /// The calls of `std`'s elementary functions in code, as `name`: methods of anything but the expressions' pool, and paths.
 fn elementary_calls(code: &str) -> Vec<&'static str> {

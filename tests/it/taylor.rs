@@ -2,6 +2,8 @@
 //! everything happens.
 
 mod accuracy;
+mod branches;
+mod far;
 mod kinks;
 mod roots;
 mod steps;

@@ -2,7 +2,7 @@
 
 use super::asin::{advance, slope};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -24,5 +24,9 @@ pub(super) const FUNCTION: Function = Function {
         let slope = slope(pool, u[0]);
         pool.neg(slope)
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

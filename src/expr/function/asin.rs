@@ -2,7 +2,7 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Pool, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Number, Pool, Real, Recurrence, Wide, portable};
 
 /// `1/√(1 − u²)`.
 pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
@@ -39,5 +39,9 @@ pub(super) const FUNCTION: Function = Function {
     value: |u| portable::asin(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Asin, u[0]),
     derivative: |pool, u, _| slope(pool, u[0]),
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, portable};
+use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
 
 /// y = arctan u, w = 1 + u²: y′ w = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -29,5 +29,9 @@ pub(super) const FUNCTION: Function = Function {
         let under = pool.linear(Number::ONE, &[(Number::ONE, square)]);
         pool.powi(under, -1)
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::{chain, known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, portable};
+use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
 
 /// θ = atan2(y, x), w = x² + y²: θ′ w = x y′ − y x′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -31,5 +31,9 @@ pub(super) const FUNCTION: Function = Function {
         let sign = if i == 0 { Number::ONE } else { Number::MINUS_ONE };
         pool.monomial(sign, &[(u[1 - i], Number::ONE), (radius, Number::MINUS_ONE)])
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::expr::{Double, Number, Real, Recurrence, portable};
+use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
 
 /// y = cos u, w = sin u: y′ = −w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -31,5 +31,9 @@ pub(super) const FUNCTION: Function = Function {
         let sine = pool.call(FunctionId::Sin, u);
         pool.neg(sine)
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
 
 /// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -28,5 +28,9 @@ pub(super) const FUNCTION: Function = Function {
         pool.fold_even(FunctionId::Cosh, u[0])
     },
     derivative: |pool, u, _| pool.call(FunctionId::Sinh, u),
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Number, Real, Recurrence, Wide, portable};
 
 /// y = cot u, w = 1 + y²: y′ = −w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -30,5 +30,9 @@ pub(super) const FUNCTION: Function = Function {
         let square = pool.powi(cotangent, 2);
         pool.linear(Number::MINUS_ONE, &[(Number::MINUS_ONE, square)])
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

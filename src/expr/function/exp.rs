@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
 
 /// y = exp u: y′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -18,5 +18,9 @@ pub(super) const FUNCTION: Function = Function {
     value: |u| portable::exp(u[0]),
     fold: |_, u| (u[0] == Expr::ZERO).then_some(Expr::ONE),
     derivative: |pool, u, _| pool.call(FunctionId::Exp, u),
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

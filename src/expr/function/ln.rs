@@ -2,7 +2,7 @@
 
 use super::series::known;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Node, Real, Recurrence, portable};
+use crate::expr::{Double, Expr, Node, Real, Recurrence, Wide, portable};
 
 /// y = ln u: y′ u = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -22,5 +22,9 @@ pub(super) const FUNCTION: Function = Function {
         _ => (u[0] == Expr::ONE).then_some(Expr::ZERO),
     },
     derivative: |pool, u, _| pool.powi(u[0], -1),
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

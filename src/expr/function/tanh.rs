@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, portable};
+use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
 
 /// y = tanh u, w = 1 − y² = 1/cosh² u: y′ = w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -29,5 +29,9 @@ pub(super) const FUNCTION: Function = Function {
         let square = pool.powi(tangent, 2);
         pool.linear(Number::ONE, &[(Number::MINUS_ONE, square)])
     },
-    rule: Rule::Series(Recurrence { single: rule::<f64>, double: rule::<Double> }),
+    rule: Rule::Series(Recurrence {
+        single: rule::<f64>,
+        double: rule::<Double>,
+        wide: rule::<Wide>,
+    }),
 };

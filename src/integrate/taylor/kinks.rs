@@ -8,8 +8,8 @@
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
 use super::super::roots::{first_crossing, value_and_slope};
-use crate::expr::Double;
-use crate::system::{Fault, Series, Side, State};
+use crate::expr::{Double, portable};
+use crate::system::{ExactRates, Fault, Series, Side, State};
 
 /// Switches that cross within this part of a step of each other cross together.
 const TOGETHER: f64 = 1e-12;
@@ -39,35 +39,44 @@ pub(super) struct Crossing {
     switches: Vec<usize>,
 }
 
+/// The last term of a series may have this part of the first where the series still says
+/// something of its function.
+const LAST: f64 = 0.1;
+
+impl Crossing {
+    /// Whether the series still say something there, beyond the step they allow.
+    pub(super) fn is_known(&self, series: &Series) -> bool {
+        self.switches.iter().all(|&i| {
+            let switch = series.switch(i);
+            let last = switch.len() - 1;
+            let term = |k: usize| (switch[k] * portable::powi(self.after.high, k as i32)).abs();
+            term(last).max(term(last - 1)) <= LAST * term(0)
+        })
+    }
+}
+
 impl Kinks {
-    /// Chooses the sides at the first state: by the sign of each switch, and where one is zero by
-    /// where the motion goes.
-    pub(super) fn begin(&mut self, series: &mut Series, state: &State) -> Result<(), Fault> {
+    /// Chooses the sides at a state from which the motion begins: by the sign of each switch, and
+    /// where one is zero by where the motion goes.
+    pub(super) fn begin(
+        &mut self,
+        series: &mut Series,
+        rates: &mut ExactRates,
+        state: &State,
+    ) -> Result<(), Fault> {
         *self = Kinks::default();
         if series.switches() == 0 {
             return Ok(());
         }
-        // a switch may itself depend on the sides of others
-        for _ in 0..=series.switches() {
-            series.build(state)?;
-            let mut settled = true;
-            self.on_surface.clear();
-            for i in 0..series.switches() {
-                let value = series.switch(i)[0];
-                let side = if value < 0.0 { Side::Negative } else { Side::Positive };
-                settled &= series.sides()[i] == side;
-                series.set_side(i, side);
-                if value == 0.0 {
-                    self.on_surface.push(i);
-                }
+        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        rates.evaluate(state.exact_time(), &numbers)?;
+        for i in 0..series.switches() {
+            let value = rates.switch(i);
+            if value == 0.0 {
+                self.on_surface.push(i);
             }
-            if settled {
-                break;
-            }
-        }
-        for &i in &self.on_surface {
-            // so that the positive side, behind the surface, is tried first
-            series.set_side(i, Side::Negative);
+            // on a surface the positive side, behind it, is tried first
+            series.set_side(i, if value > 0.0 { Side::Positive } else { Side::Negative });
         }
         Ok(())
     }

@@ -5,7 +5,7 @@
 //! last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j |c_j| h^j, and stays inside the radius
 //! of convergence however small those terms are: a body far from a collision hardly feels it.
 
-use crate::expr::portable;
+use crate::expr::{FunctionId, portable};
 use crate::system::Series;
 
 /// The part of the tolerance that the last terms may have: they stand for all that is cut off,
@@ -30,6 +30,17 @@ const SPARED: f64 = 1e3;
 /// How far the argument of a function may move in one step: a potential that is felt only from
 /// nearby is not to be jumped over.
 const FARTHEST_ARGUMENT: f64 = 6.0;
+
+/// Beyond this argument exponentials leave the range of `f64`, and what saturates with them has no
+/// digit left to change: up to there an argument may move at once.
+const SATURATED: f64 = 750.0;
+
+/// The part of its size that the argument of a function without scale (`ln`, `atan`) may move.
+const PART_OF_ARGUMENT: f64 = 0.5;
+
+/// A coefficient below this is what underflow has left of one: in a unit of time near the step its
+/// term is far below the last digit of anything.
+const FAINT: f64 = 1e-290;
 
 /// The order at which a tolerance costs least: the step grows with the order, the work with its
 /// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 where each order costs the same work;
@@ -57,19 +68,47 @@ pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
             return None;
         }
         for (log, x) in logs.iter_mut().zip(c) {
-            *log = portable::ln(x.abs());
+            *log = if x.abs() < FAINT { f64::NEG_INFINITY } else { portable::ln(x.abs()) };
         }
         shortest = shortest.min(of_one(&logs[..c.len()], portable::ln(tolerance)));
     }
-    for u in series.arguments() {
-        for k in 1..=3 {
-            let bound = portable::powf(FARTHEST_ARGUMENT / u[k].abs(), 1.0 / k as f64);
-            if bound.is_finite() {
-                shortest = shortest.min(bound);
-            }
-        }
+    for (function, u) in series.arguments() {
+        shortest = shortest.min(of_argument(function, u));
     }
     Some(shortest)
+}
+
+/// The step in which the argument of a function moves as far as it may.
+fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
+    let room = match function {
+        FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh => {
+            u[0].abs() - SATURATED
+        }
+        FunctionId::Ln | FunctionId::Atan | FunctionId::Atan2 => u[0].abs() * PART_OF_ARGUMENT,
+        _ => 0.0,
+    };
+    let mut step = moving(FARTHEST_ARGUMENT, &u[..4]);
+    if room > FARTHEST_ARGUMENT {
+        // all terms together, each with a share
+        let mut safe = f64::INFINITY;
+        for (k, c) in u.iter().enumerate().skip(1).filter(|(_, c)| c.abs() >= FAINT) {
+            safe = safe.min(0.5 * portable::powf(room / c.abs(), 1.0 / k as f64));
+        }
+        step = step.max(safe);
+    }
+    step
+}
+
+/// The time in which none of a series' terms moves farther than so.
+fn moving(far: f64, u: &[f64]) -> f64 {
+    let mut shortest = f64::INFINITY;
+    for (k, c) in u.iter().enumerate().skip(1) {
+        let bound = portable::powf(far / c.abs(), 1.0 / k as f64);
+        if bound.is_finite() {
+            shortest = shortest.min(bound);
+        }
+    }
+    shortest
 }
 
 /// The coordinates' and rates' series.

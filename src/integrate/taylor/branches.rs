@@ -1,0 +1,116 @@
+//! Branches of roots: a series follows √a through a zero of a to where it would be negative, while
+//! the root that is meant turns back. Where that happens is found, and whether a step has left the
+//! branch that is meant.
+
+use super::super::roots::{first_crossing, value_and_slope};
+use crate::expr::Double;
+use crate::system::{ExactRates, Series};
+
+/// A root this small beside the terms of its series is zero: the rest is rounding.
+const ZERO: f64 = 3e-15;
+
+/// What a root may differ from its series at the end of a step, in parts of its largest term.
+const STRAYED: f64 = 1e-6;
+
+/// A root whose values along a step stay above this part of their largest does not pass zero.
+const CLEAR: f64 = 0.2;
+
+/// A root that passes zero.
+pub(super) struct Passing {
+    guard: usize,
+    /// The time after the series' origin, in its unit.
+    pub(super) after: Double,
+}
+
+/// The first root that passes zero before `end`.
+pub(super) fn first(series: &Series, end: f64) -> Option<Passing> {
+    let mut found: Option<(usize, f64)> = None;
+    for i in (0..series.guards()).filter(|&i| series.guard_passes(i)) {
+        let end = found.map_or(end, |(_, x)| x);
+        if let Some(x) = passes(series.guard(i), end) {
+            found = Some((i, x));
+        }
+    }
+    let (guard, x) = found?;
+    Some(Passing { guard, after: polish(series, guard, x) })
+}
+
+/// The first zero of what stands under a power, where its square root is followed beyond the step
+/// that the series allows: foretold, for a place that is very near.
+pub(super) fn foretold(series: &Series, end: f64) -> Option<f64> {
+    let mut first: Option<f64> = None;
+    let powers = (0..series.guards()).filter(|&i| !series.guard_passes(i));
+    for under in powers.filter_map(|i| series.guard_under(i)) {
+        let mut root = [0.0; 64];
+        let root = &mut root[..under.len()];
+        root[0] = under[0].sqrt();
+        for k in 1..under.len() {
+            let inner: f64 = (1..k).map(|j| root[j] * root[k - j]).sum();
+            root[k] = (under[k] - inner) / (2.0 * root[0]);
+        }
+        let end = first.unwrap_or(end);
+        if let Some(x) = passes(root, end) {
+            first = Some(x);
+        }
+    }
+    first
+}
+
+/// Whether the root that passes is exactly zero there, at a state for which the rates stand, and
+/// does not only come near; what it falls by in the time `moment` counts as nothing.
+pub(super) fn is_exact(
+    series: &Series,
+    passing: &Passing,
+    rates: &ExactRates,
+    moment: f64,
+) -> bool {
+    let (coefficients, after) = (series.guard(passing.guard), passing.after.high);
+    let size = largest_term(coefficients, after);
+    let (_, slope) = value_and_slope(coefficients, after);
+    let value = rates.guard(passing.guard);
+    value.is_nan() || value <= (ZERO * size).max(slope.abs() * moment)
+}
+
+/// Whether some root is not what its series says a time `after` the origin, in its unit, at a
+/// state for which the rates stand.
+pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
+    (0..series.guards()).any(|i| {
+        let coefficients = series.guard(i);
+        let (foretold, _) = value_and_slope(coefficients, after);
+        let size = largest_term(coefficients, after);
+        let value = rates.guard(i);
+        foretold.is_finite() && !((value - foretold).abs() <= STRAYED * size.max(value.abs()))
+    })
+}
+
+fn largest_term(coefficients: &[f64], x: f64) -> f64 {
+    let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
+    coefficients.iter().zip(powers).fold(0.0, |m: f64, (c, power)| m.max((c * power).abs()))
+}
+
+/// Where a root becomes negative, if it does.
+fn passes(root: &[f64], end: f64) -> Option<f64> {
+    if root[0].is_nan() || root[0] <= 0.0 {
+        return None;
+    }
+    let (mut least, mut most) = (root[0], root[0]);
+    for part in [0.25, 0.5, 0.75, 1.0] {
+        let (value, _) = value_and_slope(root, part * end);
+        least = least.min(value);
+        most = most.max(value);
+    }
+    if least > CLEAR * most { None } else { first_crossing(root, end) }
+}
+
+/// A zero to the precision of the series' lowest orders.
+fn polish(series: &Series, guard: usize, x: f64) -> Double {
+    let mut x = Double::from(x);
+    for _ in 0..2 {
+        let (_, slope) = value_and_slope(series.guard(guard), x.high);
+        let correction = series.guard_after(guard, x) / slope;
+        if correction.high.abs() < 1e-6 * x.high {
+            x = x - correction;
+        }
+    }
+    x
+}

@@ -1,0 +1,63 @@
+//! Rates of change in double-double at any one state, and with them on which side of each switch
+//! and on which branch of each root the state lies: for the places where a series has to end, and
+//! for holding a series against what it stands for.
+
+use std::sync::Arc;
+
+use super::program::Program;
+use super::value::Values;
+use super::{Fault, System};
+use crate::expr::Double;
+
+/// The rates of change of states in the native form of a system. Holds its own registers.
+#[derive(Clone, Debug)]
+pub struct ExactRates {
+    system: System,
+    program: Arc<Program>,
+    values: Values<Double>,
+}
+
+impl System {
+    /// Rates of change of states in [`System::form`], in double-double.
+    pub fn exact_rates(&self) -> ExactRates {
+        let program = Arc::clone(&self.motion().native);
+        let values = Values::new(Arc::clone(&program));
+        ExactRates { system: self.clone(), program, values }
+    }
+}
+
+impl ExactRates {
+    /// Sets the parameters; to be called once at least.
+    pub fn set_parameters(&mut self, parameters: &[Double]) {
+        self.values.set_parameters(parameters);
+    }
+
+    /// Evaluates at a time and at the numbers of a state.
+    pub fn evaluate(&mut self, time: Double, numbers: &[Double]) -> Result<(), Fault> {
+        let outcome = self.values.evaluate(time, &numbers[..self.system.driven()]);
+        outcome.map_err(|singular| {
+            let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
+            self.system.singular(&self.program, singular, time.high, &values)
+        })
+    }
+
+    /// Whether any rate depends on the time itself.
+    pub fn depends_on_time(&self) -> bool {
+        self.program.depends_on_time()
+    }
+
+    /// The rate of a number of the state.
+    pub fn rate(&self, i: usize) -> Double {
+        self.values.output(i)
+    }
+
+    /// The value of a switch.
+    pub fn switch(&self, i: usize) -> f64 {
+        self.values.switch(i).high
+    }
+
+    /// The value of a function whose branch a motion may leave.
+    pub fn guard(&self, i: usize) -> f64 {
+        self.values.register(self.program.guards[i].value).high
+    }
+}

@@ -1,0 +1,171 @@
+//! Kinks that hide in roots and powers: cones, chords, contacts, angles.
+
+use super::{Run, near};
+use phaselab::system::FaultKind;
+
+fn line(initial: &str, velocity: &str, rest: &str) -> Run {
+    Run::new(&format!(
+        "title = \"Hidden kinks\"\n[coordinates]\nx = {{ initial = {initial}, velocity = {velocity} }}\n[lagrangian]\n{rest}\n"
+    ))
+}
+
+fn potential(initial: &str, velocity: &str, v: &str) -> Run {
+    line(initial, velocity, &format!("L = \"1/2*x'^2 - ({v})\""))
+}
+
+fn plane(x: [f64; 2], v: [f64; 2], rest: &str) -> Run {
+    Run::new(&format!(
+        "title = \"Hidden kinks\"\n[coordinates]\nx = {{ initial = {}, velocity = {} }}\ny = {{ initial = {}, velocity = {} }}\n[lagrangian]\n{rest}\n",
+        x[0], v[0], x[1], v[1]
+    ))
+}
+
+#[test]
+fn straight_through_the_tip_of_a_cone() {
+    // x = 1 − t²/2, reflected at x = 0: a period of 4 √2
+    let cone = "L = \"1/2*(x'^2 + y'^2) - sqrt(x^2 + y^2)\"";
+    let mut run = plane([1.0, 0.0], [0.0, 0.0], cone);
+    let s = 3.0 - 2.0_f64.sqrt();
+    near(&run.to(3.0), &[s * s / 2.0 - 2.0_f64.sqrt() * s, 0.0, s - 2.0_f64.sqrt(), 0.0], 2e-15);
+    run.to(100.0);
+    near(&run.columns()[6..7], &[1.0], 4e-15);
+    // along a slanted line the root is not opened by hand
+    let mut run = plane([0.6, 0.8], [0.0, 0.0], cone);
+    let there = s * s / 2.0 - 2.0_f64.sqrt() * s;
+    near(&run.to(3.0)[..2], &[0.6 * there, 0.8 * there], 2e-15);
+}
+
+#[test]
+fn close_to_the_tip_of_a_cone() {
+    for offset in [1e-2, 1e-4, 1e-6, 1e-8, 1e-12] {
+        let mut run =
+            plane([1.0, 0.0], [0.0, offset], "L = \"1/2*(x'^2 + y'^2) - sqrt(x^2 + y^2)\"");
+        let state = run.to(30.0);
+        near(&run.columns()[6..7], &[1.0 + offset * offset / 2.0], 1e-14);
+        let momentum = state[0] * state[3] - state[1] * state[2];
+        near(&[momentum], &[offset], 1e-14);
+    }
+}
+
+#[test]
+fn a_spring_through_its_own_end() {
+    let mut run =
+        plane([0.6, 0.7], [0.0, 0.0], "L = \"1/2*(x'^2 + y'^2) - 10*(sqrt(x^2 + y^2) - 0.1)^2\"");
+    let energy = run.columns()[6];
+    for t in [1.0, 3.0, 6.0, 20.0] {
+        run.to(t);
+        near(&run.columns()[6..7], &[energy], 4e-14);
+    }
+}
+
+#[test]
+fn chords_on_a_hoop_are_what_abs_says_they_are() {
+    let beads = |chord: &str| {
+        let mut run = Run::new(&format!(
+            "title = \"Beads\"\n[coordinates]\na = {{ initial = 0.0, velocity = 1.2 }}\nb = {{ initial = 1.0, velocity = -0.3 }}\n[lagrangian]\nL = \"1/2*(a'^2 + b'^2) - 2*({chord} - 0.5)^2\"\n"
+        ));
+        run.to(12.0)
+    };
+    let expected = beads("2*abs(sin((a - b)/2))");
+    near(&beads("sqrt(2 - 2*cos(a - b))"), &expected, 1e-13);
+    near(&beads("sqrt((cos(a) - cos(b))^2 + (sin(a) - sin(b))^2)"), &expected, 1e-13);
+}
+
+#[test]
+fn powers_of_abs_have_the_periods_of_closed_forms() {
+    // 4 √(π/2) Γ(1 + 1/n)/Γ(½ + 1/n), from 1 at rest
+    for (potentials, period) in [
+        (["abs(x)^1.2", "(x^2)^(3/5)"], 5.280_915_273_991_471),
+        (["abs(x)^1.5", "(x^2)^(3/4)"], 4.878_300_568_010_466),
+        (["abs(x)^1.8", "max(x, -x)^1.8"], 4.592_136_767_968_899),
+        (["abs(x)^2.5", "max(0, x)^2.5 + max(0, -x)^2.5"], 4.162_419_683_468_169),
+    ] {
+        for potential in potentials {
+            let mut run = self::potential("1.0", "0.0", potential);
+            near(&run.to(period), &[1.0, 0.0], 2e-13);
+            near(&run.to(10.0 * period), &[1.0, 0.0], 2e-12);
+            assert!(run.steps < 6000, "{potential}: {} steps", run.steps);
+        }
+    }
+}
+
+#[test]
+fn a_contact_after_hertz() {
+    // quadrature of the contact at 30 digits
+    let mut run = potential("1.0", "0.0", "9.81*x + 1000*max(0, -x)^2.5");
+    near(&run.to(1.010_502_474_783_177), &[1.0, 0.0], 1e-12);
+    run.to(3.0);
+    near(&run.columns()[3..4], &[9.81], 1e-13);
+}
+
+#[test]
+fn roots_of_differences_of_cosines_and_nested_ones() {
+    for (potential, period) in [
+        ("sqrt(1 - cos(x))", 7.054_474_419_614_488),
+        ("sqrt(1 + sqrt(x^2))", 9.292_151_287_324_760),
+    ] {
+        let mut run = self::potential("1.0", "0.0", potential);
+        near(&run.to(period), &[1.0, 0.0], 1e-12);
+    }
+    for v in ["((x - 1)^2)^0.5", "sqrt(x^2 - 2*x + 1)"] {
+        let mut run = potential("0.0", "0.0", v);
+        near(&run.to(4.0 * 2.0_f64.sqrt()), &[0.0, 0.0], 4e-15);
+    }
+}
+
+#[test]
+fn inverse_sines_and_cosines_turn_with_their_arguments() {
+    // acos(cos x) = |x| near zero, asin(sin x) a saw tooth, and over their tops
+    for v in ["acos(cos(x))", "asin(sin(x))", "acos(cos(x))^2", "asin(sin(x))^2"] {
+        for velocity in ["1.0", "9.0"] {
+            let mut run = potential("0.5", velocity, v);
+            let energy = run.columns()[3];
+            run.to(20.0);
+            near(&run.columns()[3..4], &[energy], 1e-13 * energy.abs());
+        }
+    }
+}
+
+#[test]
+fn an_angle_is_followed_to_its_cut_and_begins_anew_there() {
+    let mut run = plane(
+        [1.0, 0.0],
+        [0.0, 1.0],
+        "L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2) - 0.05*atan2(y, x)^2\"",
+    );
+    let energy = run.columns()[6];
+    run.to(30.0);
+    // the potential itself is the same on both sides
+    near(&run.columns()[6..7], &[energy], 1e-14);
+}
+
+#[test]
+fn drag_with_a_fractional_power_turns_the_motion() {
+    // v' = −0.36 |v|^0.8: |v|^0.2 falls by 0.072 a second and ends at rest
+    let mut run = line("0.0", "1.0", "L = \"1/2*x'^2\"\ndissipation = \"0.2*abs(x')^1.8\"");
+    near(&run.to(1.0)[1..], &[(1.0_f64 - 0.072).powi(5)], 1e-15);
+    near(&run.to(100.0), &[1.0 / (6.0 * 0.072), 0.0], 1e-12);
+    let mut run =
+        line("1.0", "0.0", "L = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"0.3*abs(x')^1.8\"");
+    let state = run.to(20.0);
+    assert!(state[0].abs() < 0.1 && state[1].abs() < 0.1, "{state:?}");
+}
+
+#[test]
+fn sides_are_chosen_before_a_series_is_judged() {
+    let mut run = plane([4.0, 0.0], [1.0, 0.5], "L = \"1/2*(x'^2 + y'^2)*(1 + max(0, x - 5))\"");
+    let energy = run.columns()[6];
+    run.to(30.0);
+    near(&run.columns()[6..7], &[energy], 1e-15);
+    // on the wrong side of its kink this mass would be negative, then zero
+    let mut run = line("0.0", "1.0", "L = \"1/2*x'^2*max(x + 1, -x - 1)\"");
+    near(&run.to(1.0)[..1], &[2.5_f64.powf(2.0 / 3.0) - 1.0], 1e-15);
+}
+
+#[test]
+fn an_edge_without_a_limit_is_told_with_its_place() {
+    let mut run = potential("1.0", "0.0", "sqrt(abs(x))");
+    let fault = run.try_to(10.0).expect_err("the force grows beyond all bounds");
+    assert!(matches!(fault.kind, FaultKind::Rough | FaultKind::StepUnderflow(_)), "{fault}");
+    assert!(fault.place[0].1.abs() < 1e-9 && run.steps < 500, "{fault}");
+}

@@ -1,0 +1,107 @@
+//! Far out, where functions saturate: nothing leaves the range of numbers for good, and a motion
+//! that nothing acts on costs next to nothing.
+
+use super::{Run, near};
+use phaselab::system::FaultKind;
+
+fn potential(initial: &str, velocity: &str, v: &str) -> Run {
+    Run::new(&format!(
+        "title = \"Far out\"\n[coordinates]\nx = {{ initial = {initial}, velocity = {velocity} }}\n[lagrangian]\nL = \"1/2*x'^2 - ({v})\"\n"
+    ))
+}
+
+#[test]
+fn poschl_and_tellers_hill_is_followed_for_ever() {
+    // sinh x = √((E − 1)/E) sinh(√(2E) (t + t₀)), at 30 digits
+    for hill in ["1/cosh(x)^2", "4*exp(-2*x)/(1 + exp(-2*x))^2", "1 - tanh(x)^2"] {
+        let mut run = potential("1.0", "3.0", hill);
+        near(&run.to(100.0)[..1], &[314.661_844_238_315_8], 6e-14);
+        near(&run.to(1000.0)[..1], &[3_137.844_168_037_953_5], 6e-13);
+        assert!(run.steps < 250, "{hill}: {} steps", run.steps);
+        run.to(1e9);
+        assert!(run.steps < 350, "{hill}: {} steps", run.steps);
+    }
+}
+
+#[test]
+fn the_edge_of_a_well_however_it_is_written() {
+    // ∫ dx/√(2 (E − V)) at 30 digits
+    for edge in ["1/(1 + exp(x))", "exp(-x)/(1 + exp(-x))", "1/2*(1 - tanh(x/2))"] {
+        let mut run = potential("1.0", "3.0", edge);
+        let speed = 3.088_346_295_793_266_5;
+        near(&run.to(1e4), &[30_884.429_358_784_11, speed], 8e-12);
+        assert!(run.steps < 200, "{edge}: {} steps", run.steps);
+    }
+}
+
+#[test]
+fn quotients_of_what_overflows_have_values_on_both_sides() {
+    for (bounded, left, right) in [
+        ("sinh(x)/cosh(x)", -1.0, 1.0),
+        ("exp(x)/(1 + exp(x))^2", 0.0, 0.0),
+        ("tanh(5*x)^3", -1.0, 1.0),
+        ("exp(-x^2)", 0.0, 0.0),
+        ("exp(x^2)/(1 + exp(x^2)) - 1", 0.0, 0.0),
+        ("1/cosh(3*x)", 0.0, 0.0),
+        ("(exp(x) - exp(-x))/(exp(x) + exp(-x))", -1.0, 1.0),
+    ] {
+        for (velocity, end) in [("-4.0", left), ("4.0", right)] {
+            let mut run = potential("0.5", velocity, bounded);
+            let energy = run.columns()[3];
+            let state = run.to(1e5);
+            let speed = (2.0_f64 * (energy - end)).sqrt();
+            near(&[state[1].abs()], &[speed], 2e-14);
+            near(&run.columns()[3..4], &[energy], 3e-14);
+            assert!(run.steps < 600, "{bounded}: {} steps", run.steps);
+        }
+    }
+}
+
+#[test]
+fn slopes_that_saturate_throw_back() {
+    for (slope, step) in [("ln(cosh(x))", 1.0), ("ln(1 + exp(x)) + ln(1 + exp(-x))", 1.0)] {
+        // far out a constant force: up to some 1.2e4 and back
+        let mut run = potential("0.0", "150.0", slope);
+        let energy = run.columns()[3];
+        let turn = 150.0 / step;
+        run.to(turn);
+        near(&run.columns()[3..4], &[energy], 1e-10);
+        run.to(4.0 * turn);
+        near(&run.columns()[3..4], &[energy], 1e-10);
+        assert!(run.steps < 1000, "{slope}: {} steps", run.steps);
+    }
+}
+
+#[test]
+fn an_essential_singularity_is_passed_where_it_is_felt_by_nothing() {
+    // from 0.7 to −0.7 takes twice ∫ dx/√(2 (E − V)) from 0 to 0.7
+    let mut run = potential("0.7", "-1.3", "exp(-1/x^2)");
+    near(&run.to(1.013_639_773_207_069_9), &[-0.7, -1.3], 1e-14);
+    let energy = run.columns()[3];
+    run.to(200.0);
+    near(&run.columns()[3..4], &[energy], 1e-14);
+}
+
+#[test]
+fn a_steep_wall_is_no_trouble_in_any_unit() {
+    let mut run = potential("1.6", "0.0", "x^40");
+    let energy = run.columns()[3];
+    run.to(1e-3);
+    near(&[run.columns()[3] / energy], &[1.0], 1e-13);
+    for x in ["1e-300", "1e-150", "1e150"] {
+        let mut run = potential(x, "0.0", "1/2*x^2");
+        let state = run.to(3.0);
+        let start: f64 = x.parse().expect("a number");
+        near(&[state[0] / start], &[3.0_f64.cos()], 1e-15);
+    }
+}
+
+#[test]
+fn a_step_ends_when_it_is_asked_to() {
+    let mut run = potential("1.0", "0.0", "x^2/2 + sin(x)");
+    run.to(1.0);
+    run.system.cancel().cancel();
+    let fault = run.try_to(2.0).expect_err("stopped");
+    assert_eq!(fault.kind, FaultKind::Cancelled);
+    assert_eq!(run.stepper.time(), 1.0);
+}
