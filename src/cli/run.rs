@@ -1,5 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
+mod cautions;
 mod events;
 mod invariants;
 mod progress;
@@ -108,6 +109,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
+    cautions::before(&system, method);
 
     let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {
@@ -161,6 +163,7 @@ impl Run {
         });
         let end = ended.map_err(|error| out.failed(&error))?;
         out.finish()?;
+        cautions::after(&self.experiment);
         let chronicle = self.experiment.happenings();
         if chronicle.forgotten() > 0 && format != Format::Csv {
             let (count, forgotten) = (chronicle.count(), chronicle.forgotten());

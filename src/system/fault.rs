@@ -28,6 +28,9 @@ pub enum FaultKind {
     Contradiction,
     /// The constraints leave these velocities at the start free.
     FreeVelocities(Vec<String>),
+    /// What is given of the momenta at the start belongs to each of these velocities (or the
+    /// reverse).
+    SeveralStarts(Vec<String>),
     /// A number of the state or of its rate of change is not finite; the name says which.
     NotFinite(String),
     /// The velocities that belong to given momenta (or the reverse) were not found.
@@ -36,6 +39,8 @@ pub enum FaultKind {
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
     StepUnderflow(f64),
+    /// There are more fixed steps of this size up to this time than can be counted.
+    TooManySteps(f64, f64),
     /// This event comes ever faster and would come without end.
     PilesUp(String),
     /// Somebody asked that it stop.
@@ -70,6 +75,11 @@ impl fmt::Display for Fault {
                 "the constraints do not say with which velocities the motion starts: give {}",
                 names.join(", ")
             )?,
+            FaultKind::SeveralStarts(starts) => write!(
+                f,
+                "what is given belongs to several starts ({}): give one of these instead",
+                starts.join("; ")
+            )?,
             FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
             FaultKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
@@ -80,6 +90,10 @@ impl fmt::Display for Fault {
             FaultKind::StepUnderflow(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
+            FaultKind::TooManySteps(step, until) => write!(
+                f,
+                "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
+            )?,
             FaultKind::PilesUp(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
@@ -97,12 +111,14 @@ impl fmt::Display for Fault {
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
             FaultKind::ConstraintMissed(..)
             | FaultKind::FreeVelocities(_)
+            | FaultKind::SeveralStarts(_)
             | FaultKind::Cancelled => "",
             FaultKind::Contradiction => ": give fewer of them",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
             FaultKind::NoConvergence(_) => ": try a smaller step",
             FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            FaultKind::TooManySteps(..) => ": try a larger step",
             FaultKind::PilesUp(_) => ": give the file an event that stops it before",
             FaultKind::Sticks => ": both sides of a kink push towards it",
         })
