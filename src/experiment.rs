@@ -213,6 +213,18 @@ impl Experiment {
         ))
     }
 
+    /// A sentence where the method's fixed step lies beyond what is stable.
+    pub fn unstable(&self) -> Option<String> {
+        let found = self.motion.unstable()?;
+        Some(format!(
+            "{} is not stable with the step {} where the motion is at t = {}: steps below {} are",
+            self.motion.method().name,
+            short(found.step),
+            short(found.time),
+            short(found.limit)
+        ))
+    }
+
     /// What can be seen of it now.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
@@ -296,6 +308,9 @@ impl Experiment {
         };
         if let Some(sentence) = self.singular_passages() {
             self.tell_once("singular configuration".to_owned(), sentence);
+        }
+        if let Some(sentence) = self.unstable() {
+            self.tell_once(sentence.clone(), sentence);
         }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,

@@ -1,5 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
+mod cautions;
 mod clock;
 mod invariants;
 mod progress;
@@ -134,6 +135,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
+    cautions::before(&system, method);
 
     let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {
@@ -238,6 +240,7 @@ impl Run<'_> {
             self.interrupt.saves();
         }
         out.finish()?;
+        cautions::after(&self.experiment);
         let chronicle = self.experiment.happenings();
         if chronicle.forgotten() > 0 && format != Format::Csv {
             let (count, forgotten) = (chronicle.count(), chronicle.forgotten());

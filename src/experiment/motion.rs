@@ -5,7 +5,7 @@
 
 use super::gauges::{Gauges, Present};
 use crate::expr::Symbol;
-use crate::integrate::{self, Happening, Kind, Method, Reached, Refusal, Settings};
+use crate::integrate::{self, Happening, Kind, Method, Reached, Refusal, Settings, Unstable};
 use crate::system::{Fault, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.
@@ -225,6 +225,11 @@ impl Motion {
 
     pub(super) fn settings(&self) -> Settings {
         self.inner.settings()
+    }
+
+    /// Where its fixed step was found to lie beyond what is stable, if it was.
+    pub(super) fn unstable(&self) -> Option<Unstable> {
+        self.inner.unstable()
     }
 
     /// The present time.

@@ -2,7 +2,7 @@
 //! an interpolant of order 7.
 //!
 //! Every number of the state is judged by its own size within the step, so units do not matter.
-//! Where a step fails, what rounding alone does to the rates is found as well, and no more is
+//! Where a step fails, what rounding alone does to the rates is measured as well, and no more is
 //! asked of a number than its rounding allows: one that is zero by symmetry, up to rounding,
 //! would else stop the clock.
 //!
@@ -30,8 +30,15 @@ const SAFETY: f64 = 0.9;
 /// How many times what rounding does to a rate is allowed for.
 const ROUNDINGS: f64 = 4.0;
 
-/// What is left of it in the next step.
+/// What is left of it in the next step: one measurement may by chance see little.
 const FORGETTING: f64 = 0.8;
+
+/// A step that has to be shorter than this part of the longest one so far leads nowhere: what
+/// moves in both cannot be told by the same digits.
+const SHORTEST: f64 = 1e-15;
+
+/// How often a step is tried shorter where it led to a place without rates.
+const TRIES: u32 = 30;
 
 /// How much shorter and longer than the last a step may be.
 const SHORTER: f64 = 0.333;
@@ -43,6 +50,7 @@ pub(super) const METHOD: Method = Method {
     order: Some(8),
     stepping: Stepping::Adaptive,
     preserves: Preserves::Nothing,
+    locates_kinks: false,
     needs: "",
     about: "The Runge–Kutta method of order 8 that many programs use, for comparison. Kinks are \
             stepped over, not located. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
@@ -66,8 +74,15 @@ struct DormandPrince {
     last: Vec<Vec<f64>>,
     has_interpolant: bool,
     numbers: Vec<f64>,
-    /// What rounding does to each rate, as it was found where a step failed.
+    /// What rounding does to each rate, as it was measured where steps failed.
     noise: Vec<f64>,
+    fresh: Vec<f64>,
+    /// How large each number is within the step under way.
+    sizes: Vec<f64>,
+    /// The state was moved since its slope was taken.
+    stale: bool,
+    /// The longest step since the start.
+    longest: f64,
 }
 
 impl DormandPrince {
@@ -91,7 +106,11 @@ impl DormandPrince {
             last: vec![zeros.clone(); STAGES.len()],
             has_interpolant: false,
             numbers: zeros.clone(),
-            noise: zeros,
+            noise: zeros.clone(),
+            fresh: zeros.clone(),
+            sizes: zeros,
+            stale: false,
+            longest: 0.0,
         })
     }
 
@@ -109,15 +128,21 @@ impl DormandPrince {
         Ok(())
     }
 
+    /// How large each number is within the step attempted: not zero where it passes through zero.
+    fn measure(&mut self, step: f64) {
+        for (i, size) in self.sizes.iter_mut().enumerate() {
+            let (begin, end) = (self.state.values[i], self.next.values[i]);
+            *size = begin.abs().max(end.abs()).max((step * self.slopes[0][i]).abs());
+        }
+    }
+
     /// The error of the step attempted, measured by what is allowed.
     fn error(&self, step: f64) -> f64 {
         if !self.next.is_finite() {
             return f64::INFINITY;
         }
         let (mut fifth, mut third) = (0.0, 0.0);
-        for i in 0..self.numbers.len() {
-            let (begin, end) = (self.state.values[i], self.next.values[i]);
-            let size = begin.abs().max(end.abs()).max((step * self.slopes[0][i]).abs());
+        for (i, size) in self.sizes.iter().enumerate() {
             let allowed = self.tolerance * size + ROUNDINGS * step.abs() * self.noise[i];
             if allowed > 0.0 {
                 let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
@@ -132,6 +157,36 @@ impl DormandPrince {
             _ if error.is_nan() => f64::INFINITY,
             _ => error,
         }
+    }
+
+    /// Measures what rounding does to the rates where the step begins: its end may be anywhere.
+    fn listen(&mut self, step: f64) {
+        let State { time, values, .. } = &self.state;
+        let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
+        let sizes: Vec<f64> = values.iter().zip(&self.slopes[0]).map(size).collect();
+        let place = rounding::Place { time: *time, numbers: values, sizes: &sizes, step };
+        if rounding::measure(&mut self.rates, &place, &mut self.fresh).is_ok() {
+            for (noise, fresh) in self.noise.iter_mut().zip(&self.fresh) {
+                *noise = noise.max(*fresh);
+            }
+        }
+    }
+
+    /// A fault where a step of this size leads nowhere, or where somebody asked to stop. The way
+    /// to the limit (`last`) may be as short as it likes.
+    fn may_try(&self, step: f64, last: bool) -> Result<(), Fault> {
+        let size = step.abs();
+        let kind = if self.system.cancel().is_cancelled() {
+            FaultKind::Cancelled
+        } else if size <= 1e-16 * self.state.time.abs()
+            || size < 1e-290
+            || (size < SHORTEST * self.longest && !last)
+        {
+            FaultKind::StepUnderflow(step)
+        } else {
+            return Ok(());
+        };
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
     /// The slopes that only the interpolant needs.
@@ -178,6 +233,9 @@ impl Stepper for DormandPrince {
         self.before.copy_from(&self.state);
         self.rates.set_parameters(parameters);
         self.size = pace::of(&self.system, state, parameters) * FIRST;
+        self.longest = 0.0;
+        self.noise.fill(0.0);
+        self.stale = false;
         self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
     }
 
@@ -187,6 +245,10 @@ impl Stepper for DormandPrince {
         }
         let time = self.state.exact_time();
         let left = Double::written(limit) - time;
+        if self.stale {
+            self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
+            self.stale = false;
+        }
         for noise in &mut self.noise {
             *noise *= FORGETTING;
         }
@@ -195,15 +257,20 @@ impl Stepper for DormandPrince {
             // a last step that is a little longer rather than one more that is tiny
             let last = 1.01 * self.size >= left.high.abs();
             let step = if last { left.high } else { self.size.copysign(left.high) };
-            if step.abs() <= 1e-16 * time.high.abs() || step.abs() < 1e-290 {
-                let kind = FaultKind::StepUnderflow(step);
-                return Err(self.system.fault(kind, time.high, &self.state.values));
+            self.may_try(step, last)?;
+            if let Err(fault) = self.attempt(step) {
+                // a stage of a step too long may lie where there are no rates
+                if failures == TRIES || fault.kind == FaultKind::Cancelled {
+                    return Err(fault);
+                }
+                self.size = step.abs() * SHORTER;
+                failures += 1;
+                continue;
             }
-            self.attempt(step)?;
+            self.measure(step);
             let mut error = self.error(step);
             if error > 1.0 && error.is_finite() {
-                let (at, slope) = ((time.high, self.state.values.as_slice()), &self.slopes[0]);
-                rounding::listen(&mut self.rates, at, slope, (step, failures), &mut self.noise)?;
+                self.listen(step);
                 error = self.error(step);
             }
             let most = if failures > 0 { 1.0 } else { LONGER };
@@ -213,6 +280,7 @@ impl Stepper for DormandPrince {
                 (self.next.time, self.next.time_carry) = (end.high, end.low);
                 let slope = &mut self.slopes[METHOD_STAGES];
                 self.rates.evaluate(end.high, &self.next.values, slope)?;
+                self.longest = self.longest.max(step.abs());
                 // a step that was cut short says little of the next
                 self.size =
                     if last { self.size.max(step.abs() * factor) } else { self.size * factor };
@@ -230,6 +298,8 @@ impl Stepper for DormandPrince {
     }
 
     fn settle(&mut self, state: &State) {
+        // constraints move it by as much as the tolerance is, which may be more than rounding
+        self.stale |= state.values != self.state.values;
         self.state.copy_from(state);
     }
 

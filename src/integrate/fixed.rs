@@ -1,14 +1,21 @@
 //! What all methods of fixed step have in common: the clock, the direction, looks between steps,
-//! and the step where none is asked for. A method itself is a [`Scheme`].
+//! the step where none is asked for, and whether it is stable. A method itself is a [`Scheme`].
 
 use super::method::{Refusal, Settings};
 use super::pace;
+use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
-use crate::expr::Double;
+use crate::expr::{Double, portable};
 use crate::system::{Fault, FaultKind, Form, State, System};
 
 /// The step where none is asked for, as a part of the motion's [pace](pace::of).
 const PART_OF_PACE: f64 = 1.0 / 10.0;
+
+/// The most steps that can be counted.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
+/// Stability is looked at after 1, 2, 4, … steps, and then whenever so many were taken.
+const STEPS_PER_LOOK: f64 = 256.0;
 
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
@@ -21,6 +28,21 @@ pub(super) trait Scheme: Clone + Send {
     /// Moves the numbers of `state` by one step; its time is that of the beginning, and left
     /// alone.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault>;
+
+    /// The motion begins at a state in the system's own form, which may say more than the
+    /// scheme's.
+    fn begin_near(&mut self, _native: &State) {}
+
+    /// Goes on from what another one, which is at the same place, found last.
+    fn go_on_from(&mut self, _other: &Self) {}
+
+    /// What it makes of modes; `None` where every step is stable.
+    fn modes(&self) -> Option<Modes<'_>> {
+        None
+    }
+
+    /// The rates of change at the numbers of a state.
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault>;
 }
 
 /// A motion in steps that are all alike.
@@ -37,6 +59,9 @@ pub(super) struct FixedStep<S> {
     /// When the steps began, and how many there were: the time is counted, not summed.
     origin: Double,
     count: f64,
+    /// How many steps there were since the start, and what was found on the way.
+    taken: f64,
+    unstable: Option<Unstable>,
     before: State,
     state: State,
     next: State,
@@ -62,6 +87,8 @@ impl<S: Scheme> FixedStep<S> {
             step: Double::ZERO,
             origin: Double::ZERO,
             count: 0.0,
+            taken: 0.0,
+            unstable: None,
             before: state.clone(),
             next: state.clone(),
             state,
@@ -74,6 +101,39 @@ impl<S: Scheme> FixedStep<S> {
         self.origin = self.state.exact_time();
         self.count = 0.0;
         self.scheme.begin(&self.parameters);
+    }
+
+    /// Looks now and then whether the step is stable where the motion is, until it is not.
+    fn look(&mut self) {
+        let n = self.taken;
+        let due = if n < STEPS_PER_LOOK {
+            n == 0.0 || portable::log2(n).fract() == 0.0
+        } else {
+            n % STEPS_PER_LOOK == 0.0
+        };
+        self.taken += 1.0;
+        if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
+            return;
+        }
+        let (time, step, moving) = (self.state.time, self.step.high, self.system.moving());
+        self.aside.begin(&self.parameters);
+        let rates = |numbers: &[f64], out: &mut [f64]| self.aside.rates(time, numbers, out).is_ok();
+        let z = stability::eigenvalues(&self.state.values, moving, step, rates);
+        let limit = self.scheme.modes().and_then(|modes| modes.limit(&z, step));
+        self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
+    }
+
+    /// A fault where somebody asked to stop, or where the way is longer than can be counted.
+    fn may_step(&self, limit: f64) -> Result<(), Fault> {
+        let way = (limit - self.origin.high).abs() / self.step.high.abs();
+        let kind = if self.system.cancel().is_cancelled() {
+            FaultKind::Cancelled
+        } else if limit.is_finite() && way > MOST_STEPS {
+            FaultKind::TooManySteps(self.step.high.abs(), limit)
+        } else {
+            return Ok(());
+        };
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 }
 
@@ -92,6 +152,8 @@ impl<S: Scheme> Stepper for FixedStep<S> {
             }
         };
         self.count_from_here(step);
+        self.scheme.begin_near(state);
+        self.taken = 0.0;
         Ok(())
     }
 
@@ -102,6 +164,8 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         if (limit > self.state.time) != (self.step.high > 0.0) {
             self.count_from_here(-self.step);
         }
+        self.may_step(limit)?;
+        self.look();
         self.next.copy_from(&self.state);
         self.scheme.advance(self.step.high, &mut self.next)?;
         let time = self.origin + self.step * (self.count + 1.0);
@@ -139,6 +203,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
             return Ok(());
         }
         self.aside.begin(&self.parameters);
+        self.aside.go_on_from(&self.scheme);
         let step = Double::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);
@@ -147,6 +212,10 @@ impl<S: Scheme> Stepper for FixedStep<S> {
 
     fn step_size(&self) -> f64 {
         self.step.high
+    }
+
+    fn unstable(&self) -> Option<Unstable> {
+        self.unstable
     }
 }
 

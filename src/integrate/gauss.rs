@@ -28,8 +28,8 @@ const PASSES: usize = 120;
 /// A number moves by rounding alone only where it moves by less than this part of its size …
 const SMALL: f64 = 1e-9;
 
-/// … or, looked at where so many passes did not suffice, by so many times what rounding does to
-/// its rate.
+/// … or, looked at whenever so many passes did not suffice, by so many times what rounding does
+/// to its rate.
 const PATIENCE: usize = 12;
 const ROUNDINGS: f64 = 64.0;
 
@@ -39,6 +39,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     order: Some(4),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: "",
     about: "Collocation at two points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
@@ -57,6 +58,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     order: Some(6),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: "",
     about: "Collocation at three points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
@@ -91,6 +93,7 @@ struct Gauss {
     resting: Vec<bool>,
     /// What rounding does to each rate, once it is asked for.
     noise: Vec<f64>,
+    sizes: Vec<f64>,
     scratch: Vec<Vec<f64>>,
 }
 
@@ -107,6 +110,7 @@ impl Gauss {
             moves: vec![[0.0; 2]; s * n],
             resting: vec![false; s * n],
             noise: vec![0.0; n],
+            sizes: vec![0.0; n],
             scratch: zeros,
         }
     }
@@ -174,19 +178,37 @@ impl Gauss {
         Ok(rest)
     }
 
+    /// Measures what rounding does to the rates at the first stage.
+    fn listen(&mut self, step: f64, state: &State) {
+        let (stage, slope) = (&self.stages[0], &self.slopes[0]);
+        for (i, size) in self.sizes.iter_mut().enumerate() {
+            *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
+        }
+        let time = state.time + self.tableau.nodes[0].high * step;
+        let place = rounding::Place { time, numbers: stage, sizes: &self.sizes, step };
+        if rounding::measure(&mut self.rates, &place, &mut self.noise).is_err() {
+            self.noise.fill(0.0);
+        }
+    }
+
     fn solve(&mut self, step: f64, state: &State) -> Result<(), Fault> {
         self.noise.fill(0.0);
         self.resting.fill(false);
         self.place(step, state);
-        for count in 0..PASSES {
-            if count >= PATIENCE {
-                let (time, values, slope) = (state.time, &state.values, &mut self.scratch[0]);
-                self.rates.evaluate(time, values, slope)?;
-                let round = (step, count - PATIENCE);
-                rounding::listen(&mut self.rates, (time, values), slope, round, &mut self.noise)?;
+        for count in 1..=PASSES {
+            if self.rates.system().cancel().is_cancelled() {
+                let kind = FaultKind::Cancelled;
+                return Err(self.rates.system().fault(kind, state.time, &state.values));
             }
-            if self.pass(count, step, state)? {
-                return Ok(());
+            match self.pass(count - 1, step, state) {
+                Ok(true) => return Ok(()),
+                Ok(false) => {}
+                // a stage that is far off may lie where there are no rates
+                Err(_) if count > 1 => break,
+                Err(fault) => return Err(fault),
+            }
+            if count % PATIENCE == 0 {
+                self.listen(step, state);
             }
             if self.stages.iter().flatten().any(|x| !x.is_finite()) {
                 break;
@@ -209,6 +231,18 @@ impl Scheme for Gauss {
     fn begin(&mut self, parameters: &[f64]) {
         self.rates.set_parameters(parameters);
         self.contiguous = false;
+    }
+
+    fn begin_near(&mut self, native: &State) {
+        self.rates.begin_near(native);
+    }
+
+    fn go_on_from(&mut self, other: &Gauss) {
+        self.rates.go_on_from(&other.rates);
+    }
+
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+        self.rates.evaluate(time, numbers, out)
     }
 
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {

@@ -11,6 +11,7 @@ pub(super) const METHOD: Method = Method {
     order: Some(2),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Half a kick, a drift, half a kick: the simplest symplectic method. Energy swings a \
             little and does not drift. Hairer, Lubich & Wanner, Geometric Numerical Integration, \

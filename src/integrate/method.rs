@@ -29,6 +29,8 @@ pub struct Method {
     pub stepping: Stepping,
     /// What it keeps.
     pub preserves: Preserves,
+    /// Whether steps end on kinks of the motion, rather than pass over them.
+    pub locates_kinks: bool,
     /// What a system must be for it, in words; empty where any will do.
     pub needs: &'static str,
     /// What it is good for, in a sentence or two, and its source.

@@ -10,7 +10,7 @@ mod watch;
 use super::calendar::Calendar;
 use super::crossing::{Crossings, Found};
 use super::haste::Haste;
-use super::{Method, Refusal, Settings, Stepper};
+use super::{Method, Refusal, Settings, Stepper, Unstable};
 use crate::expr::Double;
 use crate::system::{Fault, FaultKind, Form, Keeper, State, System};
 pub use happening::{Happening, Kind};
@@ -47,6 +47,9 @@ pub struct Motion {
     state: State,
     /// The state before the last blow.
     before: State,
+    /// Where the motion last went on from, in the system's own form: velocities that momenta alone
+    /// do not tell are looked for near it.
+    near: State,
     /// Up to here the last step holds no event that is not known.
     clear: f64,
     /// What happens there.
@@ -83,7 +86,8 @@ impl Motion {
             parameters: parameters.to_vec(),
             start: 0.0,
             state: blank.clone(),
-            before: blank,
+            before: blank.clone(),
+            near: blank,
             clear: 0.0,
             waiting: None,
             haste: vec![Haste::NONE; system.occasions().events.len()],
@@ -192,8 +196,9 @@ impl Motion {
         if state.form == self.system.form() {
             self.state.copy_from(state);
         } else {
-            self.state = self.system.convert(state, self.system.form(), &self.parameters)?;
+            self.state = self.to_own(state)?;
         }
+        self.near.copy_from(&self.state);
         self.clear = state.time;
         self.waiting = None;
         if let Some(crossings) = &mut self.crossings {
@@ -317,7 +322,15 @@ impl Motion {
 
     /// The present in the system's own form.
     fn own(&self) -> Result<State, Fault> {
-        self.system.convert(&self.state, self.system.form(), &self.parameters)
+        self.to_own(&self.state)
+    }
+
+    fn to_own(&self, state: &State) -> Result<State, Fault> {
+        if self.near.values.is_empty() {
+            self.system.convert(state, self.system.form(), &self.parameters)
+        } else {
+            self.system.convert_near(state, &self.near, &self.parameters)
+        }
     }
 }
 
@@ -394,6 +407,11 @@ impl Motion {
     /// The step last taken.
     pub fn step_size(&self) -> f64 {
         self.stepper.step_size()
+    }
+
+    /// Where the method's fixed step was found to lie beyond its stability, if it was.
+    pub fn unstable(&self) -> Option<Unstable> {
+        self.stepper.unstable()
     }
 
     /// How far the present is from keeping each constraint: position and velocity, measured by the

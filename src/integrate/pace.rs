@@ -13,22 +13,53 @@ const TOLERANCE: f64 = 1e-9;
 /// How many steps it looks ahead.
 const AHEAD: usize = 48;
 
+/// How many of the most accurate ones.
+const A_FEW: usize = 4;
+
+/// Steps shorter than this part of the longest one do not count: where a singularity lies ahead
+/// they become shorter without end, and say nothing of the way there.
+const SHORTEST: f64 = 1e-4;
+
 /// Beyond every time scale there is.
 const FAR: f64 = 1e20;
 
 /// The pace where there is no telling: nothing changes, or only as a polynomial in time.
 const UNKNOWN: f64 = 1.0;
 
+/// Where the steps of modest accuracy are shorter than this part of the most accurate ones, which
+/// carry more digits, it is rounding that shortens them: a number that is zero but for rounding.
+const BY_ROUNDING: f64 = 1e-3;
+
 /// A step length that three in four steps of the motion ahead exceed, or else 1.
 pub(super) fn of(system: &System, state: &State, parameters: &[f64]) -> f64 {
-    let settings = Settings { step: None, tolerance: Some(TOLERANCE) };
-    let Ok(mut ahead) = (taylor::METHOD.make)(system, &settings) else { return UNKNOWN };
-    let mut steps = Vec::with_capacity(AHEAD);
-    if ahead.start(state, parameters).is_ok() {
-        while steps.len() < AHEAD && ahead.step(FAR).is_ok() && ahead.time() < FAR {
-            steps.push(ahead.step_size());
-        }
+    let modest = ahead(system, state, parameters, (Some(TOLERANCE), AHEAD));
+    let exact = ahead(system, state, parameters, (None, A_FEW));
+    match (modest, exact) {
+        (Some(modest), Some(exact)) if modest < BY_ROUNDING * exact => exact,
+        (Some(modest), _) => modest,
+        (None, exact) => exact.unwrap_or(UNKNOWN),
     }
+}
+
+/// The same of the steps at one tolerance.
+fn ahead(
+    system: &System,
+    state: &State,
+    parameters: &[f64],
+    (tolerance, count): (Option<f64>, usize),
+) -> Option<f64> {
+    let mut ahead = (taylor::METHOD.make)(system, &Settings { step: None, tolerance }).ok()?;
+    let mut steps = Vec::with_capacity(count);
+    ahead.start(state, parameters).ok()?;
+    while steps.len() < count
+        && !system.cancel().is_cancelled()
+        && ahead.step(FAR).is_ok()
+        && ahead.time() < FAR
+    {
+        steps.push(ahead.step_size());
+    }
+    let longest = steps.iter().copied().fold(0.0, f64::max);
+    steps.retain(|step| *step >= SHORTEST * longest);
     steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 4).copied().unwrap_or(UNKNOWN)
+    steps.get(steps.len() / 4).copied()
 }

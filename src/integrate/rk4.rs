@@ -8,6 +8,8 @@
 
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
+use super::stability::Modes;
+use crate::expr::portable;
 use crate::system::{Fault, Form, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
@@ -16,6 +18,7 @@ pub(super) const METHOD: Method = Method {
     order: Some(4),
     stepping: Stepping::Fixed,
     preserves: Preserves::Nothing,
+    locates_kinks: false,
     needs: "",
     about: "The classic method of order 4, for comparison: accurate for a while, but it gains or \
             loses energy steadily. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
@@ -75,4 +78,21 @@ impl Scheme for RungeKutta {
         add(state, step, &self.sum);
         Ok(())
     }
+
+    fn modes(&self) -> Option<Modes<'_>> {
+        Some(Modes { growth: |_, z| growth(z), weights: &[] })
+    }
+
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+        self.rates.evaluate(time, numbers, out)
+    }
+}
+
+/// |1 + z + z²/2 + z³/6 + z⁴/24|.
+fn growth([re, im]: [f64; 2]) -> f64 {
+    let (mut a, mut b) = (1.0, 0.0);
+    for k in [4.0, 3.0, 2.0, 1.0] {
+        (a, b) = (1.0 + (re * a - im * b) / k, (re * b + im * a) / k);
+    }
+    portable::hypot(a, b)
 }

@@ -7,6 +7,7 @@
 
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Made, Method, Refusal, Settings};
+use super::stability::Modes;
 use crate::system::{Fault, Form, Rates, State, System};
 
 /// What a system must be for it.
@@ -74,4 +75,33 @@ impl Scheme for Splitting {
         self.known = true;
         Ok(())
     }
+
+    fn modes(&self) -> Option<Modes<'_>> {
+        Some(Modes { growth, weights: &self.weights })
+    }
+
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+        self.drift.evaluate(time, numbers, out)?;
+        self.kick.evaluate(time, numbers, out)
+    }
+}
+
+/// By how much an oscillation q' = p, p' = −θ² q grows in one step of size 1, with iθ = z; what
+/// does not oscillate is not judged. The step is a matrix of determinant 1, so its trace tells.
+fn growth(weights: &[f64], [re, im]: [f64; 2]) -> f64 {
+    if im.abs() <= 10.0 * re.abs() {
+        return 1.0;
+    }
+    let square = im * im;
+    // the columns of the matrix, as the states (q, p) that begin at (1, 0) and (0, 1)
+    let mut states = [[1.0, 0.0], [0.0, 1.0]];
+    for [q, p] in &mut states {
+        for w in weights {
+            *p -= 0.5 * w * square * *q;
+            *q += w * *p;
+            *p -= 0.5 * w * square * *q;
+        }
+    }
+    let half = 0.5 * (states[0][0] + states[1][1]).abs();
+    if half <= 1.0 { 1.0 } else { half + (half * half - 1.0).sqrt() }
 }

@@ -1,5 +1,6 @@
 //! What every method can do.
 
+use super::Unstable;
 use crate::expr::Double;
 use crate::system::{Fault, Form, State};
 
@@ -44,6 +45,11 @@ pub trait Stepper: Send {
     fn step_size(&self) -> f64 {
         let (begin, end) = self.interval();
         end - begin
+    }
+
+    /// Where the fixed step was found to lie beyond what is stable, if it was.
+    fn unstable(&self) -> Option<Unstable> {
+        None
     }
 
     /// The form the method works in, and that its states have.

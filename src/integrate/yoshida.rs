@@ -28,6 +28,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     order: Some(4),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Three leapfrogs, the middle one backwards: order 4 without a drift of energy. \
             Yoshida, Physics Letters A 150 (1990) 262, eq. 4.1.",
@@ -44,6 +45,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     order: Some(6),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Seven leapfrogs of different length: order 6 without a drift of energy. Yoshida, \
             Physics Letters A 150 (1990) 262, solution A.",
@@ -57,6 +59,7 @@ pub(super) const EIGHTH_ORDER: Method = Method {
     order: Some(8),
     stepping: Stepping::Fixed,
     preserves: Preserves::Symplectic,
+    locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Fifteen leapfrogs of different length: order 8 without a drift of energy, for small \
             errors at large steps. Yoshida, Physics Letters A 150 (1990) 262, solution D.",

@@ -190,6 +190,11 @@ impl System {
         self.driven() + self.shared.quadratures.count()
     }
 
+    /// Whether the rates of change have kinks or jumps: of `abs`, `sign`, `min`, `max`.
+    pub fn has_kinks(&self) -> bool {
+        self.shared.motion.native.switches() > 0
+    }
+
     /// The form its states have where no method asks for another: velocities for a Lagrangian,
     /// momenta for a Hamiltonian.
     pub fn form(&self) -> Form {
@@ -287,16 +292,54 @@ impl System {
             legendre
                 .solve(time, &mut state, &targets)
                 .map_err(|why| self.unsolved(why, time.high, &state))?;
+            let solutions = legendre.solutions(time, &state, &targets);
+            if solutions.len() > 1 {
+                return Err(self.several(time.high, &solutions, &targets));
+            }
         }
         let state = self.state_of(time, self.form(), &state);
         self.check_finite(&state)?;
         Ok(state)
     }
 
-    /// The same state in another form.
+    /// The same state in another form. Where several velocities belong to the momenta, those are
+    /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
     pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
-        let mut legendre = self.legendre(&self.inputs(parameters));
+        let inputs = self.inputs(parameters);
+        let mut legendre = self.legendre(&inputs);
+        if state.form != form && self.has_branches() && form == self.form() {
+            let values = self.initial_program(&inputs);
+            let rates = (self.degrees()..self.moving()).map(|i| values.output(i)).collect();
+            return self.convert_from(&mut legendre, state, rates);
+        }
         self.convert_by(&mut legendre, state, form, None)
+    }
+
+    /// To the native form, from a guess of the rates that need not be near.
+    fn convert_from(
+        &self,
+        legendre: &mut Legendre,
+        state: &State,
+        rates: Vec<Double>,
+    ) -> Result<State, Fault> {
+        let n = self.degrees();
+        let targets: Vec<_> = (n..2 * n).map(|i| Some(state.exact(i))).collect();
+        let mut numbers: Vec<Double> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
+        let outcome = legendre.solve(state.exact_time(), &mut numbers, &targets);
+        outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
+        let mut result = state.clone();
+        result.form = self.form();
+        for (i, &x) in numbers.iter().enumerate() {
+            result.set(i, x);
+        }
+        self.check_finite(&result)?;
+        Ok(result)
+    }
+
+    /// Whether velocities are found from momenta by iteration only: several may belong to the
+    /// same.
+    pub(super) fn has_branches(&self) -> bool {
+        self.form() == Form::Velocity && !self.motion().canonical.1
     }
 
     /// Carries a state through a jump of the parameters: q and p are kept, and so q̇ may change.
@@ -345,7 +388,10 @@ impl System {
             for i in n..2 * n {
                 numbers[i] = guess.map_or(Double::ZERO, |guess| guess.exact(i));
             }
-            legendre.solve(time, &mut numbers, &targets)
+            match guess {
+                Some(_) => legendre.follow(time, &mut numbers, &targets),
+                None => legendre.solve(time, &mut numbers, &targets),
+            }
         } else {
             let mut other = vec![Double::ZERO; n];
             let outcome = legendre.other_rates(time, &numbers, &mut other);
@@ -360,8 +406,9 @@ impl System {
         Ok(result)
     }
 
-    /// The same in the system's own form, near a state that has it already.
-    pub(super) fn convert_near(
+    /// The same in the system's own form, near a state that has it already: on the same branch,
+    /// where several velocities belong to the momenta.
+    pub fn convert_near(
         &self,
         state: &State,
         near: &State,
@@ -564,6 +611,22 @@ impl System {
         let kind =
             if held { FaultKind::SingularConstraints(None) } else { FaultKind::SingularMass };
         Fault { time, kind, place: place.take(4).collect() }
+    }
+
+    /// The fault of given momenta (or velocities) that do not say with which rates the motion
+    /// starts.
+    fn several(&self, time: f64, solutions: &[Vec<Double>], targets: &[Option<Double>]) -> Fault {
+        let n = self.degrees();
+        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
+        let first = if self.form() == Form::Momentum { 2 * n } else { n };
+        let told = |solution: &Vec<Double>| {
+            let rate = |&i: &usize| {
+                format!("{} = {}", self.channels()[first + i].name, solution[n + i].high)
+            };
+            unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
+        };
+        let kind = FaultKind::SeveralStarts(solutions.iter().map(told).collect());
+        Fault { time, kind, place: Vec::new() }
     }
 
     /// The fault of a relation between velocities and momenta that was not solved.

@@ -42,6 +42,9 @@ pub enum FaultKind {
     Contradiction,
     /// The constraints leave these velocities at the start free.
     FreeVelocities(Vec<String>),
+    /// What is given of the momenta at the start belongs to each of these velocities (or the
+    /// reverse).
+    SeveralStarts(Vec<String>),
     /// A number of the state or of its rate of change is not finite; the name says which.
     NotFinite(String),
     /// The velocities that belong to given momenta (or the reverse) were not found.
@@ -54,6 +57,8 @@ pub enum FaultKind {
     ClockStands(f64),
     /// This impulse is to strike again after an interval that is none: zero, negative or not finite.
     NoInterval(String, f64),
+    /// There are more fixed steps of this size up to this time than can be counted.
+    TooManySteps(f64, f64),
     /// This event comes ever faster and would come without end.
     PilesUp(String),
     /// Somebody asked that it stop.
@@ -92,6 +97,11 @@ impl fmt::Display for Fault {
                 "the constraints do not say with which velocities the motion starts: give {}",
                 names.join(", ")
             )?,
+            FaultKind::SeveralStarts(starts) => write!(
+                f,
+                "what is given belongs to several starts ({}): give one of these instead",
+                starts.join("; ")
+            )?,
             FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
             FaultKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
@@ -111,6 +121,10 @@ impl fmt::Display for Fault {
             FaultKind::NoInterval(name, interval) => {
                 write!(f, "the impulse `{name}` cannot strike every {}", short(*interval))?;
             }
+            FaultKind::TooManySteps(step, until) => write!(
+                f,
+                "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
+            )?,
             FaultKind::PilesUp(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
@@ -143,6 +157,7 @@ impl fmt::Display for Fault {
             FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
             FaultKind::ConstraintMissed(..)
             | FaultKind::FreeVelocities(_)
+            | FaultKind::SeveralStarts(_)
             | FaultKind::Cancelled => "",
             FaultKind::Contradiction => ": give fewer of them",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
@@ -151,6 +166,7 @@ impl fmt::Display for Fault {
             FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             FaultKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             FaultKind::NoInterval(..) => ": its interval must be above zero",
+            FaultKind::TooManySteps(..) => ": try a larger step",
             FaultKind::PilesUp(_) => ": give the file an event that stops it before",
             FaultKind::Rough => {
                 ": the rates of change have no limit there; --method dop853 may pass it"

@@ -1,5 +1,9 @@
 //! Between velocities and momenta, by Newton's method: p = ∂L/∂q̇ solved for q̇, or q̇ = ∂H/∂p
-//! solved for p. Where the relation is linear the first step is the last.
+//! solved for p. Where the relation is linear the first step is the last; where it is not
+//! one-to-one, several solutions belong to the same momenta.
+//!
+//! What an equation misses is measured by the size of its terms, so that a velocity that is
+//! exactly zero is found like any other.
 
 use std::sync::Arc;
 
@@ -14,6 +18,30 @@ use crate::mechanics::Flow;
 /// How often a step may be halved, and how many steps there may be.
 const HALVINGS: u32 = 60;
 const STEPS: u32 = 100;
+
+/// What an equation misses is rounding in double-double where it is this part of its terms …
+const ROUNDING: f64 = 1e-29;
+
+/// … or this part, and no step makes it smaller.
+const STUBBORN: f64 = 1e-20;
+
+/// Where more than this part is missed nothing is solved, however little the last step changed: it
+/// is stuck where the relation turns back.
+const SETTLED: f64 = 1e-15;
+
+/// A first step that leaves at most this part of what was missed leads to the solution nearest to
+/// the guess: the relation hardly bends between them.
+const TAME: f64 = 0.25;
+
+/// In how many parts the way to a solution is gone where it is too far for one step.
+const PARTS: [u32; 3] = [4, 16, 64];
+
+/// Two solutions whose numbers differ by less than this part of their size are one.
+const ALIKE: f64 = 1e-8;
+
+/// From where other solutions are looked for: the first one with one of its numbers replaced by so
+/// many times its size.
+const ELSEWHERE: [f64; 10] = [-1.0, 0.5, -0.5, 2.0, -2.0, 0.1, -0.1, 10.0, -10.0, 0.0];
 
 /// The relation's program: of a state in the native form, the other rates, then the matrix of
 /// their derivatives with respect to the native ones.
@@ -120,16 +148,121 @@ impl Legendre {
         Ok(())
     }
 
+    /// The same, but along the branch of solutions that the first guess, which belongs to momenta
+    /// nearby, lies on; where that ends, there is no solution.
+    pub(super) fn follow(
+        &mut self,
+        time: Double,
+        state: &mut [Double],
+        targets: &[Option<Double>],
+    ) -> Result<(), Unsolved> {
+        let n = self.degrees;
+        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
+        self.state.copy_from_slice(&state[..2 * n]);
+        let direct = self.iterate(time, targets, &unknown);
+        if !direct.as_ref().is_ok_and(|&left| left <= TAME) {
+            self.go_in_parts(time, state, targets, &unknown)?;
+        }
+        state[n..2 * n].copy_from_slice(&self.state[n..]);
+        Ok(())
+    }
+
+    /// From the momenta that belong to the guess to those wanted, in ever smaller parts.
+    fn go_in_parts(
+        &mut self,
+        time: Double,
+        guess: &[Double],
+        targets: &[Option<Double>],
+        unknown: &[usize],
+    ) -> Result<(), Unsolved> {
+        let n = self.degrees;
+        self.values.evaluate(time, &guess[..2 * n])?;
+        let begin: Vec<Double> = (0..n).map(|i| self.values.output(i)).collect();
+        let mut outcome = Err(Unsolved::NotConverging);
+        for parts in PARTS {
+            self.state.copy_from_slice(&guess[..2 * n]);
+            for part in 1..=parts {
+                let share = f64::from(part) / f64::from(parts);
+                let between = |i: usize| targets[i].map(|p| begin[i] + (p - begin[i]) * share);
+                let targets: Vec<_> = (0..n).map(between).collect();
+                outcome = match self.iterate(time, &targets, unknown) {
+                    Ok(left) if left <= TAME => Ok(()),
+                    Ok(_) => Err(Unsolved::NotConverging),
+                    Err(why) => Err(why),
+                };
+                if outcome.is_err() {
+                    break;
+                }
+            }
+            if outcome.is_ok() {
+                break;
+            }
+        }
+        outcome
+    }
+
+    /// All solutions that are found where one, in `state`, is known: it comes first. Those are
+    /// looked for that differ from it by going far along one of the numbers or by changing all
+    /// signs.
+    pub(super) fn solutions(
+        &mut self,
+        time: Double,
+        state: &[Double],
+        targets: &[Option<Double>],
+    ) -> Vec<Vec<Double>> {
+        let n = self.degrees;
+        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
+        let first = state[..2 * n].to_vec();
+        let size = |x: &[Double], i: usize| x[n + i].high.abs();
+        let largest = unknown.iter().map(|&i| size(&first, i)).fold(0.0, f64::max);
+        let largest = if largest > 0.0 { largest } else { 1.0 };
+        let mut starts = Vec::new();
+        for &i in &unknown {
+            let own = if size(&first, i) > 0.0 { size(&first, i) } else { largest };
+            for part in ELSEWHERE {
+                let mut start = first.clone();
+                start[n + i] = Double::from(part * own);
+                starts.push(start);
+            }
+        }
+        let mut turned = first.clone();
+        turned[n..].iter_mut().for_each(|x| *x = -*x);
+        starts.push(turned);
+        let mut found = vec![first];
+        for start in starts {
+            self.state.copy_from_slice(&start);
+            if self.iterate(time, targets, &unknown).is_err() {
+                continue;
+            }
+            let alike = |known: &Vec<Double>| {
+                unknown.iter().all(|&i| {
+                    let apart = (known[n + i] - self.state[n + i]).high.abs();
+                    apart <= ALIKE * size(known, i).max(size(&self.state, i)).max(ALIKE * largest)
+                })
+            };
+            if !found.iter().any(alike) {
+                found.push(self.state.clone());
+            }
+        }
+        found
+    }
+
+    /// Newton's iteration from what stands in `self.state`; how much of what was missed the first
+    /// step left.
     fn iterate(
         &mut self,
         time: Double,
         targets: &[Option<Double>],
         unknown: &[usize],
-    ) -> Result<(), Unsolved> {
+    ) -> Result<f64, Unsolved> {
         let n = self.degrees;
         let mut factored = Factored::new(unknown.len());
+        // of the equations where a step begins, and where it ends: never of a trial far off
+        let mut scales = vec![0.0; unknown.len()];
+        let mut scales_there = scales.clone();
         let mut step = vec![Double::ZERO; unknown.len()];
-        let mut residual = self.residual(time, targets, unknown, &mut step)?;
+        self.missing(time, targets, unknown, &mut scales, &mut step)?;
+        let mut left = None;
         let mut last_change = f64::INFINITY;
         for _ in 0..STEPS {
             let values = &self.values;
@@ -137,11 +270,13 @@ impl Legendre {
             if !regular {
                 return Err(Unsolved::Singular);
             }
+            let missed = step.clone();
             factored.solve(&mut step);
             let before: Vec<Double> = unknown.iter().map(|&i| self.state[n + i]).collect();
             let mut size = 1.0;
             let mut next = vec![Double::ZERO; unknown.len()];
             let mut change = 0.0_f64;
+            let (mut old, mut new) = (f64::INFINITY, f64::INFINITY);
             for halving in 0..=HALVINGS {
                 change = 0.0;
                 for (k, &i) in unknown.iter().enumerate() {
@@ -151,9 +286,13 @@ impl Legendre {
                         change = change.max((step[k].high * size).abs() / scale);
                     }
                 }
-                let new = self.residual(time, targets, unknown, &mut next)?;
-                if new <= residual || new == 0.0 || (change < 1e-20 && new.is_finite()) {
-                    residual = new;
+                self.missing(time, targets, unknown, &mut scales_there, &mut next)?;
+                (old, new) = (largest(&missed, &scales), largest(&next, &scales));
+                let at_rounding = (halving == 0 && change < 1e-20) || old <= STUBBORN;
+                if new <= old || new == 0.0 || (at_rounding && new.is_finite()) {
+                    if halving > 0 {
+                        left = Some(1.0);
+                    }
                     break;
                 }
                 if halving == HALVINGS {
@@ -161,9 +300,16 @@ impl Legendre {
                 }
                 size *= 0.5;
             }
-            // at rest: the correction is beyond all digits shown, or no longer shrinks there
-            if residual == 0.0 || change < 1e-26 || (change < 1e-18 && change >= last_change) {
-                return Ok(());
+            left.get_or_insert(if old <= STUBBORN { 0.0 } else { new / old });
+            std::mem::swap(&mut scales, &mut scales_there);
+            new = largest(&next, &scales);
+            // at rest: the correction is beyond all digits shown, or nothing shrinks any more
+            let no_more_missed =
+                old <= STUBBORN && (new <= ROUNDING || (new <= STUBBORN && new >= 0.5 * old));
+            let settled =
+                new <= SETTLED && (change < 1e-26 || (change < 1e-18 && change >= last_change));
+            if new == 0.0 || no_more_missed || settled {
+                return Ok(left.unwrap_or(0.0));
             }
             last_change = change;
             step.copy_from_slice(&next);
@@ -171,21 +317,35 @@ impl Legendre {
         Err(Unsolved::NotConverging)
     }
 
-    /// target − value where there is a target, into `out`; gives its greatest relative size.
-    fn residual(
+    /// target − value where there is a target, into `out`, and the size of the terms of
+    /// each equation into `scales`.
+    fn missing(
         &mut self,
         time: Double,
         targets: &[Option<Double>],
         unknown: &[usize],
+        scales: &mut [f64],
         out: &mut [Double],
-    ) -> Result<f64, Unsolved> {
+    ) -> Result<(), Unsolved> {
+        let n = self.degrees;
         self.values.evaluate(time, &self.state)?;
-        let mut size = 0.0_f64;
-        for (x, &i) in out.iter_mut().zip(unknown) {
-            *x = targets[i].unwrap_or(Double::ZERO) - self.values.output(i);
-            let part = x.high.abs();
-            size = if part.is_finite() { size.max(part) } else { f64::INFINITY };
+        for ((x, scale), &i) in out.iter_mut().zip(scales).zip(unknown) {
+            let (target, value) = (targets[i].unwrap_or(Double::ZERO), self.values.output(i));
+            *x = target - value;
+            let part = |j: usize| (self.values.output(n + i * n + j) * self.state[n + j]).high;
+            let parts: f64 = (0..n).map(|j| part(j).abs()).sum();
+            *scale = target.high.abs() + value.high.abs() + parts;
         }
-        Ok(size)
+        Ok(())
     }
+}
+
+/// The largest part of its terms that an equation misses.
+fn largest(missing: &[Double], scales: &[f64]) -> f64 {
+    let parts = missing.iter().zip(scales).map(|(x, &scale)| match x.high {
+        0.0 => 0.0,
+        x if x.is_finite() && scale > 0.0 => x.abs() / scale,
+        _ => f64::INFINITY,
+    });
+    parts.fold(0.0, f64::max)
 }

@@ -14,6 +14,8 @@ pub struct Observer {
     drawn: Values<f64>,
     energy: Values<f64>,
     legendre: Legendre,
+    /// The state looked at last, in the native form: kept where momenta alone do not tell it.
+    near: Option<State>,
     parameters: Vec<f64>,
     inputs: Vec<Double>,
     rounded: Vec<f64>,
@@ -28,6 +30,7 @@ impl Observer {
             drawn: Values::new(Arc::clone(&watch.drawn)),
             energy: Values::new(system.energy_program()),
             legendre: system.legendre(&system.inputs(parameters)),
+            near: None,
             parameters: Vec::new(),
             inputs: vec![Double::ZERO; inputs],
             rounded: vec![0.0; inputs],
@@ -99,10 +102,22 @@ impl Observer {
 
     /// The inputs of the programs: the state in the native form, then action and work.
     fn take_in(&mut self, state: &State) -> Result<(), Fault> {
-        if state.form == self.system.form() {
+        let form = self.system.form();
+        if state.form == form {
             self.system.inputs_of(state, &mut self.inputs);
+            if self.system.has_branches() {
+                self.near = Some(state.clone());
+            }
+        } else if self.system.has_branches() {
+            let native = match &self.near {
+                Some(near) => {
+                    self.system.convert_by(&mut self.legendre, state, form, Some(near))?
+                }
+                None => self.system.convert(state, form, &self.parameters)?,
+            };
+            self.system.inputs_of(&native, &mut self.inputs);
+            self.near = Some(native);
         } else {
-            let form = self.system.form();
             let native = self.system.convert_by(&mut self.legendre, state, form, None)?;
             self.system.inputs_of(&native, &mut self.inputs);
         }

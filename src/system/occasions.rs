@@ -144,6 +144,8 @@ pub struct Triggers {
     resolution: Resolution,
     rounded: Vec<f64>,
     inputs: Vec<Double>,
+    /// The state looked at last, in the native form, where momenta alone do not tell it.
+    near: Option<State>,
 }
 
 impl Triggers {
@@ -175,8 +177,12 @@ impl Triggers {
         if state.form == form {
             self.system.inputs_of(state, &mut self.inputs);
         } else {
-            let own = self.system.convert(state, form, &self.parameters)?;
+            let own = match &self.near {
+                Some(near) => self.system.convert_near(state, near, &self.parameters)?,
+                None => self.system.convert(state, form, &self.parameters)?,
+            };
             self.system.inputs_of(&own, &mut self.inputs);
+            self.near = Some(own).filter(|_| self.system.has_branches());
         }
         Ok(())
     }
@@ -230,6 +236,7 @@ impl System {
             ),
             rounded: vec![0.0; inputs],
             inputs: vec![Double::ZERO; inputs],
+            near: None,
         };
         triggers.set_parameters(parameters);
         Some(triggers)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::legendre::{Legendre, Unsolved};
 use super::program::Program;
 use super::value::Values;
-use super::{Fault, Form, System};
+use super::{Fault, Form, State, System};
 use crate::expr::Double;
 
 /// The rate of change of every number of a state, as a function of time and these numbers. Holds
@@ -28,6 +28,8 @@ struct Solver {
     legendre: Legendre,
     /// (q, q̇), as solved last.
     native: Vec<Double>,
+    /// Whether that belongs to the motion under way, whose velocities are to change steadily.
+    under_way: bool,
     targets: Vec<Option<Double>>,
     rounded: Vec<f64>,
 }
@@ -49,6 +51,7 @@ impl System {
             rates.solver = Some(Solver {
                 legendre: self.blank_legendre(),
                 native: vec![Double::ZERO; 2 * n],
+                under_way: false,
                 targets: vec![None; n],
                 rounded: vec![0.0; self.driven()],
             });
@@ -93,7 +96,26 @@ impl Rates {
         self.values.set_parameters(&parameters);
         if let Some(solver) = &mut self.solver {
             solver.legendre.set_parameters(&parameters);
-            solver.native.fill(Double::ZERO);
+            solver.under_way = false;
+        }
+    }
+
+    /// The motion begins with these velocities, where the momenta alone do not tell them: it stays
+    /// on their branch. Of no account in another form.
+    pub fn begin_near(&mut self, state: &State) {
+        if let Some(solver) = self.solver.as_mut().filter(|_| state.form == Form::Velocity) {
+            for (i, x) in solver.native.iter_mut().enumerate() {
+                *x = state.exact(i);
+            }
+            solver.under_way = true;
+        }
+    }
+
+    /// Goes on from the velocities that others found last.
+    pub fn go_on_from(&mut self, other: &Rates) {
+        if let (Some(own), Some(other)) = (&mut self.solver, &other.solver) {
+            own.native.clone_from(&other.native);
+            own.under_way = other.under_way;
         }
     }
 
@@ -105,6 +127,11 @@ impl Rates {
     /// The system.
     pub fn system(&self) -> &System {
         &self.system
+    }
+
+    /// On which side of each kink the rates were evaluated last.
+    pub fn sides(&self) -> Vec<bool> {
+        self.values.sides()
     }
 
     /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
@@ -138,7 +165,13 @@ impl Solver {
             self.native[i] = Double::from(numbers[i]);
             self.targets[i] = Some(Double::from(numbers[n + i]));
         }
-        self.legendre.solve(Double::from(time), &mut self.native, &self.targets)?;
+        let (time, native) = (Double::from(time), &mut self.native);
+        if self.under_way {
+            self.legendre.follow(time, native, &self.targets)?;
+        } else {
+            self.legendre.solve(time, native, &self.targets)?;
+            self.under_way = true;
+        }
         for (rounded, x) in self.rounded.iter_mut().zip(&self.native) {
             *rounded = x.high;
         }

@@ -114,6 +114,12 @@ impl<R: Real> Values<R> {
         self.registers[register as usize]
     }
 
+    /// Whether each switch is positive.
+    pub(super) fn sides(&self) -> Vec<bool> {
+        let switches = self.program.switches.iter();
+        switches.map(|&r| self.registers[r as usize].value() > 0.0).collect()
+    }
+
     fn run(&mut self, program: &Program, register: Register) {
         let at = register as usize;
         let get = |r: Register| self.registers[r as usize];

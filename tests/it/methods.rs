@@ -1,8 +1,10 @@
 //! The table of methods: what each promises, measured.
 
+mod branches;
 mod faults;
 mod kepler;
 mod order;
+mod stability;
 mod structure;
 
 use phaselab::integrate::{METHODS, Method, Settings, Stepper, Stepping, method_named};

@@ -499,3 +499,33 @@ fn a_constant_in_the_potential_hides_no_drift() {
     let (without, with) = (drift(""), drift(" - 1e6"));
     assert!((with / without - 1.0).abs() < 1e-5, "{with:e} and {without:e}");
 }
+
+#[test]
+fn a_method_that_passes_over_kinks_says_which_one_does_not() {
+    let kinked = r#"
+        title = "A well with a kink"
+        [coordinates]
+        x = { initial = 1 }
+        [lagrangian]
+        L = "1/2*x'^2 - abs(x)"
+    "#;
+    let run = |method: &str| {
+        let arguments = ["run", "system.toml", "--until", "1", "--at", "1", "--method", method];
+        with_file(kinked, &arguments)
+    };
+    let done = run("dop853");
+    let line = "phaselab: dop853 steps over the kinks of this motion and loses accuracy there; \
+                taylor locates them\n";
+    assert_eq!((done.code, done.stderr.as_str()), (0, line));
+    run("taylor").success();
+}
+
+#[test]
+fn a_step_beyond_what_is_stable_is_told() {
+    // small swings of frequency 1: the leapfrog's limit is 2
+    let run = |step: &str| run(&["--until", "20", "--method", "leapfrog", "--step", step]);
+    let done = run("2.5");
+    assert_eq!(done.code, 0);
+    assert!(done.stderr.contains("leapfrog is not stable with the step 2.5"), "{}", done.stderr);
+    run("1.5").success();
+}

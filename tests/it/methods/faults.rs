@@ -1,7 +1,7 @@
 //! What a method cannot do, and how it says so.
 
 use phaselab::integrate::{METHODS, Settings, Stepping};
-use phaselab::system::Form;
+use phaselab::system::{FaultKind, Form};
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
 
@@ -151,4 +151,44 @@ fn a_number_that_is_zero_but_for_rounding_does_not_stop_dop853() {
     }
     assert!(steps < 400, "{steps} steps");
     assert!(stepper.state().values[1].abs() < 1e-12);
+}
+
+#[test]
+fn every_method_stops_where_somebody_asks() {
+    for method in METHODS.iter().filter(|method| method.name != "taylor") {
+        let case = pendulum();
+        let mut stepper = case.stepper(method, 0.01);
+        stepper.step(1.0).expect("goes on");
+        case.system.cancel().cancel();
+        let fault = stepper.step(1.0).expect_err("stops");
+        assert_eq!(fault.kind, FaultKind::Cancelled, "{}", method.name);
+    }
+}
+
+#[test]
+fn steps_that_cannot_be_counted_to_the_end_are_refused_at_once() {
+    for method in fixed() {
+        let mut stepper = pendulum().stepper(method, 1e-300);
+        let message = stepper.step(10.0).expect_err("too many").to_string();
+        assert!(
+            message.starts_with(
+                "steps of size 1e-300 from t = 0 are too many to be counted up to t = 10"
+            ),
+            "{}: {message}",
+            method.name
+        );
+        // 2⁵³ can be counted
+        let step = 10.0 / 9.0e15;
+        pendulum().stepper(method, step).step(10.0).expect("goes on");
+        let step = 10.0 / 9.1e15;
+        pendulum().stepper(method, step).step(10.0).expect_err("too many");
+    }
+}
+
+#[test]
+fn steps_do_not_vanish_before_a_singularity() {
+    // a particle falls into the centre at t = π/√8; the step is that of the way there
+    let fall = case(hamiltonian(&["x"], &[], "p_x^2/2 - 1/x"), Form::Momentum, &[1.0, 0.0]);
+    let stepper = fall.stepper_with(named("rk4"), Settings::default());
+    assert!(stepper.step_size() > 1e-7, "{:e}", stepper.step_size());
 }

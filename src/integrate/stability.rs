@@ -1,0 +1,110 @@
+//! Whether a fixed step is stable: what a method makes of the small oscillations about the motion.
+//!
+//! The rates are made linear where the motion is, by differences. To each eigenvalue λ there
+//! belongs a mode e^{λt}; a method multiplies it in a step h by a factor that depends on z = hλ
+//! alone. Where that exceeds 1 for a mode that does not grow by itself, the step is too long, and
+//! the motion is lost whatever else is right.
+//!
+//! In: rates, a state, a step. Out: the longest step that is stable there. Never here: errors of
+//! steps that are stable.
+//!
+//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2.
+
+use nalgebra::DMatrix;
+use nalgebra::linalg::{Schur, balancing};
+
+use crate::expr::portable;
+
+/// A mode that grows by less than this part in a step is not told from one that does not.
+const GROWS: f64 = 1e-3;
+
+/// A mode counts as one that does not grow by itself up to this part of its rate: differences
+/// tell eigenvalues no better.
+const STEADY: f64 = 1e-3;
+
+/// A number is moved by this part of its size for a difference.
+const DIFFERENCE: f64 = 1e-6;
+
+/// The longest stable step is told to one part in so many.
+const PARTS: u32 = 200;
+
+/// How often the search for eigenvalues may be repeated.
+const SWEEPS: usize = 1000;
+
+/// A fixed step that lies beyond what is stable.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Unstable {
+    /// Where the motion was when it was found.
+    pub time: f64,
+    /// The step in use.
+    pub step: f64,
+    /// Steps below this one are stable there.
+    pub limit: f64,
+}
+
+/// By how much a method multiplies a mode in one step, at z = hλ.
+pub(super) type Growth = fn(&[f64], [f64; 2]) -> f64;
+
+/// What a method makes of modes: the rule, and the weights it is given.
+#[derive(Clone, Copy)]
+pub(super) struct Modes<'a> {
+    pub(super) growth: Growth,
+    pub(super) weights: &'a [f64],
+}
+
+impl Modes<'_> {
+    /// The longest step that is stable, where `step` is not: `z` are the eigenvalues times the
+    /// step.
+    pub(super) fn limit(self, z: &[[f64; 2]], step: f64) -> Option<f64> {
+        let grows = |part: f64| {
+            z.iter().any(|&[re, im]| {
+                let steady = re <= STEADY * portable::hypot(re, im);
+                let own = portable::exp(part * re.max(0.0));
+                let made = (self.growth)(self.weights, [part * re, part * im]);
+                steady && made > (1.0 + GROWS) * own
+            })
+        };
+        if !grows(1.0) {
+            return None;
+        }
+        let mut parts = (1..=PARTS).map(|k| f64::from(k) / f64::from(PARTS));
+        let first = parts.find(|&part| grows(part)).unwrap_or(1.0);
+        Some(step.abs() * (first - 1.0 / f64::from(PARTS)))
+    }
+}
+
+/// The eigenvalues of the rates at a state, times the step; none where they cannot be found.
+/// `rates` gives the rates of the `moving` numbers that stand first.
+pub(super) fn eigenvalues(
+    numbers: &[f64],
+    moving: usize,
+    step: f64,
+    mut rates: impl FnMut(&[f64], &mut [f64]) -> bool,
+) -> Vec<[f64; 2]> {
+    let (mut here, mut there) = (vec![0.0; numbers.len()], vec![0.0; numbers.len()]);
+    if !rates(numbers, &mut here) {
+        return Vec::new();
+    }
+    let mut matrix = DMatrix::zeros(moving, moving);
+    let mut moved = numbers.to_vec();
+    for (j, &x) in numbers.iter().enumerate().take(moving) {
+        let size = x.abs().max((step * here[j]).abs());
+        moved[j] = x + DIFFERENCE * size;
+        let difference = moved[j] - x;
+        // a number at rest at zero has no size, and no part in the motion
+        if difference.is_normal() && rates(&moved, &mut there) {
+            for (i, (there, here)) in there.iter().zip(&here).enumerate().take(moving) {
+                matrix[(i, j)] = step * ((there - here) / difference);
+            }
+        }
+        moved[j] = x;
+    }
+    if matrix.iter().any(|x: &f64| !x.is_finite()) {
+        return Vec::new();
+    }
+    // units of the numbers apart
+    balancing::balance_parlett_reinsch(&mut matrix);
+    let found = Schur::try_new(matrix, f64::EPSILON, SWEEPS);
+    let values = found.map(|schur| schur.complex_eigenvalues());
+    values.iter().flat_map(|values| values.iter().map(|z| [z.re, z.im])).collect()
+}
