@@ -12,23 +12,29 @@ use crate::model::Model;
 /// The events and blows of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Events {
-    model: Arc<Model>,
-    happenings: Chronicle,
+    /// `None` where nothing is known of them.
+    of: Option<(Arc<Model>, Chronicle)>,
 }
 
 impl Events {
     pub(super) fn of(model: &Arc<Model>, happenings: &Chronicle) -> Events {
-        Events { model: Arc::clone(model), happenings: happenings.clone() }
+        Events { of: Some((Arc::clone(model), happenings.clone())) }
+    }
+
+    /// Those of a run that was ended from outside, which nobody can be asked for.
+    pub(super) fn unknown() -> Events {
+        Events { of: None }
     }
 
     /// One object for each event and each blow, in time: name, time, and of a blow the jump of each
     /// momentum (or variable) and the reaction of each constraint.
     pub(super) fn iter(&self) -> impl Iterator<Item = Value> {
-        self.happenings.iter().map(|happening| self.object(happening))
+        self.of.iter().flat_map(|(model, happenings)| {
+            happenings.iter().map(move |happening| Events::object(model, happening))
+        })
     }
 
-    fn object(&self, happening: &Happening) -> Value {
-        let model = &self.model;
+    fn object(model: &Model, happening: &Happening) -> Value {
         let mut object = json!({ "name": happening.name, "t": happening.time });
         if let Kind::Blow { jump, reaction } = &happening.kind {
             let moved = |i: usize| {

@@ -205,7 +205,7 @@ impl Table {
             "stopped by a signal within a step; what should be constant was not looked at";
         let closing = Closing {
             invariants: Vec::new(),
-            events: Vec::new(),
+            events: Events::unknown(),
             status: Status::Stopped,
             message: Some(message.to_owned()),
         };

@@ -114,8 +114,7 @@ impl fmt::Display for Fault {
             }
             FaultKind::ClockStands(spacing) => write!(
                 f,
-                "the clock cannot go on from t = {}: its digits are {} apart there",
-                short(time),
+                "the clock cannot go on from t = {time}: its digits are {} apart there",
                 short(*spacing)
             )?,
             FaultKind::NoInterval(name, interval) => {
