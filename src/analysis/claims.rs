@@ -19,6 +19,9 @@ const TOLERANCE: f64 = 1e-10;
 /// A rate longer than this is not told.
 const LONGEST: u64 = 60;
 
+/// How far the values of a motion may be off, relative to themselves, where a rate is evaluated.
+const SLACK: f64 = 1e-9;
+
 /// How often it is looked at.
 const LOOKS: u32 = 200;
 
@@ -59,7 +62,9 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
     }
     mistakes.extend(denied(model, equations));
     mistakes.extend(false_brackets(model, equations));
-    let claims = open_claims(model, equations);
+    let mut grown = equations.clone();
+    let claims = open_claims(model, &mut grown);
+    let equations = &grown;
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
         Err(why) => {
@@ -110,27 +115,36 @@ struct Claim {
     name: String,
     place: Place,
     expression: Expr,
+    /// Its rate of change, where that is known not to vanish and may yet be too small to be seen.
+    rate: Option<Expr>,
+    /// Whether that is not zero on the way.
+    refuted: bool,
     first: f64,
     size: f64,
     farthest: f64,
 }
 
-fn open_claims(model: &Model, equations: &Equations) -> Vec<Claim> {
+fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
     let observed = model.observables.iter().filter(|o| o.conserved == Some(true));
     let observed = observed.map(|o| (&o.name, o.expression, &o.place));
     let expected = model.expect.conserves.iter().map(|(name, e, place)| (name, *e, place));
-    observed
-        .chain(expected)
-        .filter(|(name, ..)| known(equations, name).is_none())
-        .map(|(name, expression, place)| Claim {
+    let all: Vec<(&String, Expr, &Place)> =
+        observed.chain(expected).filter(|(name, ..)| known(equations, name).is_none()).collect();
+    let claim = |(name, expression, place): (&String, Expr, &Place)| {
+        let classed = class_of(model, equations, name, expression);
+        let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
+        Claim {
             name: name.clone(),
             place: place.clone(),
             expression,
+            rate: rate.filter(|&rate| equations.pool.may_hide(rate)),
+            refuted: false,
             first: f64::NAN,
             size: 0.0,
             farthest: 0.0,
-        })
-        .collect()
+        }
+    };
+    all.into_iter().map(claim).collect()
 }
 
 /// Whether the method that the file names takes a first step from a state, where it names one.
@@ -326,7 +340,7 @@ impl<'a> Motion<'a> {
             }
         }
         mistakes.extend(claims.iter().filter_map(|claim| {
-            claim.mistake(equations, end).or_else(|| claim.doubt(model, equations, end))
+            claim.mistake(equations, end).or_else(|| claim.unseen(equations, end))
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
@@ -413,6 +427,9 @@ impl<'a> Motion<'a> {
             let value = self.values[channel];
             let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
             claim.look(value, if size.is_finite() { size } else { value.abs() });
+            claim.refuted |= claim
+                .rate
+                .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));
         }
     }
 }
@@ -428,22 +445,18 @@ impl Claim {
             if distance.is_finite() { self.farthest.max(distance) } else { f64::INFINITY };
     }
 
-    /// What keeps its value so far and is known to change elsewhere is not conserved.
-    fn doubt(&self, model: &Model, equations: &Equations, end: f64) -> Option<Mistake> {
-        let Claim { name, .. } = self;
-        let mut equations = equations.clone();
-        let classed = class_of(model, &mut equations, name, self.expression);
-        if classed.class != Class::Changing {
+    /// What changes by less than can be seen, as a force far away makes it, is not conserved.
+    fn unseen(&self, equations: &Equations, end: f64) -> Option<Mistake> {
+        let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
             return None;
+        };
+        let mut help = format!("it only keeps its value to rounding until t = {end}");
+        if equations.pool.weight(rate) <= LONGEST {
+            let rate = equations.pool.unicode(rate);
+            help.push_str(&format!("; its rate of change is {rate}"));
         }
         let message = format!("`{name}` is said to be conserved, but it is not");
-        let mistake = Mistake::error(self.place.clone(), message);
-        let rate = classed.rate.ok().filter(|&e| equations.pool.weight(e) <= LONGEST);
-        let mut help = format!("it only keeps its value until t = {end}");
-        if let Some(e) = rate {
-            help.push_str(&format!("; its rate of change is {}", equations.pool.unicode(e)));
-        }
-        Some(mistake.with_help(help))
+        Some(Mistake::error(self.place.clone(), message).with_help(help))
     }
 
     fn mistake(&self, equations: &Equations, end: f64) -> Option<Mistake> {

@@ -5,7 +5,7 @@
 
 use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::{Model, Place};
+use crate::model::{Coordinate, Model, Place};
 use crate::preset::Mistake;
 use crate::system::{Fault, FaultKind};
 
@@ -62,8 +62,10 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(Place, Strin
             all.join(", ")
         ),
     };
-    let velocity = model.coordinates[first].velocity;
-    let help = if model.pool.depends(model.mechanics.function().1, velocity) {
+    let (_, l) = model.mechanics.function();
+    let linear = light.iter().map(|&i| &model.coordinates[i]);
+    let linear = linear.into_iter().find(|c| model.pool.depends(l, c.velocity));
+    let help = if let Some(Coordinate { name, .. }) = linear {
         format!(
             "L is linear in {name}', so that no acceleration follows; a law of first order in time is \
                  written with [hamiltonian] or [poisson]"
