@@ -9,6 +9,7 @@ mod claims;
 mod history;
 mod inquiry;
 mod landscape;
+mod start;
 mod verdict;
 
 pub use claims::{false_claims, flaws};

@@ -8,6 +8,7 @@
 //! forms, zero proofs, and three ways of writing ([`Pool::text`], [`Pool::unicode`],
 //! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numbers in motion.
 
+mod ball;
 mod conditioning;
 mod derivative;
 mod double;
@@ -24,6 +25,7 @@ pub mod portable;
 mod print;
 mod product;
 mod real;
+mod sample;
 mod simplify;
 mod sum;
 mod symbol;

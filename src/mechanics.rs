@@ -16,6 +16,7 @@ mod invariants;
 mod lagrange;
 mod legendre;
 mod linear;
+mod modulo;
 mod nearby;
 mod observe;
 mod poisson;
@@ -27,7 +28,7 @@ use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use class::{Class, Classed, classes};
+pub use class::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use equations::{
     Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
@@ -51,6 +52,13 @@ pub const CLOSED_FORM_LIMIT: u64 = 10_000;
 /// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
 pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
     let mut pool = model.pool.clone();
+    let constraints = model.constraints.iter().map(|c| c.expression);
+    let given = [model.mechanics.function().1, model.mechanics.dissipation()];
+    let given = given.into_iter().chain(model.mechanics.forces().to_vec()).chain(constraints);
+    given.for_each(|e| pool.refuse_heavy(e));
+    if pool.is_full() {
+        return Err(too_large());
+    }
     let mut equations = match &model.mechanics {
         Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
             lagrange::equations(&mut pool, model, *lagrangian, *dissipation, forces)
@@ -75,9 +83,13 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
     }
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
-        return Err(WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes")));
+        return Err(too_large());
     }
     Ok(equations)
+}
+
+fn too_large() -> WhyNot {
+    WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
 }
 
 /// The pieces of the longest expression derived, written out.

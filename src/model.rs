@@ -57,6 +57,8 @@ pub struct Model {
     pub comparison: Option<Comparison>,
     /// Frames a picture may be seen from.
     pub frames: Vec<Frame>,
+    /// Where its law, L or H, stands in the file.
+    pub law_place: Place,
     /// What the file wants to be watched.
     pub observables: Vec<Observable>,
     /// What the file claims of itself.
@@ -216,6 +218,7 @@ impl Model {
         };
         pool.describe(symbols.time, "t", "t", crate::expr::Rank::Variable);
         Model {
+            law_place: 0..0,
             info: Info { title: title.to_owned(), ..Info::default() },
             pool,
             symbols,

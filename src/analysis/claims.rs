@@ -5,15 +5,22 @@
 //! place. What is proved symbolically is not integrated. Never here: how claims are written.
 
 use super::brackets::false_brackets;
+use super::start;
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Happening, Reached, Settings, method_named};
-use crate::mechanics::{self, Conserved, Equations};
+use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
 use crate::model::{ExpectedValue, Model, Place};
 use crate::preset::Mistake;
-use crate::system::{ChannelKind, Fault, FaultKind, Observer, System};
+use crate::system::{ChannelKind, Fault, FaultKind, Observer, State, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
+
+/// A rate longer than this is not told.
+const LONGEST: u64 = 60;
+
+/// How far the values of a motion may be off, relative to themselves, where a rate is evaluated.
+const SLACK: f64 = 1e-9;
 
 /// How often it is looked at.
 const LOOKS: u32 = 200;
@@ -21,8 +28,30 @@ const LOOKS: u32 = 200;
 /// How long a motion is followed where the file does not say.
 const LENGTH: f64 = 10.0;
 
-/// The most steps taken for one file.
-const MOST_STEPS: u64 = 5_000_000;
+/// The work done for the claims of one file: so many steps of a system whose equations have one
+/// part, and fewer of one whose have more.
+const WORK: u64 = 4_000_000;
+
+/// No fewer steps than these are taken, however large the system.
+const FEWEST_STEPS: u64 = 5_000;
+
+/// An event costs as much as this many steps: it is looked for, and a step is cut up there.
+const EVENT: u64 = 4;
+
+/// The steps that claims are worth: the larger the equations, the fewer.
+fn steps_for(equations: &Equations) -> u64 {
+    let pool = &equations.pool;
+    let roots: Vec<Expr> = match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => {
+            mass.concat().into_iter().chain(force.clone()).collect()
+        }
+        Flow::Hamilton { velocities, momentum_rates } => {
+            velocities.iter().chain(momentum_rates).copied().collect()
+        }
+        Flow::Poisson { rates } => rates.clone(),
+    };
+    (WORK / (pool.reachable(&roots).len() as u64).max(1)).max(FEWEST_STEPS)
+}
 
 /// The claims of a model that are false, as mistakes at their places.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
@@ -33,7 +62,9 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
     }
     mistakes.extend(denied(model, equations));
     mistakes.extend(false_brackets(model, equations));
-    let claims = open_claims(model, equations);
+    let mut grown = equations.clone();
+    let claims = open_claims(model, &mut grown);
+    let equations = &grown;
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
         Err(why) => {
@@ -41,16 +72,17 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
             return mistakes;
         }
     };
-    match Motion::begin(model, &system) {
+    match Motion::begin(model, equations, &system) {
         Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
-        Err((place, why)) => {
-            mistakes.push(Mistake::error(place, format!("the motion cannot begin: {why}")));
-        }
+        Err(mistake) => mistakes.push(mistake),
     }
     for name in system.redundant() {
         let constraint = model.constraints.iter().find(|c| c.name == name);
         let message = format!("the constraint `{name}` repeats what those before it say");
-        let warning = Mistake::warning(constraint.map_or(0..0, |c| c.place.clone()), message);
+        let warning = Mistake::warning(
+            constraint.map_or_else(|| model.law_place.clone(), |c| c.place.clone()),
+            message,
+        );
         mistakes.push(warning.with_help("their multipliers are those of least norm"));
     }
     mistakes
@@ -73,37 +105,61 @@ fn denied(model: &Model, equations: &Equations) -> Vec<Mistake> {
     denied.filter_map(|o| wrong(&o.name, &o.place)).collect()
 }
 
-/// What is found to be conserved under that name, and not only said to be.
+/// What is proved to be conserved under that name.
 fn known<'a>(equations: &'a Equations, name: &str) -> Option<&'a Conserved> {
-    equations.conserved.iter().find(|c| c.name == name && !c.reason.is_declared())
+    equations.conserved.iter().find(|c| c.name == name && c.reason.is_proved())
 }
 
-/// A quantity said to be conserved, of which that is not known.
+/// A quantity said to be conserved, of which that is not proved.
 struct Claim {
     name: String,
     place: Place,
     expression: Expr,
+    /// Its rate of change, where that is known not to vanish and may yet be too small to be seen.
+    rate: Option<Expr>,
+    /// Whether that is not zero on the way.
+    refuted: bool,
     first: f64,
     size: f64,
     farthest: f64,
 }
 
-fn open_claims(model: &Model, equations: &Equations) -> Vec<Claim> {
+fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
     let observed = model.observables.iter().filter(|o| o.conserved == Some(true));
     let observed = observed.map(|o| (&o.name, o.expression, &o.place));
     let expected = model.expect.conserves.iter().map(|(name, e, place)| (name, *e, place));
-    observed
-        .chain(expected)
-        .filter(|(name, ..)| known(equations, name).is_none())
-        .map(|(name, expression, place)| Claim {
+    let all: Vec<(&String, Expr, &Place)> =
+        observed.chain(expected).filter(|(name, ..)| known(equations, name).is_none()).collect();
+    let claim = |(name, expression, place): (&String, Expr, &Place)| {
+        let classed = class_of(model, equations, name, expression);
+        let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
+        Claim {
             name: name.clone(),
             place: place.clone(),
             expression,
+            rate: rate.filter(|&rate| equations.pool.may_hide(rate)),
+            refuted: false,
             first: f64::NAN,
             size: 0.0,
             farthest: 0.0,
-        })
-        .collect()
+        }
+    };
+    all.into_iter().map(claim).collect()
+}
+
+/// Whether the method that the file names takes a first step from a state, where it names one.
+fn own_method_starts(model: &Model, system: &System, state: &State, parameters: &[f64]) -> bool {
+    let run = &model.run;
+    let Some(method) = method_named(&run.method).filter(|_| run.method != "auto") else {
+        return false;
+    };
+    let settings = Settings { step: run.step, tolerance: run.tolerance };
+    let Ok(mut course) = integrate::Motion::new(system, method, settings, parameters) else {
+        return false;
+    };
+    let end = run.until.unwrap_or(run.start + LENGTH);
+    let begun = course.begin(state, parameters);
+    begun.and_then(|()| course.reach(end, end, &mut 1)).is_ok()
 }
 
 /// The motion that claims are held against.
@@ -112,6 +168,8 @@ struct Motion<'a> {
     course: integrate::Motion,
     observer: Observer,
     values: Vec<f64>,
+    /// The steps it may take in all, and those that are left.
+    allowed: u64,
     budget: u64,
     happenings: Vec<Happening>,
 }
@@ -119,7 +177,7 @@ struct Motion<'a> {
 /// Why a motion did not come as far as a claim.
 enum Short {
     Fault(Fault),
-    Long,
+    Long(u64, f64),
     Ended(f64),
 }
 
@@ -128,7 +186,9 @@ impl std::fmt::Display for Short {
         match self {
             Short::Fault(fault) => fault.fmt(f),
             Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
-            Short::Long => write!(f, "{MOST_STEPS} steps did not lead so far"),
+            Short::Long(steps, time) => {
+                write!(f, "the {steps} steps that a check may take led only to t = {time}")
+            }
         }
     }
 }
@@ -144,20 +204,100 @@ fn place_of(model: &Model, fault: &Fault) -> Place {
 }
 
 impl<'a> Motion<'a> {
-    fn begin(model: &Model, system: &'a System) -> Result<Motion<'a>, (Place, String)> {
-        let nowhere = |why: String| (0..0, why);
+    /// The motion at its start, of which the first step is known to succeed.
+    fn begin(
+        model: &Model,
+        equations: &Equations,
+        system: &'a System,
+    ) -> Result<Motion<'a>, Mistake> {
+        let refused = |place: Place, why: String| {
+            Mistake::error(place, format!("the motion cannot begin: {why}"))
+        };
         let parameters = model.parameter_values();
-        let method = method_named("auto").ok_or_else(|| nowhere("there is no method".into()))?;
+        let method =
+            method_named("auto").ok_or_else(|| refused(0..0, "there is no method".into()))?;
         let course = integrate::Motion::new(system, method, Settings::default(), &parameters);
-        let mut course = course.map_err(|refusal| nowhere(refusal.to_string()))?;
+        let course = course.map_err(|refusal| refused(0..0, refusal.to_string()))?;
+        let allowed = steps_for(equations);
+        let mut motion = Motion {
+            system,
+            course,
+            observer: system.observer(&parameters),
+            values: vec![f64::NAN; system.channels().len()],
+            allowed,
+            budget: allowed,
+            happenings: Vec::new(),
+        };
         let state = system.initial(model.run.start, &parameters, &[]);
-        let state = state.map_err(|fault| (place_of(model, &fault), fault.to_string()))?;
-        let begun = course.begin(&state, &parameters);
-        begun.map_err(|fault| nowhere(fault.to_string()))?;
-        let observer = system.observer(&parameters);
-        let values = vec![f64::NAN; system.channels().len()];
-        let happenings = Vec::new();
-        Ok(Motion { system, course, observer, values, budget: MOST_STEPS, happenings })
+        let state = state.map_err(|fault| match &fault.kind {
+            FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => {
+                refused(place_of(model, &fault), fault.to_string())
+            }
+            _ => motion
+                .at_the_start(model, equations, Some(&fault))
+                .unwrap_or_else(|| refused(place_of(model, &fault), fault.to_string())),
+        })?;
+        let begun = motion.course.begin(&state, &parameters);
+        let looked = begun.and_then(|()| motion.observer.observe(&state, &mut motion.values));
+        // the first step, taken once more afterwards from the start
+        let stepped = looked.and_then(|()| {
+            let end = model.run.until.unwrap_or(model.run.start + LENGTH);
+            motion.course.reach(end, end, &mut 1)?;
+            motion.course.begin(&state, &parameters)
+        });
+        let fault = stepped.err().filter(|fault| fault.time == model.run.start);
+        let fault = fault.filter(|_| !own_method_starts(model, system, &state, &parameters));
+        match motion.at_the_start(model, equations, fault.as_ref()) {
+            Some(mistake) => Err(mistake),
+            None => {
+                if motion.course.begin(&state, &parameters).is_err() {
+                    return Err(refused(model.law_place.clone(), "its state is lost".into()));
+                }
+                Ok(motion)
+            }
+        }
+    }
+
+    /// Why it cannot start, where it cannot.
+    fn at_the_start(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        fault: Option<&Fault>,
+    ) -> Option<Mistake> {
+        let energy = self.seen(ChannelKind::Energy);
+        let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
+        start::mistake(model, equations, fault, energy, &at)
+    }
+
+    /// The value of a channel when it was last looked at.
+    fn seen(&self, kind: ChannelKind) -> f64 {
+        let channel = self.system.channels().iter().position(|c| c.kind == kind);
+        channel.map_or(f64::NAN, |i| self.values[i])
+    }
+
+    /// The value of a symbol when it was last looked at.
+    fn value_of(&self, model: &Model, equations: &Equations, symbol: Symbol, time: f64) -> f64 {
+        for (i, c) in equations.coordinates.iter().enumerate() {
+            let kind = match symbol {
+                s if s == c.position => ChannelKind::Position(i),
+                s if s == c.velocity => ChannelKind::Velocity(i),
+                s if s == c.momentum => ChannelKind::Momentum(i),
+                _ => continue,
+            };
+            return self.seen(kind);
+        }
+        if symbol == equations.symbols.time {
+            return time;
+        }
+        if symbol == equations.symbols.energy {
+            return self.seen(ChannelKind::Energy);
+        }
+        if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
+            return parameter.value;
+        }
+        let body = self.system.body_values(&model.parameter_values());
+        body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
     }
 
     /// Follows the motion through all that is claimed of it.
@@ -186,18 +326,22 @@ impl<'a> Motion<'a> {
                 continue;
             }
             if let Err(short) = self.reach(time, last) {
-                let left =
-                    schedule[k..].iter().filter_map(|(_, value)| Some(&value.as_ref()?.place));
-                let left = left.chain(claims.iter().map(|claim| &claim.place)).cloned();
-                let message = format!("this cannot be checked: {short}");
-                return mistakes.extend(left.map(|place| Mistake::error(place, message.clone())));
+                let values = schedule[k..].iter().filter_map(|(_, value)| *value);
+                let values = values.map(|value| (&value.name, &value.place));
+                let left = values.chain(claims.iter().map(|claim| (&claim.name, &claim.place)));
+                return mistakes.extend(left.map(|(name, place)| {
+                    let message = format!("`{name}` cannot be checked: {short}");
+                    Mistake::error(place.clone(), message)
+                }));
             }
             match value {
                 Some(value) => mistakes.extend(self.compare(value)),
                 None => self.look(model, equations, &mut claims),
             }
         }
-        mistakes.extend(claims.iter().filter_map(|claim| claim.mistake(equations, end)));
+        mistakes.extend(claims.iter().filter_map(|claim| {
+            claim.mistake(equations, end).or_else(|| claim.unseen(equations, end))
+        }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
             mistakes.extend(self.false_happenings(model, short.as_ref()));
@@ -241,9 +385,15 @@ impl<'a> Motion<'a> {
         loop {
             match self.course.reach(time, limit, &mut self.budget).map_err(Short::Fault)? {
                 Reached::There => break,
-                Reached::Underway => return Err(Short::Long),
+                Reached::Underway => {
+                    return Err(Short::Long(self.allowed, self.course.state().time));
+                }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
                 Reached::Happened(happening) => {
+                    if self.budget < EVENT {
+                        return Err(Short::Long(self.allowed, happening.time));
+                    }
+                    self.budget -= EVENT;
                     if matches!(happening.kind, integrate::Kind::Release(_)) {
                         let parameters = self.observer.parameters().to_vec();
                         self.observer = self.course.system().observer(&parameters);
@@ -270,37 +420,16 @@ impl<'a> Motion<'a> {
     }
 
     fn look(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
-        let kind = |kind| self.system.channels().iter().position(|c| c.kind == kind);
-        let value = |wanted| kind(wanted).map_or(f64::NAN, |i| self.values[i]);
-        let body = self.system.body_values(&model.parameter_values());
-        let of_body = |symbol| body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-        let at = |symbol: Symbol| {
-            let place = |i: usize| {
-                let c = &equations.coordinates[i];
-                let all = [
-                    (c.position, ChannelKind::Position(i)),
-                    (c.velocity, ChannelKind::Velocity(i)),
-                    (c.momentum, ChannelKind::Momentum(i)),
-                ];
-                all.into_iter().find(|(s, _)| *s == symbol).map(|(_, kind)| value(kind))
-            };
-            let coordinate = (0..equations.coordinates.len()).find_map(place);
-            let parameter = || model.parameters.iter().find(|p| p.symbol == symbol);
-            match coordinate {
-                Some(value) => value,
-                None if symbol == equations.symbols.time => self.course.state().time,
-                None if symbol == equations.symbols.energy => value(ChannelKind::Energy),
-                None => match parameter() {
-                    Some(p) => p.value,
-                    None => of_body(symbol).unwrap_or(f64::NAN),
-                },
-            }
-        };
+        let time = self.course.state().time;
+        let at = |symbol: Symbol| self.value_of(model, equations, symbol, time);
         for claim in claims {
             let Some(channel) = self.system.channel_of(claim.expression) else { continue };
             let value = self.values[channel];
             let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
             claim.look(value, if size.is_finite() { size } else { value.abs() });
+            claim.refuted |= claim
+                .rate
+                .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));
         }
     }
 }
@@ -314,6 +443,20 @@ impl Claim {
         let distance = (value - self.first).abs();
         self.farthest =
             if distance.is_finite() { self.farthest.max(distance) } else { f64::INFINITY };
+    }
+
+    /// What changes by less than can be seen, as a force far away makes it, is not conserved.
+    fn unseen(&self, equations: &Equations, end: f64) -> Option<Mistake> {
+        let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
+            return None;
+        };
+        let mut help = format!("it only keeps its value to rounding until t = {end}");
+        if equations.pool.weight(rate) <= LONGEST {
+            let rate = equations.pool.unicode(rate);
+            help.push_str(&format!("; its rate of change is {rate}"));
+        }
+        let message = format!("`{name}` is said to be conserved, but it is not");
+        Some(Mistake::error(self.place.clone(), message).with_help(help))
     }
 
     fn mistake(&self, equations: &Equations, end: f64) -> Option<Mistake> {

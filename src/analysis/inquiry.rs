@@ -188,7 +188,10 @@ impl Answer {
             Answer::Bracket { .. } => Zero::No,
             Answer::Conservation { class: Class::Proved, .. } => Zero::Proved,
             Answer::Conservation { class: Class::Numerically, .. } => Zero::Numerically,
-            Answer::Conservation { .. } => Zero::No,
+            Answer::Conservation { class: Class::AtTheseParameters | Class::Unknown, .. } => {
+                Zero::Unknown
+            }
+            Answer::Conservation { class: Class::Changing, .. } => Zero::No,
         }
     }
 }

@@ -81,7 +81,10 @@ fn mistakes(document: &Document) -> Vec<Mistake> {
                 mistakes.extend(open::unfit_method(&checked.model, &system));
             }
         }
-        Err(why) => mistakes.push(Mistake::error(0..0, why.to_string())),
+        Err(why) => {
+            let place = checked.model.law_place.clone();
+            mistakes.push(Mistake::error(place, why.to_string()));
+        }
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
     mistakes

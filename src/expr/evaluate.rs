@@ -3,6 +3,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::ball::Ball;
 use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
@@ -53,6 +54,60 @@ impl Pool {
             values.insert(part, value);
         }
         values[&e]
+    }
+
+    /// Where the value of `e` lies for certain; `None` where it has none, or nothing can be said.
+    pub(super) fn enclosure(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<Ball> {
+        self.enclosures(e, 0.0, at)[&e]
+    }
+
+    /// Where the values of `e` and of all its parts lie, if each symbol's may be off by a part `slack`
+    /// of itself.
+    pub(super) fn enclosures(
+        &self,
+        e: Expr,
+        slack: f64,
+        at: &dyn Fn(Symbol) -> f64,
+    ) -> FxHashMap<Expr, Option<Ball>> {
+        let mut values: FxHashMap<Expr, Option<Ball>> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let value = self.enclosure_of(part, slack, at, &values);
+            values.insert(part, value);
+        }
+        values
+    }
+
+    fn enclosure_of(
+        &self,
+        part: Expr,
+        slack: f64,
+        at: &dyn Fn(Symbol) -> f64,
+        values: &FxHashMap<Expr, Option<Ball>>,
+    ) -> Option<Ball> {
+        match self.node(part) {
+            Node::Number(n) => Ball::number(*n),
+            Node::Pi => Ball::number(Number::Real(std::f64::consts::PI)),
+            Node::Symbol(s) => Ball::exact(at(*s))?.widened(slack),
+            Node::Sum(constant, terms) => {
+                let mut total = Ball::number(*constant)?;
+                for (c, term) in terms {
+                    total = total.add(values[term]?.mul(Ball::number(*c)?)?)?;
+                }
+                Some(total)
+            }
+            Node::Product(c, factors) => {
+                let mut value = Ball::number(*c)?;
+                for (base, n) in factors {
+                    value = value.mul(values[base]?.power(*n)?)?;
+                }
+                Some(value)
+            }
+            Node::Power(base, exponent) => values[base]?.real_power(values[exponent]?, false),
+            Node::Call(function, arguments) => {
+                let arguments: Option<Vec<Ball>> = arguments.iter().map(|a| values[a]).collect();
+                Ball::call(*function, &arguments?)
+            }
+        }
     }
 }
 

@@ -50,6 +50,15 @@ impl Pool {
                     }
                     sums.extend(std::iter::repeat_n(base, k as usize));
                 }
+                // a root to a power above 1: s^(3/2) = s · √s
+                (Node::Sum(_, terms), None) if (1.0..12.0).contains(&n.value()) => {
+                    let whole = n.value().floor() as i64;
+                    for _ in 0..whole {
+                        size = size.saturating_mul(terms.len() + 1);
+                    }
+                    sums.extend(std::iter::repeat_n(base, whole as usize));
+                    single.push((base, n + Number::integer(-whole)));
+                }
                 _ => single.push((base, n)),
             }
         }

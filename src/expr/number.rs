@@ -8,6 +8,10 @@ use std::ops::{Add, Mul, Neg};
 use super::double::Double;
 use crate::expr::portable;
 
+/// A sum of two reals below this part of them is what rounding left of 0: each went through several
+/// operations.
+const CANCELLED: f64 = 32.0 * f64::EPSILON;
+
 /// An exact rational `numerator / denominator` (lowest terms, positive denominator) or a real.
 #[derive(Clone, Copy, Debug)]
 pub enum Number {
@@ -231,6 +235,12 @@ impl Add for Number {
             (Number::Rational(a, b), Number::Rational(c, d)) => {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
                 Number::ratio(a * d + c * b, b * d)
+            }
+            (Number::Real(a), Number::Real(b)) => {
+                let total = a + b;
+                // what rounding left of two that cancel
+                let noise = total.abs() <= CANCELLED * f64::max(a.abs(), b.abs());
+                if noise { Number::ZERO } else { Number::Real(total) }
             }
             _ => Number::Real(self.value() + other.value()),
         }

@@ -148,6 +148,12 @@ impl Pool {
         self.cancel.is_cancelled()
     }
 
+    /// Refuses all further work where an expression, written out, has more pieces than
+    /// [`NODE_LIMIT`]: counted before anything is made of it.
+    pub fn refuse_heavy(&mut self, e: Expr) {
+        self.full |= self.weight(e) > NODE_LIMIT as u64;
+    }
+
     /// The longest chain of parts below an expression.
     pub fn depth(&self, e: Expr) -> usize {
         self.depths[e.index()] as usize

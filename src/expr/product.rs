@@ -102,6 +102,11 @@ impl Pool {
             Node::Number(n) => self.settle_number(*n, exponent),
             Node::Product(c, inner) => {
                 if let Some(k) = integer {
+                    // a coefficient whose power no number can hold stays where it is
+                    let power = c.powi(k).value();
+                    if !power.is_finite() || power.abs() < f64::MIN_POSITIVE {
+                        return None;
+                    }
                     let opened = inner.iter().map(|&(b, n)| (b, n * exponent)).collect();
                     return Some((c.powi(k), opened));
                 }

@@ -205,7 +205,7 @@ fn slopes(equations: &mut Equations, e: Expr) -> Slopes {
 pub struct Recognised {
     /// Zero, or parameters times names of observables, Casimirs and `energy`: −2 m energy L_z.
     pub expression: Expr,
-    /// Whether that is proved; never [`Zero::No`].
+    /// Whether that is proved, or holds to rounding.
     pub proof: Zero,
 }
 
@@ -216,7 +216,7 @@ const MOST_IN_PAIRS: usize = 16;
 /// energy, or as the product of two of these, up to a factor made of parameters.
 pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Recognised> {
     match equations.pool.is_zero(e) {
-        Zero::No => {}
+        Zero::No | Zero::Unknown => {}
         proof => return Some(Recognised { expression: Expr::ZERO, proof }),
     }
     let constants = constants(model);
@@ -239,7 +239,7 @@ pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Re
         let multiple = pool.mul(factor, candidate);
         let difference = pool.sub(e, multiple);
         let proof = pool.is_zero(difference);
-        if proof != Zero::No {
+        if matches!(proof, Zero::Proved | Zero::Numerically) {
             return Some(Recognised { expression: pool.mul(factor, name), proof });
         }
     }

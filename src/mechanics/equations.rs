@@ -181,13 +181,20 @@ pub enum Reason {
     TimeTranslation(char),
     /// Moving these coordinates together changes nothing; holds their shown names.
     Translation(String),
+    /// Turning these angles together changes nothing; holds their shown names.
+    CommonRotation(String),
     /// Turning all points about this axis changes nothing.
     Rotation(char),
     /// It has zero bracket with everything, and no force changes it.
     Casimir,
     /// dG/dt = 0 along the motion, proved symbolically.
     Proved,
-    /// dG/dt = 0 to rounding at many points of phase space, no proof found.
+    /// The same where the motion is Hamilton's and nothing else acts: \[G, H\] + ∂G/∂t = 0.
+    Commutes,
+    /// dG/dt = 0 wherever the constraints hold, proved symbolically.
+    ProvedOnConstraints,
+    /// dG/dt = 0 to rounding at points of all magnitudes, no proof found, and nothing in it that a
+    /// few points might not show.
     Numerically,
     /// The file says so; the drift is what there is to see.
     Declared,
@@ -230,10 +237,10 @@ impl CoordinateSymbols {
 }
 
 impl Reason {
-    /// Whether it follows from the law of motion, without a number being looked at.
+    /// Whether it is proved: not the file's word, nor only values.
     pub fn is_proved(&self) -> bool {
         match self {
-            Reason::Numerically | Reason::Declared => false,
+            Reason::Declared | Reason::Numerically => false,
             Reason::BetweenBlows(reason) => reason.is_proved(),
             _ => true,
         }
@@ -257,7 +264,12 @@ impl std::fmt::Display for Reason {
             Reason::Translation(names) => write!(f, "translation of {names}"),
             Reason::Rotation(axis) => write!(f, "rotation about {axis}"),
             Reason::Casimir => f.write_str("Casimir, B ∇C = 0"),
-            Reason::Proved => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
+            Reason::CommonRotation(names) => write!(f, "rotation of {names} together"),
+            Reason::Proved => f.write_str("dG/dt = 0 proved symbolically"),
+            Reason::Commutes => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
+            Reason::ProvedOnConstraints => {
+                f.write_str("dG/dt = 0 on the constraints, proved symbolically")
+            }
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("declared"),
             Reason::BetweenBlows(reason) => write!(f, "{reason}, between blows"),

@@ -3,9 +3,11 @@
 //! observables whose rate of change vanishes.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
 
+use std::collections::HashMap;
+
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
-use crate::expr::{Expr, Symbol, Zero};
+use crate::expr::{Expr, FunctionId, Node, Symbol, Zero};
 use crate::model::{Action, Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
@@ -16,16 +18,18 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         }
         Flow::Poisson { .. } => Vec::new(),
     };
+    let jumps = equations.law_jumps();
     for (i, (&rate, coordinate)) in rates.iter().zip(&model.coordinates).enumerate() {
         let reason = match equations.pool.is_zero(rate) {
-            Zero::No => continue,
+            _ if jumps && !is_absent(equations, model, i) => continue,
+            Zero::No | Zero::Unknown => continue,
             Zero::Numerically => Reason::Numerically,
             // a force that balances a slope leaves p constant, but the coordinate is not cyclic
             Zero::Proved if is_absent(equations, model, i) => {
                 equations.cyclic.push(i);
                 Reason::Cyclic(coordinate.shown.clone())
             }
-            Zero::Proved => Reason::Proved,
+            Zero::Proved => proved(equations, model),
         };
         equations.conserved.push(Conserved {
             name: format!("p_{}", coordinate.name),
@@ -36,15 +40,16 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let energy = Conserved {
         name: "energy".to_owned(),
         expression: equations.energy,
-        reason: Reason::TimeTranslation(if equations.is_lagrangian() { 'L' } else { 'H' }),
+        reason: energy_reason(equations, model),
     };
     let rate = equations.energy_rate;
     match equations.pool.is_zero(rate) {
+        _ if jumps => {}
         Zero::Proved => equations.conserved.push(energy),
         Zero::Numerically => {
             equations.conserved.push(Conserved { reason: Reason::Numerically, ..energy });
         }
-        Zero::No => {}
+        Zero::No | Zero::Unknown => {}
     }
     if let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics {
         for (name, casimir, _) in casimirs {
@@ -54,13 +59,13 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
                 equations.conserved.push(Conserved { name, expression: *casimir, reason });
             }
         }
-    } else {
+    } else if !jumps {
         symmetry::find(equations, model, &rates);
     }
     // what follows from a constraint does no longer once that is let go
     let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
     for observable in &model.observables {
-        name_observable(equations, observable, released);
+        name_observable(equations, model, observable, released);
     }
     for i in 0..equations.conserved.len() {
         if is_struck(equations, model, equations.conserved[i].expression) {
@@ -85,26 +90,62 @@ fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
     (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
 }
 
-/// dC/dt = ∇C · f for a Casimir: H does not move it. Zero exactly where it vanishes.
+/// Whether nothing but the law acts: no forces, no dissipation, no constraints.
+fn is_free(model: &Model) -> bool {
+    model.constraints.is_empty()
+        && model.mechanics.dissipation() == Expr::ZERO
+        && model.mechanics.forces().iter().all(|&force| force == Expr::ZERO)
+}
+
+/// What is proved of a quantity whose rate vanishes: by the bracket where the motion is Hamilton's.
+fn proved(equations: &Equations, model: &Model) -> Reason {
+    if is_free(model) && equations.hamiltonian.is_ok() { Reason::Commutes } else { Reason::Proved }
+}
+
+/// Why the energy's rate vanishes: as the law does not hold the time and nothing else acts but
+/// constraints at rest, or as whatever does balances.
+fn energy_reason(equations: &mut Equations, model: &Model) -> Reason {
+    let (_, law) = model.mechanics.function();
+    let explicit = equations.pool.derivative(law, equations.symbols.time);
+    let undriven = model.mechanics.dissipation() == Expr::ZERO
+        && model.mechanics.forces().iter().all(|&force| force == Expr::ZERO)
+        && equations.constraints.iter().all(|c| c.rate == Expr::ZERO);
+    if undriven && equations.pool.is_zero(explicit) == Zero::Proved {
+        Reason::TimeTranslation(if equations.is_lagrangian() { 'L' } else { 'H' })
+    } else {
+        Reason::Proved
+    }
+}
+
+/// dC/dt = ∇C · f for a Casimir: H does not move it. Zero exactly where it is proved to vanish.
 pub fn casimir_rate(equations: &mut Equations, casimir: Expr, forces: &[Expr]) -> Expr {
     let variables = equations.coordinates.iter().map(|c| c.position);
     let seeds: Vec<(Symbol, Expr)> = variables.zip(forces.iter().copied()).collect();
     let rate = equations.pool.derivation(casimir, &seeds);
-    if equations.pool.is_zero(rate) == Zero::No {
-        equations.pool.simplify(rate)
-    } else {
+    if equations.pool.is_zero(rate) == Zero::Proved {
         Expr::ZERO
+    } else {
+        equations.pool.simplify(rate)
     }
 }
 
 /// Adds an observable that is conserved. One that was found already, as the momentum of a
 /// symmetry, only gives it the file's own name.
-fn name_observable(equations: &mut Equations, observable: &Observable, released: bool) {
+fn name_observable(
+    equations: &mut Equations,
+    model: &Model,
+    observable: &Observable,
+    released: bool,
+) {
     let expression = observable.expression;
     let opened = equations.open(expression);
     for i in 0..equations.conserved.len() {
         let known = &equations.conserved[i];
-        if !matches!(known.reason, Reason::Translation(_) | Reason::Rotation(_)) {
+        let symmetry = matches!(
+            known.reason,
+            Reason::Translation(_) | Reason::CommonRotation(_) | Reason::Rotation(_)
+        );
+        if !symmetry {
             continue;
         }
         let difference = equations.pool.sub(opened, known.expression);
@@ -113,38 +154,165 @@ fn name_observable(equations: &mut Equations, observable: &Observable, released:
             return;
         }
     }
-    let proof = if released && !equations.constraints.is_empty() {
-        None
-    } else {
-        equations.is_conserved(expression)
-    };
-    let reason = match proof {
-        Some(Zero::Proved) => Reason::Proved,
-        Some(Zero::Numerically) => Reason::Numerically,
-        _ if observable.conserved == Some(true) => Reason::Declared,
-        _ => return,
+    let reason = match equations.knowledge_of(expression, released) {
+        Some(Known::Always) => proved(equations, model),
+        Some(Known::OnConstraints) => Reason::ProvedOnConstraints,
+        Some(Known::ByValues) => Reason::Numerically,
+        None if observable.conserved == Some(true) => Reason::Declared,
+        None => return,
     };
     equations.conserved.push(Conserved { name: observable.name.clone(), expression, reason });
 }
 
-/// Whether the i-th coordinate does not appear in L (or H).
+/// Whether the i-th coordinate does not appear in L (or H), or to no effect.
 fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
     let (_, f) = model.mechanics.function();
-    let slope = equations.pool.derivative(f, model.coordinates[i].position);
+    let position = model.coordinates[i].position;
+    if equations.law_jumps() && equations.pool.depends(f, position) {
+        return false;
+    }
+    let slope = equations.pool.derivative(f, position);
     equations.pool.is_zero(slope) == Zero::Proved
 }
 
+/// How the conservation of a quantity is known.
+enum Known {
+    /// Its rate vanishes by proof.
+    Always,
+    /// Its rate vanishes by proof where the constraints hold.
+    OnConstraints,
+    /// Its rate is zero to rounding.
+    ByValues,
+}
+
 impl Equations {
+    /// How it is known that an observable is conserved, if it is. Where constraints may be
+    /// `released`, only what holds for whatever forces they exert counts.
+    fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<Known> {
+        if self.may_jump(observable) {
+            return None;
+        }
+        if let Some(rate) = self.rate_by_momenta(observable)
+            && self.pool.is_zero(rate) == Zero::Proved
+        {
+            return Some(Known::Always);
+        }
+        if self.constraints.is_empty() {
+            return match self.is_conserved(observable)? {
+                Zero::Proved => Some(Known::Always),
+                Zero::Numerically => Some(Known::ByValues),
+                Zero::Unknown | Zero::No => None,
+            };
+        }
+        if released {
+            return None;
+        }
+        let rate = self.rate_of(observable)?;
+        match self.pool.is_zero(rate) {
+            Zero::Proved => Some(Known::OnConstraints),
+            Zero::Numerically => Some(Known::ByValues),
+            Zero::Unknown | Zero::No => {
+                self.vanishes_on_constraints(rate).then_some(Known::OnConstraints)
+            }
+        }
+    }
+
     /// Whether dG/dt = 0 along the motion, for G as an observable is written; `None` where the
     /// rate is not known in closed form.
     pub fn is_conserved(&mut self, observable: Expr) -> Option<Zero> {
+        if self.may_jump(observable) {
+            return Some(Zero::Unknown);
+        }
+        if let Some(rate) = self.rate_by_momenta(observable)
+            && self.pool.is_zero(rate) == Zero::Proved
+        {
+            return Some(Zero::Proved);
+        }
         let rate = self.rate_of(observable)?;
-        Some(self.pool.is_zero(rate))
+        match self.pool.is_zero(rate) {
+            Zero::Unknown | Zero::No if self.vanishes_on_constraints(rate) => Some(Zero::Proved),
+            zero => Some(zero),
+        }
+    }
+
+    /// Whether an observable may jump, so that its rate does not say all: it, or the law by which
+    /// it is conserved, holds a sign or an angle of what is not constant.
+    pub(super) fn may_jump(&mut self, observable: Expr) -> bool {
+        if self.law_jumps() {
+            return true;
+        }
+        let opened = self.open(observable);
+        let arguments: Vec<Expr> = self
+            .pool
+            .reachable(&[opened])
+            .into_iter()
+            .flat_map(|part| match self.pool.node(part) {
+                Node::Call(FunctionId::Sign | FunctionId::Atan2, arguments) => arguments.to_vec(),
+                _ => Vec::new(),
+            })
+            .collect();
+        arguments.into_iter().any(|argument| {
+            let rate = self.rate_of(argument);
+            rate.is_none_or(|rate| self.pool.is_zero(rate) != Zero::Proved)
+        })
+    }
+
+    /// Whether L (or H) has a step, where the force is an impulse that no derivative shows.
+    fn law_jumps(&self) -> bool {
+        let given = [&self.lagrangian, &self.hamiltonian];
+        let law = if self.is_lagrangian() { given[0] } else { given[1] };
+        let mut moving: Vec<Symbol> = vec![self.symbols.time];
+        moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
+        law.as_ref().is_ok_and(|&law| {
+            self.pool.reachable(&[law]).into_iter().any(|part| {
+                matches!(self.pool.node(part), Node::Call(FunctionId::Sign, _))
+                    && self.pool.depends_on_any(part, &moving)
+            })
+        })
+    }
+
+    /// dG/dt of a function of q, p, t and the energy of a Lagrangian system by ṗ and Ė as they
+    /// stand, for which no acceleration has to be solved for: in the symbols of q, q̇, p, t and λ.
+    /// `None` for anything else.
+    fn rate_by_momenta(&mut self, observable: Expr) -> Option<Expr> {
+        let Flow::Lagrange { momentum_rates, .. } = &self.flow else { return None };
+        let momentum_rates = momentum_rates.clone();
+        let map = self.attitude_map();
+        let g = self.pool.substitute(observable, &map);
+        let fast = self.coordinates.iter().flat_map(|c| [c.velocity, c.acceleration]);
+        let others = self.constraints.iter().map(|c| c.multiplier);
+        let carried = self.beside.carried.iter().flat_map(|carried| carried.symbols.clone());
+        let others: Vec<Symbol> =
+            fast.chain(others).chain(carried).chain([self.symbols.action]).collect();
+        if self.pool.depends_on_any(g, &others) {
+            return None;
+        }
+        let mut seeds =
+            vec![(self.symbols.time, Expr::ONE), (self.symbols.energy, self.energy_rate)];
+        for (c, &rate) in self.coordinates.clone().iter().zip(&momentum_rates) {
+            seeds.push((c.position, self.pool.variable(c.velocity)));
+            seeds.push((c.momentum, rate));
+        }
+        let rate = self.pool.derivation(g, &seeds);
+        let mut opened: HashMap<Symbol, Expr> =
+            self.coordinates.iter().map(|c| c.momentum).zip(self.momenta.clone()).collect();
+        opened.insert(self.symbols.energy, self.energy);
+        Some(self.pool.substitute(rate, &opened))
     }
 
     /// dG/dt along the motion, in the variables of the state; `None` where the accelerations are
     /// not known in closed form or G holds the action.
     pub fn rate_of(&mut self, observable: Expr) -> Option<Expr> {
+        if let Some(rate) = self.rate_by_momenta(observable) {
+            // the multipliers, if there are any, as they follow from the state
+            let multipliers: Vec<Symbol> = self.constraints.iter().map(|c| c.multiplier).collect();
+            if !self.pool.depends_on_any(rate, &multipliers) {
+                return Some(rate);
+            }
+            if self.multipliers.is_ok() {
+                return Some(self.open(rate));
+            }
+        }
         let g = self.open(observable);
         let solved = self.solved.clone().ok()?;
         let accelerations = self.coordinates.iter().map(|c| c.acceleration);

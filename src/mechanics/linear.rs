@@ -104,8 +104,14 @@ fn pivot(
         }
     }
     candidates.sort_unstable();
-    candidates
-        .into_iter()
-        .find(|&(_, _, i, j)| pool.is_zero(a[i][j]) == Zero::No)
-        .map(|(_, _, i, j)| (i, j))
+    let mut doubtful = None;
+    for (_, _, i, j) in candidates {
+        match pool.is_zero(a[i][j]) {
+            Zero::No => return Some((i, j)),
+            // its values are not known to be 0, nor not to be
+            Zero::Unknown => doubtful = doubtful.or(Some((i, j))),
+            Zero::Numerically | Zero::Proved => {}
+        }
+    }
+    doubtful
 }

@@ -19,6 +19,15 @@ pub const POINTS: usize = 20;
 /// So many are tried to find that many.
 pub const TRIES: u64 = 400;
 
+/// How far the points are from the start, in turn, on the scale of the largest start of their kind.
+const WIDTHS: [f64; 4] = [1.0, 0.1, 1.0, 0.01];
+
+/// The scales tried in turn where all coordinates, or all velocities, start at 0.
+const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
+
+/// A point is on the constraints when it is moved by no more than this part of its size.
+const SETTLED: f64 = 1e-14;
+
 /// A value for each symbol of a system.
 #[derive(Clone, Debug)]
 pub struct Point(HashMap<Symbol, f64>);
@@ -46,12 +55,20 @@ impl Point {
             .iter()
             .map(|c| (initial(&point, c.initial), initial(&point, c.initial_rate)))
             .collect();
-        let time = model.run.start + draws.next();
+        let span = model.run.until.map_or(1.0, |until| (until - model.run.start).abs().max(1.0));
+        let time = model.run.start + span * draws.next();
         point.0.insert(model.symbols.time, time);
-        for (c, (position, rate)) in model.coordinates.iter().zip(starts) {
+        let largest = |of: fn(&(f64, f64)) -> f64| {
+            let size = starts.iter().map(|start| of(start).abs()).fold(0.0, f64::max);
+            // where everything starts at 0 nothing says how large it will be
+            if size > 0.0 { size } else { SIZES[(n % SIZES.len() as u64) as usize] }
+        };
+        let (length, speed) = (largest(|start| start.0), largest(|start| start.1));
+        let width = WIDTHS[(n % WIDTHS.len() as u64) as usize];
+        for (c, &(position, rate)) in model.coordinates.iter().zip(&starts) {
             let rate_symbol = if model.is_lagrangian() { c.velocity } else { c.momentum };
-            point.0.insert(c.position, draws.near(position));
-            point.0.insert(rate_symbol, draws.near(rate));
+            point.0.insert(c.position, draws.near(position, width * length));
+            point.0.insert(rate_symbol, draws.near(rate, width * speed));
         }
         let (symbols, values): (Vec<Symbol>, _) = match &equations.flow {
             Flow::Lagrange { .. } => {
@@ -92,7 +109,7 @@ impl Point {
             let residual: Vec<f64> = held.iter().map(|(_, e)| point.value(equations, *e)).collect();
             let rows: Vec<&ConstraintRow> = held.iter().map(|(c, _)| *c).collect();
             let moved = point.correct(equations, &rows, &residual, &positions)?;
-            settled = moved <= 1e-14;
+            settled = moved <= SETTLED;
         }
         let residual: Vec<f64> = rows
             .iter()
@@ -115,7 +132,8 @@ impl Point {
     }
 
     /// Moves `symbols` by the least change that takes the residual of `rows` away, to first order;
-    /// gives its greatest part relative to the values.
+    /// gives the greatest change
+    /// relative to the largest of them.
     fn correct(
         &mut self,
         equations: &Equations,
@@ -126,19 +144,28 @@ impl Point {
         let matrix = DMatrix::from_fn(rows.len(), symbols.len(), |i, j| {
             self.value(equations, rows[i].row[j])
         });
-        let residual = DVector::from_column_slice(residual);
+        let mut matrix = matrix;
+        let mut residual = DVector::from_column_slice(residual);
+        // constraints have units of their own
+        for i in 0..rows.len() {
+            let size = matrix.row(i).amax();
+            if size > 0.0 && size.is_finite() {
+                matrix.row_mut(i).scale_mut(1.0 / size);
+                residual[i] /= size;
+            }
+        }
         if !matrix.iter().chain(residual.iter()).all(|x| x.is_finite()) {
             return None;
         }
         let scale = matrix.amax();
         let change = matrix.svd(true, true).solve(&residual, 1e-12 * scale).ok()?;
-        let mut moved = 0.0_f64;
+        let size = symbols.iter().map(|&s| self.at(s).abs()).fold(0.0, f64::max);
+        let moved = change.amax();
         for (&s, &by) in symbols.iter().zip(change.iter()) {
             let value = self.at(s);
-            moved = moved.max(by.abs() / value.abs().max(1.0));
             self.0.insert(s, value - by);
         }
-        Some(moved)
+        Some(if size > 0.0 { moved / size } else { moved })
     }
 }
 
@@ -158,8 +185,8 @@ impl Draws {
         ((x >> 11) as f64 + 0.5) / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// Near a value, on the scale of the value and of one.
-    fn near(&mut self, value: f64) -> f64 {
-        value + self.next() * value.abs().max(1.0)
+    /// Near a value, on the scale of the value, or of its kind where that is larger.
+    fn near(&mut self, value: f64, kind: f64) -> f64 {
+        value + self.next() * value.abs().max(kind)
     }
 }

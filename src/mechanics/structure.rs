@@ -95,7 +95,7 @@ impl Structure<'_> {
             let Some(is) = self.sum(&terms, true) else { continue };
             let message = format!("`{name}` is no Casimir of these brackets");
             let mut help = format!("{{{}, {name}}} {is}, not 0", c.name);
-            if self.equations.is_conserved(casimir).is_some_and(|zero| zero != Zero::No) {
+            if self.equations.is_conserved(casimir) == Some(Zero::Proved) {
                 help.push_str("; but this H conserves it: it is an observable");
             }
             return Some(Flaw { place: place.clone(), message, help });

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::equations::{Conserved, Equations, Reason};
 use crate::expr::{Expr, Number, Zero};
-use crate::model::Model;
+use crate::model::{Coordinate, Model};
 
 /// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.
 pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
@@ -21,27 +21,51 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
         if equations.pool.is_zero(rate) == Zero::Proved {
             let shown: Vec<&str> =
                 members.iter().map(|&i| model.coordinates[i].shown.as_str()).collect();
+            let shown = shown.join(", ");
+            // that the sum of all forces vanishes is no symmetry of L
+            let reason = if members.iter().any(|&i| is_driven(model, i)) {
+                Reason::Proved
+            } else if members.iter().all(|&i| is_angle(&model.coordinates[i])) {
+                Reason::CommonRotation(shown)
+            } else {
+                Reason::Translation(shown)
+            };
             equations.conserved.push(Conserved {
                 name: format!("total p_{stem}"),
                 expression: equations.pool.sum(&momenta),
-                reason: Reason::Translation(shown.join(", ")),
+                reason,
             });
         }
     }
     for (first, second, axis) in [('x', 'y', 'z'), ('y', 'z', 'x'), ('z', 'x', 'y')] {
         let pairs = pairs(model, first, second);
-        if pairs.is_empty() || !covers(model, first, second, pairs.len()) {
+        let angles =
+            pairs.iter().any(|&(i, j)| [i, j].iter().any(|&k| is_angle(&model.coordinates[k])));
+        if pairs.is_empty() || angles || !covers(model, first, second, pairs.len()) {
             continue;
         }
         let (momentum, rate) = angular_momentum(equations, &pairs, rates);
         if equations.pool.is_zero(rate) == Zero::Proved {
+            let driven = pairs.iter().any(|&(i, j)| is_driven(model, i) || is_driven(model, j));
             equations.conserved.push(Conserved {
                 name: format!("L_{axis}"),
                 expression: equations.pool.simplify_terms(momentum),
-                reason: Reason::Rotation(axis),
+                reason: if driven { Reason::Proved } else { Reason::Rotation(axis) },
             });
         }
     }
+}
+
+/// Whether a force or dissipation acts on a coordinate.
+fn is_driven(model: &Model, i: usize) -> bool {
+    let friction = model.mechanics.dissipation();
+    model.mechanics.forces().get(i).is_some_and(|&force| force != Expr::ZERO)
+        || model.pool.depends(friction, model.coordinates[i].velocity)
+}
+
+/// Whether a coordinate is an angle, by its unit or its period.
+fn is_angle(coordinate: &Coordinate) -> bool {
+    coordinate.period.is_some() || ["rad", "deg", "°"].contains(&coordinate.unit.as_str())
 }
 
 /// Coordinates whose names differ only in a trailing number, two or more of them.

@@ -1,5 +1,6 @@
 //! A generalised coordinate with its four symbols.
 
+use super::Place;
 use crate::expr::{Expr, Pool, Rank, Symbol, latex_of_unicode, unicode_name};
 
 /// A generalised coordinate.
@@ -28,6 +29,8 @@ pub struct Coordinate {
     pub rate_given: bool,
     /// After what the coordinate repeats, in parameters; for drawing only.
     pub period: Option<Expr>,
+    /// Where its name stands in the file.
+    pub place: Place,
 }
 
 impl Coordinate {
@@ -88,6 +91,7 @@ impl Coordinate {
             initial_rate: Expr::ZERO,
             rate_given: false,
             period: None,
+            place: 0..0,
         }
     }
 }

@@ -17,14 +17,17 @@ use crate::preset::{Catalog, Document};
 pub(super) struct Budget {
     paced: u64,
     flat_out: u64,
+    /// So many frames may use up all their steps and not keep pace; `None` for any number.
+    patience: Option<u32>,
 }
 
 impl Budget {
     /// For a recording, which nobody waits in front of.
-    pub(super) const RECORDED: Budget = Budget { paced: 1_000_000, flat_out: 20_000 };
+    pub(super) const RECORDED: Budget =
+        Budget { paced: 100_000, flat_out: 20_000, patience: Some(20) };
 
     /// For someone who watches, and may press a key.
-    pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000 };
+    pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000, patience: None };
 }
 
 /// The application, and what moves in it.
@@ -42,6 +45,8 @@ pub(super) struct Laboratory {
     /// From where simulated time keeps pace: the frame, the time, the speed.
     base: (u64, f64, f64),
     budget: Budget,
+    /// How many frames used up all their steps.
+    behind: u32,
     repaint: bool,
 }
 
@@ -62,6 +67,7 @@ impl Laboratory {
             epoch: 0,
             base: (0, 0.0, 1.0),
             budget,
+            behind: 0,
             repaint: false,
         };
         laboratory.perform(effects);
@@ -80,6 +86,19 @@ impl Laboratory {
         self.happen(Event::Tick(elapsed));
         self.look_at_motion();
         true
+    }
+
+    /// Why it is not gone on with, where the motion costs more steps than a recording has.
+    pub(super) fn overdue(&self) -> Option<String> {
+        let (patience, experiment) = (self.budget.patience?, self.experiment.as_ref()?);
+        (self.behind >= patience).then(|| {
+            format!(
+                "the motion is too slow for this: {} frames took {} steps each and led only to t = {}",
+                self.behind,
+                self.budget.paced,
+                experiment.time()
+            )
+        })
     }
 
     /// Something happens to the application.
@@ -125,7 +144,11 @@ impl Laboratory {
         } else {
             (f64::INFINITY, self.budget.flat_out)
         };
-        if experiment.advance(target, budget) != Progress::Arrived {
+        let progress = experiment.advance(target, budget);
+        if progress == Progress::Underway && target.is_finite() {
+            self.behind += 1;
+        }
+        if progress != Progress::Arrived {
             self.base = (now, experiment.time(), speed);
         }
     }

@@ -153,6 +153,11 @@ impl Performance {
             }
             if self.lab.clock.left() > 0 {
                 self.frame();
+                if let Some(why) = self.lab.overdue() {
+                    let step = self.next.saturating_sub(1);
+                    let place = self.script.steps.get(step).map_or(0..0, |step| step.0.clone());
+                    return Err(Mistake::error(place, why));
+                }
                 return Ok(Beat::Frame);
             }
             match &mut self.under_way {

@@ -226,9 +226,13 @@ impl Writer<'_> {
             page.heading("Energy");
         }
         self.put(page, "h", self.equations.energy);
-        let remark = match (self.equations.energy_rate, self.model.impulses.is_empty()) {
-            (Expr::ZERO, true) => "conserved",
-            (Expr::ZERO, false) => "conserved between blows",
+        let known = self.equations.conserved.iter().any(|c| c.name == "energy");
+        let remark = match (
+            known && self.equations.energy_rate == Expr::ZERO,
+            self.model.impulses.is_empty(),
+        ) {
+            (true, true) => "conserved",
+            (true, false) => "conserved between blows",
             _ => "",
         };
         page.formula("dh/dt", self.write(self.equations.energy_rate), remark);

@@ -99,6 +99,9 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                         Role::Warn,
                         "It vanishes to rounding wherever it was tried; there is no proof.",
                     ),
+                    (Zero::Unknown, _) => {
+                        (Role::Warn, "Whether it vanishes everywhere is not known.")
+                    }
                     (Zero::No, Some(known)) if known.proof != Zero::Proved => (
                         Role::Text,
                         "It does not vanish; the second form holds to rounding, without a proof.",
@@ -128,12 +131,15 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     Class::Proved => (Role::Good, "Conserved: proved, dG/dt vanishes everywhere."),
                     Class::Numerically => (
                         Role::Warn,
-                        "Conserved, to rounding: dG/dt vanishes wherever it was tried, at points near the start; \
-                         there is no proof.",
+                        "Conserved, to rounding: dG/dt vanishes wherever it was tried; there is no proof.",
+                    ),
+                    Class::AtTheseParameters => (
+                        Role::Good,
+                        "Conserved at the file's values of the parameters: proved; not at others.",
                     ),
                     Class::Changing => (Role::Bad, "Not conserved: it changes at this rate."),
                     Class::Unknown => {
-                        (Role::Warn, "Not known: its rate of change could not be had.")
+                        (Role::Warn, "Not known: there is no proof, and values do not decide it.")
                     }
                 };
                 page.words(role, verdict);

@@ -70,7 +70,9 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
         }
     }
     for event in &model.events {
-        lines.push(format!("{} &= 0", pool.latex(event.when)));
+        // no equation of motion: the sign of this is looked at
+        let name = event.name.replace(|c: char| !c.is_alphanumeric(), " ");
+        lines.push(format!("&\\text{{event {name}: sign change of }} {}", pool.latex(event.when)));
     }
     if let Ok(solved) = &equations.multipliers {
         let solved = equations.constraints.iter().zip(solved);

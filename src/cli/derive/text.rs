@@ -302,7 +302,27 @@ impl Page<'_> {
 
     /// The observables that are not conserved, with their rates.
     fn changing(&mut self, classes: &[Classed]) {
-        let changing = classes.iter().filter(|c| !c.class.is_conserved());
+        let unknown = classes.iter().filter(|c| c.class == Class::Unknown);
+        let unknown: Vec<String> = unknown
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  d({name})/dt = {}", self.math(*rate)),
+                    Err(why) => format!("  {name}   ({})", self.words(&why.0)),
+                }
+            })
+            .collect();
+        let here = classes.iter().filter(|c| c.class == Class::AtTheseParameters);
+        let here: Vec<String> = here
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  {name}, for d({name})/dt = {}", self.math(*rate)),
+                    Err(_) => format!("  {name}"),
+                }
+            })
+            .collect();
+        let changing = classes.iter().filter(|c| c.class == Class::Changing);
         let rows: Vec<String> = changing
             .map(|c| {
                 let name = self.words(&c.name);
@@ -315,7 +335,13 @@ impl Page<'_> {
         let rounded = classes.iter().filter(|c| c.class == Class::Numerically && c.rate.is_err());
         let rounded: Vec<String> =
             rounded.map(|c| format!("  {}   ({})", self.words(&c.name), c.class)).collect();
-        for (title, rows) in [("Conserved to rounding", rounded), ("Not conserved", rows)] {
+        let sections = [
+            ("Conserved to rounding", rounded),
+            ("Conserved at the file's values of the parameters", here),
+            ("Not conserved", rows),
+            ("Not known to be conserved or not", unknown),
+        ];
+        for (title, rows) in sections {
             if !rows.is_empty() {
                 self.line("");
                 self.line(title);

@@ -133,7 +133,7 @@ impl Check<'_> {
                 positions.into_iter().filter(|&q| pool.depends(form, q)).collect();
             held.into_iter().any(|q| {
                 let slope = pool.derivative(form, q);
-                pool.is_zero(slope) == Zero::No
+                pool.is_zero(slope) != Zero::Proved
             })
         } else {
             true

@@ -16,7 +16,9 @@ impl Check<'_> {
         let introduce = if poisson { Coordinate::variable } else { Coordinate::new };
         for written in &draft.moving.all {
             let (name, pool) = (written.name.get_ref(), &mut self.model.pool);
-            self.model.coordinates.push(introduce(pool, name, &written.symbol, &written.unit));
+            let mut coordinate = introduce(pool, name, &written.symbol, &written.unit);
+            coordinate.place = written.name.span();
+            self.model.coordinates.push(coordinate);
         }
         self.model.mechanics = law.unwrap_or(Law::Lagrangian).unread();
         let wrong = match (law, &draft.moving.coordinates, &draft.moving.variables) {
@@ -48,6 +50,8 @@ impl Check<'_> {
         for law in given {
             let mechanics = self.mechanics(law, names);
             if law.law == first.law {
+                self.model.law_place =
+                    law.function.as_ref().map_or(law.place.clone(), toml::Spanned::span);
                 self.model.mechanics = mechanics;
             }
         }

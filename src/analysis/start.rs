@@ -1,0 +1,129 @@
+//! Whether a motion can start: its state, its energy and its first step are numbers.
+//!
+//! In: what stopped it, and the values at the start. Out: a mistake at its place, with the
+//! coordinate and the reason. Never here: constraints at the start, which `system` judges.
+
+use crate::expr::{Expr, Node, Pool, Symbol};
+use crate::mechanics::{Equations, Flow};
+use crate::model::{Coordinate, Model, Place};
+use crate::preset::Mistake;
+use crate::system::{Fault, FaultKind};
+
+/// A part of the law longer than this is not told.
+const LONGEST: u64 = 60;
+
+/// Why nothing can start with this energy, or with the fault of the first step; `None` where it can.
+pub(super) fn mistake(
+    model: &Model,
+    equations: &Equations,
+    fault: Option<&Fault>,
+    energy: f64,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<Mistake> {
+    let law = model.law_place.clone();
+    if fault.is_none() && energy.is_finite() {
+        return None;
+    }
+    if let Some(Fault { kind: FaultKind::SingularMass, .. }) = fault
+        && let Some((place, message, help)) = without_inertia(model, equations)
+    {
+        return Some(Mistake::error(place, message).with_help(help));
+    }
+    let culprit = undefined(equations, at);
+    let told = culprit.and_then(|e| tell(model, &equations.pool, e, at));
+    match (told, fault) {
+        (Some((coordinate, cause)), _) => {
+            let place = coordinate.map_or(law, |i| model.coordinates[i].place.clone());
+            Some(Mistake::error(place, format!("the motion cannot start: {cause}")))
+        }
+        (None, Some(fault)) => {
+            Some(Mistake::error(law, format!("the motion cannot start: {fault}")))
+        }
+        (None, None) => {
+            let message = "the motion cannot start: its energy is not a finite number there";
+            Some(Mistake::error(law, message))
+        }
+    }
+}
+
+/// Coordinates whose velocities L does not hold so that they have a mass.
+fn without_inertia(model: &Model, equations: &Equations) -> Option<(Place, String, String)> {
+    let Flow::Lagrange { mass, .. } = &equations.flow else { return None };
+    let light: Vec<usize> =
+        (0..mass.len()).filter(|&i| mass[i].iter().all(|&m| m == Expr::ZERO)).collect();
+    let first = *light.first()?;
+    let names: Vec<String> =
+        light.iter().map(|&i| format!("`{}`", model.coordinates[i].name)).collect();
+    let name = &model.coordinates[first].name;
+    let message = match names.as_slice() {
+        [one] => format!("the motion cannot start: the coordinate {one} has no kinetic term in L"),
+        all => format!(
+            "the motion cannot start: the coordinates {} have no kinetic term in L",
+            all.join(", ")
+        ),
+    };
+    let (_, l) = model.mechanics.function();
+    let linear = light.iter().map(|&i| &model.coordinates[i]);
+    let linear = linear.into_iter().find(|c| model.pool.depends(l, c.velocity));
+    let help = if let Some(Coordinate { name, .. }) = linear {
+        format!(
+            "L is linear in {name}', so that no acceleration follows; a law of first order in time is \
+                 written with [hamiltonian] or [poisson]"
+        )
+    } else {
+        format!("a term such as 1/2*m*{name}'^2 is missing")
+    };
+    Some((model.coordinates[first].place.clone(), message, help))
+}
+
+/// The first part of the law, or of what follows from it, that has no value where its own parts
+/// have.
+fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
+    let pool = &equations.pool;
+    let first: Vec<Expr> = equations.lagrangian.iter().copied().chain([equations.energy]).collect();
+    let second: Vec<Expr> = match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => {
+            mass.concat().into_iter().chain(force.clone()).collect()
+        }
+        Flow::Hamilton { velocities, momentum_rates } => {
+            velocities.iter().chain(momentum_rates).copied().collect()
+        }
+        Flow::Poisson { rates } => rates.clone(),
+    };
+    [first, second].into_iter().find_map(|roots| {
+        pool.reachable(&roots).into_iter().find(|&e| {
+            !pool.evaluate(e, at).is_finite()
+                && pool.node(e).parts().iter().all(|&part| pool.evaluate(part, at).is_finite())
+        })
+    })
+}
+
+/// `1/x has no value at x = 0`, and the coordinate it is, where it is one.
+fn tell(
+    model: &Model,
+    pool: &Pool,
+    e: Expr,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<(Option<usize>, String)> {
+    if matches!(pool.node(e), Node::Symbol(_) | Node::Number(_)) {
+        return None;
+    }
+    let symbols = pool.symbols_of(e);
+    let of = |s: Symbol| {
+        model.coordinates.iter().position(|c| [c.position, c.velocity, c.momentum].contains(&s))
+    };
+    let coordinate = symbols.iter().find_map(|&s| of(s));
+    let shown = |s: &Symbol| format!("{} = {}", pool.symbol_info(*s).name, at(*s));
+    let moving: Vec<String> = symbols
+        .iter()
+        .filter(|&&s| of(s).is_some() || s == model.symbols.time)
+        .map(shown)
+        .collect();
+    let values = if moving.is_empty() { symbols.iter().map(shown).collect() } else { moving };
+    let what = if pool.weight(e) <= LONGEST {
+        format!("`{}` has no finite value", pool.text(e))
+    } else {
+        "a part of the law has no finite value".to_owned()
+    };
+    Some((coordinate, format!("{what} at {}", values.join(", "))))
+}
