@@ -52,6 +52,8 @@ pub struct Motion {
     near: State,
     /// Up to here the last step holds no event that is not known.
     clear: f64,
+    /// How many steps in a row did not move the clock.
+    stalled: u32,
     /// What happens there.
     waiting: Option<Found>,
     /// Of each event.
@@ -90,6 +92,7 @@ impl Motion {
             near: blank,
             clear: 0.0,
             waiting: None,
+            stalled: 0,
             haste: vec![Haste::NONE; system.occasions().events.len()],
             watch: Watch::default(),
             ended: false,
@@ -262,7 +265,9 @@ impl Motion {
             return Err(stands_still(before.high));
         }
         self.stepper.step(limit)?;
-        if (self.stepper.state().exact_time() - before).high <= 0.0 {
+        let moved = (self.stepper.state().exact_time() - before).high > 0.0;
+        self.stalled = if moved { 0 } else { self.stalled + 1 };
+        if self.stalled > MOST_STALLED {
             return Err(stands_still(before.high));
         }
         self.steps += 1;
@@ -333,6 +338,9 @@ impl Motion {
         }
     }
 }
+
+/// A step on a kink may only choose a side, or find that the motion is at rest; so many in a row lead nowhere.
+const MOST_STALLED: u32 = 128;
 
 /// The clock has no digits left for what is to come.
 fn stands_still(time: f64) -> Fault {
