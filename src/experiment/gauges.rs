@@ -159,12 +159,14 @@ impl Gauges {
             }
         }
         for residual in &mut self.residuals {
-            let reference = known(residual.name(), residual.now(now.residuals));
-            reference.into_iter().for_each(|reference| residual.restore(reference));
+            if let Some(reference) = known(residual.name(), residual.now(now.residuals)) {
+                residual.restore(reference);
+            }
         }
-        if let Some(attitude) = &mut self.attitude {
-            let reference = known(Attitude::NAME, attitude.now(now.values));
-            reference.into_iter().for_each(|reference| attitude.restore(reference));
+        if let Some(attitude) = &mut self.attitude
+            && let Some(reference) = known(Attitude::NAME, attitude.now(now.values))
+        {
+            attitude.restore(reference);
         }
     }
 

@@ -39,8 +39,7 @@ pub(super) struct Needle {
     moving: Mean,
     /// The greatest distance from the reference since then.
     farthest: f64,
-    /// The greatest distance over what moved on the mean until then, or at that time where that was more. What moves
-    /// after a motion was ruined is no measure of it.
+    /// The greatest distance over what moved on the mean until then, or at that time where that was more.
     worst: f64,
     /// When it left its value by more than it may.
     left: Option<f64>,
@@ -162,7 +161,10 @@ impl Needle {
         let Some(value) = self.rough(terms) else { return };
         let distance = value - self.rough_reference;
         let moving = self.moving(terms);
-        self.moving.note(time, moving);
+        // what moves after a motion was ruined is no measure of it
+        if self.worst <= LOST {
+            self.moving.note(time, moving);
+        }
         if distance.abs() > floor * self.rounding {
             self.note(time, distance, moving, floor);
             // where rows lie within a step, they are the history
