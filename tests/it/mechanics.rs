@@ -1,6 +1,7 @@
 //! Derivations: what follows from L or H, against equations written by hand, at random states.
 
 mod bracket;
+mod conserved;
 mod frames;
 
 use nalgebra::{DMatrix, DVector};

@@ -96,7 +96,8 @@ fn a_claim_beyond_a_fault_cannot_be_checked() {
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 + 1/x\"\n[expect]\nvalues = [\n  \
                 { name = \"after the fall\", expression = \"x\", at = 9.0, is = 1.0 },\n]\n";
-    with_file(file, &["check", "system.toml"]).fails(65, &["this cannot be checked", "t = 1.11"]);
+    with_file(file, &["check", "system.toml"])
+        .fails(65, &["`after the fall` cannot be checked", "t = 1.11"]);
 }
 
 #[test]
@@ -137,4 +138,92 @@ fn every_shipped_preset_keeps_its_claims() {
     let arguments: Vec<&str> =
         ["check"].into_iter().chain(files.iter().map(String::as_str)).collect();
     assert_eq!(phaselab(&arguments).success(), "");
+}
+
+fn one(start: &str, law: &str) -> String {
+    format!("title = \"T\"\n[coordinates]\n{start}\n{law}\n")
+}
+
+#[test]
+fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
+    let rest = "x = { initial = 0, velocity = 1.5 }";
+    let late = "x = { initial = 1, velocity = 0.5 }";
+    let two = "x = { initial = 1, velocity = 0.5 }\ny = { initial = 1 }";
+    let l = |law: &str| format!("[lagrangian]\nL = \"{law}\"");
+    for (start, law, told) in [
+        (rest, l("1/2*x'^2 - 1/x"), ["`1/x` has no finite value at x = 0", ":3:1"]),
+        (rest, "[hamiltonian]\nH = \"p_x^2/2 + 1/x\"".to_owned(), ["`1/x` has no", ":3:"]),
+        (rest, l("-sqrt(1 - x'^2)"), ["has no finite value at x' = 1.5", ":3:1"]),
+        (late, l("1/2*x'^2 + ln(x - 2)"), ["`ln(x - 2)` has no finite value at x = 1", ":3:1"]),
+        (late, l("1/2*x'^2 + 5*x/t"), ["no finite value at t = 0", ":5:5"]),
+        (two, l("1/2*x'^2 - x*y"), ["`y` has no kinetic term", ":4:1"]),
+        (two, l("x*y' - x^2 - y^2"), ["`x`, `y` have no kinetic term", "first order in time"]),
+        (
+            "theta = { initial = 0, velocity = 0.5 }\nphi = { initial = 0, velocity = 1 }",
+            l("1/2*(theta'^2 + sin(theta)^2*phi'^2) - cos(theta)"),
+            ["the mass matrix is singular", "θ = 0"],
+        ),
+    ] {
+        let law = if law.contains("hamiltonian") {
+            one(&start.replace("velocity", "momentum"), &law)
+        } else {
+            one(start, &law)
+        };
+        let told = ["the motion cannot start", told[0], told[1]];
+        with_file(&law, &["check", "system.toml"]).fails(65, &told);
+    }
+}
+
+#[test]
+fn what_can_start_is_passed() {
+    let l = |law: &str| format!("[lagrangian]\nL = \"{law}\"");
+    let at_zero = "x = { initial = 0, velocity = 1 }";
+    for law in [
+        // finite on the side that the motion takes, and at the start itself
+        l("1/2*x'^2 - abs(x)"),
+        l("1/2*x'^2 - 1/(x + 1e-3)"),
+        l("-sqrt(1 - x'^2/1.0001)"),
+        l("1/2*x'^2 + 5*x/(t + 1)"),
+    ] {
+        assert_eq!(
+            with_file(&one(at_zero, &law), &["check", "system.toml"]).success(),
+            "",
+            "{law}"
+        );
+    }
+}
+
+/// A claim that would take for ever is given up after so many steps, with what it led to.
+#[test]
+fn a_claim_has_a_budget() {
+    let stiff = "[lagrangian]\nL = \"1/2*x'^2 - 1e12*x^2\"\n[run]\nuntil = 1e6\n\
+                 [[observables]]\nname = \"G\"\nexpression = \"x\"\nconserved = true";
+    let file = one("x = { initial = 1 }", stiff);
+    with_file(&file, &["check", "system.toml"]).fails(
+        65,
+        &["`G` cannot be checked: the ", " steps that a check may take led only to t = "],
+    );
+    let events = "[lagrangian]\nL = \"1/2*x'^2\"\n[run]\nuntil = 1e6\n\
+                  [[events]]\nname = \"tick\"\nwhen = \"sin(100*t)\"\n\
+                  [expect]\ncounts = [{ name = \"tick\", until = 1e6, is = 1 }]";
+    let file = one("x = { initial = 1 }", events);
+    with_file(&file, &["check", "system.toml"]).fails(65, &["`tick` happens", "not 1"]);
+}
+
+/// A claim is not true because the run ends before what makes it false; nor is its denial false.
+#[test]
+fn a_claim_that_holds_by_a_short_run_only_is_false() {
+    let barrier = |rest: &str| {
+        let law = "[lagrangian]\nL = \"1/2*x'^2 - 0.7*exp(-10*(x-6)^2)\"\n[run]\nuntil = 3\n";
+        one("x = { initial = 0, velocity = 1 }", &format!("{law}{rest}"))
+    };
+    with_file(&barrier("[expect]\nconserves = [\"p_x\"]"), &["check", "system.toml"]).fails(
+        65,
+        &[
+            "`p_x` is said to be conserved, but it is not",
+            "only keeps its value to rounding until t = 3",
+        ],
+    );
+    let denied = "[[observables]]\nname = \"v\"\nexpression = \"x'\"\nconserved = false";
+    assert_eq!(with_file(&barrier(denied), &["check", "system.toml"]).success(), "");
 }

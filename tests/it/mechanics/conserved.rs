@@ -1,0 +1,255 @@
+//! What is conserved, what is not, and what is not known: by proof, whatever the units, wherever a
+//! force hides.
+
+use phaselab::mechanics::{self, Class, Equations, Reason};
+use phaselab::model::Model;
+use phaselab::preset::Document;
+
+fn derived(text: &str) -> (Model, Equations) {
+    let document = Document::new("system.toml", text);
+    let model = match document.read() {
+        Ok(checked) => checked.model,
+        Err(mistakes) => panic!("{text}\n{mistakes:?}"),
+    };
+    let equations = mechanics::derive(&model).expect("derivable");
+    (model, equations)
+}
+
+/// A file: coordinates from these starts, the rest as written, and one observable.
+fn file(starts: &str, rest: &str, observable: &str) -> String {
+    format!(
+        "title = \"T\"\n[coordinates]\n{starts}\n{rest}\n\
+         [[observables]]\nname = \"G\"\nexpression = \"{observable}\"\n"
+    )
+}
+
+fn class(starts: &str, rest: &str, observable: &str) -> Class {
+    let (model, mut equations) = derived(&file(starts, rest, observable));
+    let classed = mechanics::classes(&model, &mut equations).pop().expect("one observable");
+    let listed = equations.conserved.iter().find(|c| c.name == "G");
+    if let Some(listed) = listed {
+        assert!(classed.class.is_conserved(), "{rest}: listed by {}", listed.reason);
+    }
+    classed.class
+}
+
+const LINE: &str = "x = { initial = 0.0, velocity = 1.0 }";
+const PLANE: &str = "x = { initial = 1.0, velocity = 0.1 }\ny = { initial = 0.2, velocity = 0.9 }";
+const SPACE: &str = "x = { initial = 1.0, velocity = 0.1 }\ny = { initial = 0.2, velocity = 0.9 }\n\
+                     z = { initial = 0.3, velocity = 0.2 }";
+
+fn l(law: &str) -> String {
+    format!("[lagrangian]\nL = \"{law}\"")
+}
+
+/// A force that is nowhere near the start, too small to be seen beside others, or in units in which
+/// everything is small.
+#[test]
+fn what_changes_is_never_called_conserved() {
+    for (starts, rest, observable) in [
+        (LINE, l("1/2*x'^2 - 0.7*exp(-10*(x-6)^2)"), "p_x"),
+        (LINE, l("1/2*x'^2 - 50*max(0, abs(x) - 3)^2"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1/2*x^2 + x*max(0, t-3)"), "energy"),
+        (LINE, l("1/2*x'^2 - 1/2*x^2 + x*max(0, t-4000)"), "energy"),
+        (LINE, l("1/2*x'^2 - max(0, x - 100)^2"), "x'"),
+        (LINE, l("1/2*x'^2 - max(0, x - 1e7)^3"), "x'"),
+        (LINE, l("1/2*x'^2 - tanh(20*(x - 50))"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1/(1 + exp(x - 60))"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1/cosh(5*(x - 20))^2"), "p_x"),
+        (LINE, l("1/2*x'^2 - exp(-20*(x-3)^2) - exp(-20*(x-4)^2) - exp(-20*(x-5)^2)"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1/2*x^2 + x*exp(-(t - 40)^2)"), "energy"),
+        (LINE, l("1/2*x'^2 - x^40"), "p_x"),
+        (LINE, l("1/2*x'^2 - (x/50)^200"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1e-40*x"), "p_x"),
+        (LINE, l("1/2*x'^2 - 1/2*x^2 + 1e-40*x*t"), "energy"),
+        (LINE, l("1/2*x'^2 - sqrt((x - 9)^2 + 1e-12)"), "p_x"),
+        (LINE, l("1/2*x'^2 - (1 + cos(x - 3))^40/2^40"), "p_x"),
+        (LINE, format!("{}\ndissipation = \"1/2*1e-9*x'^2\"", l("1/2*x'^2 - 1/2*x^2")), "energy"),
+        (LINE, format!("{}\ndissipation = \"1/2*1e-60*x'^2\"", l("1/2*x'^2 - 1/2*x^2")), "energy"),
+        (PLANE, l("1/2*(x'^2 + y'^2) - exp(-(x-30)^2 - (y-40)^2)"), "x*p_y - y*p_x"),
+        (PLANE, l("1/2*(x'^2 + y'^2) - 1/2*x^2 - 1/2*(1 + 1e-15)*y^2"), "x*p_y - y*p_x"),
+        (
+            "x = { initial = 1e-10, velocity = 0.0 }",
+            format!(
+                "{}\ndissipation = \"1/2*2e-15*x'^2\"",
+                l("1/2*9.109e-31*x'^2 - 1/2*1.6e-15*x^2")
+            ),
+            "energy",
+        ),
+        (
+            "x = { initial = 1e20, velocity = 1e5 }",
+            format!("{}\ndissipation = \"1/2*1e20*x'^2\"", l("1/2*2e42*x'^2 - 1/2*1.6e12*x^2")),
+            "energy",
+        ),
+        (
+            "x = { initial = \"6e-9\" }\ny = { initial = \"8e-9\", velocity = 0.0 }",
+            "[parameters]\nm = 1.0e-26\nq = 1e-12\nb = 1e-8\n\
+             [lagrangian]\nL = \"1/2*m*(x'^2+y'^2) - q*x\"\n\
+             [[constraints]]\nname = \"rod\"\nexpression = \"x^2+y^2-b^2\"\n\
+             [[constraints]]\nname = \"rod2\"\nexpression = \"(x^2+y^2)/b^2-1\""
+                .to_owned(),
+            "1/2*m*(x'^2+y'^2)",
+        ),
+    ] {
+        assert_eq!(class(starts, &rest, observable), Class::Changing, "{observable}: {rest}");
+    }
+}
+
+/// A kink on whose other side nobody was is not evidence of anything; a root without real values
+/// is not either.
+#[test]
+fn what_nobody_saw_is_not_known() {
+    let narrow = l("1/2*x'^2 - 1e-3*max(0, 1e-30 - abs(x - 5.123456))");
+    let told = class(LINE, &narrow, "x'");
+    assert!(matches!(told, Class::Unknown | Class::Changing), "{told}");
+    // a step: its force is an impulse, which no derivative shows
+    let step = l("1/2*x'^2 - (1 + sign(x - 77))");
+    assert_eq!(class(LINE, &step, "x'"), Class::Unknown);
+    let (_, equations) = derived(&file(LINE, &step, "x"));
+    assert!(equations.conserved.is_empty(), "{:?}", equations.conserved);
+    assert_eq!(class(LINE, &l("1/2*x'^2"), "sign(x)"), Class::Unknown);
+    let nowhere = l("1/2*x'^2 + sqrt(-1 - x^2)");
+    assert_eq!(class(LINE, &nowhere, "x'"), Class::Unknown);
+}
+
+/// Constants of the motion in odd forms: all of them are proved.
+#[test]
+fn what_is_conserved_is_proved() {
+    let kepler = l("1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)");
+    let si =
+        l("1/2*5.972e24*(x'^2 + y'^2 + z'^2) + 6.6743e-11*1.98847e30*5.972e24/sqrt(x^2+y^2+z^2)");
+    let integrable = l("1/2*(x'^2 + y'^2) - 1/2*(3*x^2 + 5*y^2) - x^2*y - 2*y^3");
+    let sixteen = l("1/2*(x'^2 + y'^2) - 1/2*(x^2 + 16*y^2) - x^2*y - 16/3*y^3");
+    let relativistic = l("-sqrt(1 - x'^2 - y'^2) + 0.2*x + 0.9*(x*y' - y*x')/2");
+    let toda =
+        "[hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2 + p_z^2) + exp(x-y) + exp(y-z) + exp(z-x)\"";
+    let damped = format!("{}\ndissipation = \"1/2*0.3*x'^2\"", l("1/2*x'^2"));
+    let rod = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+               [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - 1.04\"";
+    let bowl = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - z\"\n\
+                [[constraints]]\nname = \"bowl\"\nexpression = \"z - x^2 - y^2\"";
+    let momentum = "x = { initial = 0.3, momentum = 0.1 }\ny = { initial = 0.1, momentum = 0.2 }\n\
+                    z = { initial = 0.0, momentum = -0.3 }";
+    let held = "x = { initial = 1.0 }\ny = { initial = 0.2, velocity = 0.9 }";
+    let sliding = "x = { initial = 1.0, velocity = 0.1 }\ny = { initial = 0.0, velocity = 0.9 }\n\
+                   z = { initial = 1.0 }";
+    let cases: &[(&str, &str, &str)] = &[
+        (PLANE, kepler.as_str(), "y'*(x*y' - y*x') - x/sqrt(x^2 + y^2)"),
+        (
+            PLANE,
+            &kepler,
+            "(y'*(x*y' - y*x') - x/sqrt(x^2 + y^2))^2 + (-x'*(x*y' - y*x') - y/sqrt(x^2 + y^2))^2",
+        ),
+        (
+            SPACE,
+            &si,
+            "y'*(x*y' - y*x') - z'*(z*x' - x*z') - 6.6743e-11*1.98847e30*x/sqrt(x^2+y^2+z^2)",
+        ),
+        (PLANE, &integrable, "x^4 + 4*x^2*y^2 - 4*x'*(x'*y - y'*x) + 12*x^2*y + 7*(x'^2 + 3*x^2)"),
+        (
+            PLANE,
+            &sixteen,
+            "3*x'^4 + 6*(1 + 2*y)*x^2*x'^2 - 4*x^3*x'*y' - 4*x^4*(y + y^2) + 3*x^4 - 2/3*x^6",
+        ),
+        (PLANE, &relativistic, "p_y + 0.9*x/2"),
+        (PLANE, &relativistic, "p_x - 0.9*y/2 - 0.2*t"),
+        (PLANE, &relativistic, "y'/sqrt(1 - x'^2 - y'^2) + 0.9*x"),
+        (momentum, toda, "p_x*p_y*p_z - p_x*exp(y-z) - p_y*exp(z-x) - p_z*exp(x-y)"),
+        (LINE, &l("1/2*x'^2 - 9.81*x"), "x - x'*t - 1/2*9.81*t^2"),
+        (LINE, &l("1/2*x'^2 - abs(x)"), "(1/2*x'^2 + abs(x))^3"),
+        (LINE, &l("1/2*x'^2 - max(0, x - 3)^2"), "(1/2*x'^2 + max(0, x - 3)^2)^2"),
+        (LINE, &l("1/2*x'^2 - sqrt(x^2)"), "(1/2*x'^2 + abs(x))^2"),
+        (LINE, &l("exp(0.3*t)*1/2*x'^2"), "x'*exp(0.3*t)"),
+        (LINE, &damped, "p_x + 0.3*x"),
+        (LINE, &damped, "x'*exp(0.3*t)"),
+        (held, rod, "x^2 + y^2"),
+        (held, rod, "x'^2 + y'^2"),
+        (sliding, bowl, "x*y' - y*x'"),
+        (sliding, bowl, "z - x^2 - y^2"),
+        (sliding, bowl, "1/2*(x'^2 + y'^2) + 2*(x*x' + y*y')^2 + x^2 + y^2"),
+    ];
+    for &(starts, rest, observable) in cases {
+        assert_eq!(class(starts, rest, observable), Class::Proved, "{observable}: {rest}");
+    }
+}
+
+/// What holds at the file's values of the parameters and not at others is said to.
+#[test]
+fn a_symmetry_of_the_numbers_is_told_from_one_of_the_law() {
+    let springs = |stiffness: f64| {
+        format!(
+            "[parameters]\nk1 = 2.5\nk2 = {stiffness:?}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2) - 1/2*k1*x^2 - 1/2*k2*y^2\""
+        )
+    };
+    let l_z = "x*p_y - y*p_x";
+    assert_eq!(class(PLANE, &springs(2.5), l_z), Class::AtTheseParameters);
+    assert_eq!(class(PLANE, &springs(2.6), l_z), Class::Changing);
+}
+
+fn reason(text: &str, name: &str) -> Reason {
+    let (_, equations) = derived(text);
+    let found = equations.conserved.iter().find(|c| c.name == name);
+    found.unwrap_or_else(|| panic!("{name} is not conserved in {text}")).reason.clone()
+}
+
+/// A reason names what was proved: the bracket only where the motion is Hamilton's, ∂L/∂t = 0 only
+/// where nothing drives or dissipates, a translation only of lengths.
+#[test]
+fn reasons_are_true() {
+    let damped = format!("{}\ndissipation = \"1/2*0.3*x'^2\"", l("1/2*x'^2"));
+    assert_eq!(reason(&file(LINE, &damped, "p_x + 0.3*x"), "G"), Reason::Proved);
+    assert_eq!(Reason::Proved.to_string(), "dG/dt = 0 proved symbolically");
+    let free = file(LINE, &l("1/2*x'^2 - 9.81*x"), "x - x'*t - 1/2*9.81*t^2");
+    assert_eq!(reason(&free, "G"), Reason::Commutes);
+    let rod = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+               [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - 1.04\"";
+    let held = "x = { initial = 1.0 }\ny = { initial = 0.2, velocity = 0.9 }";
+    assert_eq!(reason(&file(held, rod, "x^2 + y^2"), "G"), Reason::ProvedOnConstraints);
+    assert_eq!(reason(&file(held, rod, "x*p_y - y*p_x"), "L_z"), Reason::Rotation('z'));
+    let balanced = format!("{}\nforces = {{ x = \"-sin(t)\" }}", l("1/2*x'^2 + x*sin(t)"));
+    assert_eq!(reason(&file(LINE, &balanced, "x"), "p_x"), Reason::Proved);
+    let angles = |unit: &str| {
+        let start = format!("{{ unit = \"{unit}\", initial = 0.1 }}");
+        file(
+            &format!("phi1 = {start}\nphi2 = {start}"),
+            &l("1/2*phi1'^2 + 1/2*phi2'^2 - (phi1 - phi2)^2"),
+            "phi1",
+        )
+    };
+    let name = "total p_phi";
+    assert_eq!(reason(&angles("rad"), name), Reason::CommonRotation("φ₁, φ₂".to_owned()));
+    assert_eq!(reason(&angles("m"), name), Reason::Translation("φ₁, φ₂".to_owned()));
+}
+
+/// With a constraint that may be let go, only what holds whatever force it exerts is conserved.
+#[test]
+fn what_a_constraint_conserves_ends_with_it() {
+    let released = |observable: &str| {
+        let rest = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2)\"\n\
+                    [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - 1.04\"\n\
+                    [[events]]\nname = \"snap\"\nwhen = \"x - 0.5\"\naction = \"release:rod\"";
+        let held = "x = { initial = 1.0 }\ny = { initial = 0.2, velocity = 0.9 }";
+        let (_, equations) = derived(&file(held, rest, observable));
+        equations.conserved.iter().any(|c| c.name == "G" && !c.reason.is_declared())
+    };
+    assert!(!released("x^2 + y^2"));
+    assert!(released("x*p_y - y*p_x + 1"));
+}
+
+/// A law too large is counted before anything is made of it.
+#[test]
+fn a_law_too_large_is_refused_before_it_is_expanded() {
+    let mut rest = String::from("[definitions]\na0 = \"x + 1\"\n");
+    for i in 1..200 {
+        let last = i - 1;
+        rest += &format!("a{i} = \"sin(a{last}*x)*cos(a{last} + x) + a{last}^2\"\n");
+    }
+    rest += "[lagrangian]\nL = \"1/2*x'^2 - a199\"";
+    let document = Document::new("system.toml", file(LINE, &rest, "x"));
+    let model = document.read().expect("it can be read").model;
+    let before = model.pool.reachable(&[model.mechanics.function().1]).len();
+    let why = mechanics::derive(&model).expect_err("it is too large");
+    assert!(why.to_string().contains("1000000 nodes"), "{why}");
+    assert!(before < 2000, "the text itself is small: {before}");
+}
