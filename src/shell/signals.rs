@@ -29,13 +29,14 @@ const SAVING: Duration = Duration::from_millis(1500);
 
 /// What ends a program that does not catch it. A thread that is to be told of SIGSEGV, SIGILL or SIGFPE would be told too
 /// late, so they cannot be caught here, and SIGKILL nowhere; a real abort ends the program before the thread is awake.
-const FATAL: [i32; 16] = [
+const FATAL: [i32; 15] = [
     SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
-    SIGXFSZ, SIGIO, SIGABRT, SIGBUS, SIGSYS, SIGTRAP,
+    SIGIO, SIGABRT, SIGBUS, SIGSYS, SIGTRAP,
 ];
 
-/// What the frame loop has to do beside.
-const OTHERS: [i32; 3] = [SIGTSTP, SIGCONT, SIGWINCH];
+/// What the frame loop has to do beside; and a file that has become too large (SIGXFSZ), of which its writer hears by an
+/// error.
+const OTHERS: [i32; 4] = [SIGTSTP, SIGCONT, SIGWINCH, SIGXFSZ];
 
 /// The way from the signal thread to the frame loop.
 #[derive(Debug)]
@@ -77,6 +78,7 @@ impl Signals {
                     SIGTSTP => notes.stop = true,
                     SIGCONT => notes.resumed = true,
                     SIGWINCH => notes.resized = true,
+                    SIGXFSZ => continue,
                     fatal => notes.fatal = Some(fatal),
                 }
                 let fatal = notes.fatal;

@@ -235,7 +235,9 @@ const ELEMENTARY: [&str; 26] = [
 
 /// Where methods of these names belong to other numbers than `f64`: rules over every `Real`, double-doubles, exact
 /// numbers. There only `clippy.toml` can tell.
-const OTHER_NUMBERS: [&str; 6] = [
+const OTHER_NUMBERS: [&str; 8] = [
+    "expr/ball/",
+    "expr/ball.rs",
     "expr/function/",
     "expr/double/",
     "expr/number.rs",

@@ -56,7 +56,6 @@ fn every_signal_that_ends_a_program_gives_the_terminal_back() {
         (Signal::USR2, 140),
         (Signal::ALARM, 142),
         (Signal::XCPU, 152),
-        (Signal::XFSZ, 153),
         (Signal::VTALARM, 154),
         (Signal::PROF, 155),
         (Signal::ABORT, 134),

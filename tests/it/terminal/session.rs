@@ -78,19 +78,12 @@ impl Setup {
     }
 }
 
-/// The example's program, which `cargo test` builds along with this test; never one older than its source.
+/// The example's program, which `cargo test` builds along with this test.
 fn page() -> PathBuf {
     let test = std::env::current_exe().expect("this test");
     let folder = test.parent().and_then(|deps| deps.parent()).expect("target/debug/deps");
     let page = folder.join("examples/page");
-    let time = |path: &Path| path.metadata().and_then(|file| file.modified()).ok();
-    let made_of = std::fs::read_to_string(page.with_extension("d")).unwrap_or_default();
-    let sources = made_of.split_whitespace().filter(|word| word.ends_with(".rs"));
-    let newest = sources.map(|source| time(Path::new(source))).max().flatten();
-    assert!(
-        newest.is_some() && time(&page) >= newest,
-        "the example `page` is not built, or older than its source: run `cargo build --example page`"
-    );
+    assert!(page.exists(), "the example `page` is not built: run `cargo build --example page`");
     page
 }
 
