@@ -3,7 +3,7 @@
 //! In: what stopped it, and the values at the start. Out: a mistake at its place, with the
 //! coordinate and the reason. Never here: constraints at the start, which `system` judges.
 
-use crate::expr::{Expr, Node, Number, Pool, Symbol};
+use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model, Place};
 use crate::preset::Mistake;
@@ -111,11 +111,7 @@ fn tell(
     // of a product, the factor that has no value
     let culprit = match pool.node(e) {
         Node::Product(_, factors) => {
-            let undefined = |&&(base, n): &&(Expr, Number)| {
-                let value = pool.evaluate(base, at);
-                value == 0.0 && n.is_negative() || value < 0.0 && n.as_integer().is_none()
-            };
-            factors.iter().find(undefined).map(|&(base, _)| base)
+            factors.iter().map(|&(base, _)| base).find(|&base| pool.evaluate(base, at) <= 0.0)
         }
         _ => None,
     };
