@@ -108,7 +108,14 @@ fn tell(
     if matches!(pool.node(e), Node::Symbol(_) | Node::Number(_)) {
         return None;
     }
-    let symbols = pool.symbols_of(e);
+    // of a product, the factor that has no value
+    let culprit = match pool.node(e) {
+        Node::Product(_, factors) => {
+            factors.iter().map(|&(base, _)| base).find(|&base| pool.evaluate(base, at) <= 0.0)
+        }
+        _ => None,
+    };
+    let symbols = pool.symbols_of(culprit.unwrap_or(e));
     let of = |s: Symbol| {
         model.coordinates.iter().position(|c| [c.position, c.velocity, c.momentum].contains(&s))
     };

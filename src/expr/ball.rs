@@ -175,8 +175,8 @@ impl Ball {
     /// `self ^ n` for a numeric exponent.
     pub(super) fn power(self, n: Number) -> Option<Ball> {
         match n {
-            Number::Rational(n, 1) if n.abs() <= 4096 => self.powi(n),
-            Number::Rational(n, 2) if n.abs() <= 4096 => self.sqrt()?.powi(n),
+            Number::Rational(n, 1) if n.abs() <= 4096 => self.raised(n),
+            Number::Rational(n, 2) if n.abs() <= 4096 => self.sqrt()?.raised(n),
             _ => self.real_power(Ball::number(n)?, n.is_negative()),
         }
     }
@@ -186,12 +186,12 @@ impl Ball {
         if self.is_zero() && !pole_at_zero && exponent.sign() == Some(1.0) {
             return Some(Ball::ZERO);
         }
-        self.ln()?.mul(exponent)?.exp()
+        self.logarithm()?.mul(exponent)?.exponential()
     }
 
-    fn powi(self, n: i64) -> Option<Ball> {
+    fn raised(self, n: i64) -> Option<Ball> {
         if n < 0 {
-            return self.powi(-n)?.recip();
+            return self.raised(-n)?.recip();
         }
         let mut result = Ball::exact(1.0)?;
         let (mut base, mut n) = (self, n);

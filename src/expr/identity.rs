@@ -171,11 +171,17 @@ impl Pool {
         done[&e]
     }
 
-    /// Roots of even powers as absolute values: √(u²) = |u|.
+    /// Roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) = u.
     fn open_roots(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             let rebuilt = self.rebuild(part, &done);
+            if let Node::Call(FunctionId::Exp, arguments) = &*self.shared(rebuilt)
+                && let Node::Call(FunctionId::Ln, inner) = &*self.shared(arguments[0])
+            {
+                done.insert(part, inner[0]);
+                continue;
+            }
             let Node::Product(c, factors) = &*self.shared(rebuilt) else {
                 done.insert(part, rebuilt);
                 continue;

@@ -34,14 +34,16 @@ impl Ball {
             FunctionId::Atan2 => u.angle(arguments[1]),
             FunctionId::Sinh if u.is_small() => u.nearly(),
             FunctionId::Sinh => {
-                let two = u.exp()?.add(u.negated().exp()?.negated())?;
+                let two = u.exponential()?.add(u.negated().exponential()?.negated())?;
                 two.mul(Ball::exact(0.5)?)
             }
-            FunctionId::Cosh => u.exp()?.add(u.negated().exp()?)?.mul(Ball::exact(0.5)?),
+            FunctionId::Cosh => {
+                u.exponential()?.add(u.negated().exponential()?)?.mul(Ball::exact(0.5)?)
+            }
             FunctionId::Tanh if u.is_small() => u.nearly(),
             FunctionId::Tanh => u.between(portable::tanh, f64::INFINITY),
-            FunctionId::Exp => u.exp(),
-            FunctionId::Ln => u.ln(),
+            FunctionId::Exp => u.exponential(),
+            FunctionId::Ln => u.logarithm(),
             FunctionId::Sqrt => u.sqrt(),
             FunctionId::Abs => Some(u.abs()),
             FunctionId::Sign => match u.sign() {
@@ -130,7 +132,7 @@ impl Ball {
     }
 
     /// e to this power.
-    pub(in crate::expr) fn exp(self) -> Option<Ball> {
+    pub(in crate::expr) fn exponential(self) -> Option<Ball> {
         if self.exponent > 39 {
             return None;
         }
@@ -148,7 +150,7 @@ impl Ball {
     }
 
     /// The natural logarithm.
-    pub(in crate::expr) fn ln(self) -> Option<Ball> {
+    pub(in crate::expr) fn logarithm(self) -> Option<Ball> {
         if self.sign()? <= 0.0 {
             return None;
         }

@@ -205,7 +205,7 @@ fn a_claim_has_a_budget() {
     );
     let events = "[lagrangian]\nL = \"1/2*x'^2\"\n[run]\nuntil = 1e6\n\
                   [[events]]\nname = \"tick\"\nwhen = \"sin(100*t)\"\n\
-                  [expect]\ncounts = [{ name = \"tick\", until = 1e6, is = 1 }]";
+                  [expect]\ncount = [{ name = \"tick\", until = 1e6, is = 1 }]";
     let file = one("x = { initial = 1 }", events);
     with_file(&file, &["check", "system.toml"]).fails(65, &["`tick` happens", "not 1"]);
 }

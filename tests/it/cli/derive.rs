@@ -115,7 +115,7 @@ fn every_observable_is_classed() {
         (class(0).as_str(), text(&object["observables"][0]["rate"])),
         ("conserved (proved)", "0")
     );
-    assert_eq!(class(1), "conserved (to rounding)");
+    assert_eq!(class(1), "conserved (proved)");
     assert_eq!(class(2), "not conserved");
     assert_eq!(text(&object["observables"][2]["rate"]), "2*x*x' + 2*y*y'");
     let page = with_file(file, &["derive", "system.toml"]).success();
@@ -144,7 +144,8 @@ fn an_observable_is_classed_where_accelerations_have_no_closed_form() {
     let object = with_file(&file, &["derive", "system.toml", "--format", "json"]).json();
     assert!(object["equations"].is_null(), "this has a closed form after all");
     let class = |i: usize| text(&object["observables"][i]["class"]);
-    assert_eq!(class(0), "conserved (to rounding)");
+    // by the law of the energy and by ṗ, for which no q̈ is needed
+    assert_eq!(class(0), "conserved (proved)");
     assert_eq!((class(1), &object["observables"][1]["rate"]), ("not conserved", &Value::Null));
-    assert_eq!(class(2), "conserved (to rounding)");
+    assert_eq!(class(2), "conserved (proved)");
 }

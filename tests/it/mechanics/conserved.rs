@@ -206,7 +206,7 @@ fn reasons_are_true() {
                [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - 1.04\"";
     let held = "x = { initial = 1.0 }\ny = { initial = 0.2, velocity = 0.9 }";
     assert_eq!(reason(&file(held, rod, "x^2 + y^2"), "G"), Reason::ProvedOnConstraints);
-    assert_eq!(reason(&file(held, rod, "x*p_y - y*p_x"), "L_z"), Reason::Rotation('z'));
+    assert_eq!(reason(&file(held, rod, "x*p_y - y*p_x"), "G"), Reason::Rotation('z'));
     let balanced = format!("{}\nforces = {{ x = \"-sin(t)\" }}", l("1/2*x'^2 + x*sin(t)"));
     assert_eq!(reason(&file(LINE, &balanced, "x"), "p_x"), Reason::Proved);
     let angles = |unit: &str| {
