@@ -238,7 +238,9 @@ impl<'a> Motion<'a> {
                 .unwrap_or_else(|| refused(place_of(model, &fault), fault.to_string())),
         })?;
         let begun = motion.course.begin(&state, &parameters);
-        let looked = begun.and_then(|()| motion.observer.observe(&state, &mut motion.values));
+        // also where nothing can begin: the values say why
+        let looked = motion.observer.observe(&state, &mut motion.values);
+        let looked = begun.and(looked);
         // the first step, taken once more afterwards from the start
         let stepped = looked.and_then(|()| {
             let end = model.run.until.unwrap_or(model.run.start + LENGTH);
