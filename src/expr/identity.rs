@@ -164,7 +164,7 @@ impl Pool {
                 && let Rule::Branch(branches) = function.row().rule
             {
                 let branches = branches(self, arguments);
-                rebuilt = if positive != turned { branches.positive } else { branches.negative };
+                rebuilt = if positive == turned { branches.negative } else { branches.positive };
             }
             done.insert(part, rebuilt);
         }

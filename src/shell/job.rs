@@ -3,7 +3,7 @@
 //! In: what is to be done. Out: a sentence on what became of it, once. One at a time. Never here: what is written.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -56,10 +56,7 @@ impl Job {
 
     /// The same, waited for so long; `None` where there was none, or it takes longer.
     pub(super) fn wait(&mut self, time: Duration) -> Option<Told> {
-        match self.answer.take()?.recv_timeout(time) {
-            Ok(told) => Some(told),
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
-        }
+        self.answer.take()?.recv_timeout(time).ok()
     }
 }
 

@@ -158,7 +158,9 @@ mod tests {
         assert_ne!(made[0], made[1]);
         let mode = fs::metadata(&made[0]).expect("it is there").mode();
         assert_eq!(mode & 0o777, PRIVATE);
-        made.iter().for_each(|path| remove(path));
+        for path in &made {
+            remove(path);
+        }
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
     }
 }

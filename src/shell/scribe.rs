@@ -82,7 +82,9 @@ impl Scribe {
     /// What has become of the files since this was asked last.
     pub(super) fn outcomes(&mut self) -> Vec<(PathBuf, io::Result<()>)> {
         let outcomes: Vec<_> = self.outcomes.try_iter().collect();
-        outcomes.iter().for_each(|(path, _)| self.close(path));
+        for (path, _) in &outcomes {
+            self.close(path);
+        }
         outcomes
     }
 

@@ -134,7 +134,7 @@ impl Store {
         fs::create_dir_all(folder).map_err(refused)?;
         let scribe = Scribe::new().map_err(refused)?;
         if let Some(lock) = lock(&path.with_extension("lock")).map_err(refused)? {
-            return Ok(Self::first(path, lock, scribe));
+            return Ok(Self::first(&path, lock, scribe));
         }
         for number in 2..=PROGRAMS {
             let texts = numbered(&path, number);
@@ -146,17 +146,17 @@ impl Store {
     }
 
     /// The store of the program that keeps the session.
-    fn first(session: PathBuf, lock: File, scribe: Scribe) -> Self {
+    fn first(session: &Path, lock: File, scribe: Scribe) -> Self {
         let mut troubles = Vec::new();
         let what = "the session will not be saved";
         let readable =
-            read_or_put_aside(&session, what, &mut troubles, |path| read_from(path).map(|_| ()));
+            read_or_put_aside(session, what, &mut troubles, |path| read_from(path).map(|_| ()));
         let texts = session.with_file_name("texts.toml");
         let what = "texts that are left unsaved will not be kept";
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         let mut store = Self {
             texts: known.is_ok().then_some(texts),
-            session: readable.is_ok().then(|| session.clone()),
+            session: readable.is_ok().then(|| session.to_owned()),
             known: known.ok().flatten().unwrap_or_default(),
             failed: false,
             waits_for: None,
@@ -165,7 +165,7 @@ impl Store {
             troubles,
             _lock: lock,
         };
-        store.take_up_others(&session);
+        store.take_up_others(session);
         store
     }
 
@@ -220,7 +220,7 @@ impl Store {
         let lock = lock(&session.with_extension("lock")).ok().flatten()?;
         let scribe = Scribe::new().ok()?;
         let session = self.waits_for.take()?;
-        let mut own = std::mem::replace(self, Self::first(session, lock, scribe));
+        let mut own = std::mem::replace(self, Self::first(&session, lock, scribe));
         // one that still has something to write goes on
         std::mem::swap(&mut self.scribe, &mut own.scribe);
         let found = self.known.clone();

@@ -415,7 +415,9 @@ impl<R: Real> Growth<R> {
             self.depth = 1;
         }
         if k + self.depth > self.order {
-            kept.iter().for_each(|&switch| self.jet.set_weight(switch, k, R::ZERO));
+            for &switch in &kept {
+                self.jet.set_weight(switch, k, R::ZERO);
+            }
             return Ok(());
         }
         let mut matrix = vec![R::ZERO; n * n];

@@ -79,7 +79,9 @@ pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
         let (foretold, _) = value_and_slope(coefficients, after);
         let size = largest_term(coefficients, after);
         let value = rates.guard(i);
-        foretold.is_finite() && !((value - foretold).abs() <= STRAYED * size.max(value.abs()))
+        // a value that is not a number has strayed
+        let agrees = (value - foretold).abs() <= STRAYED * size.max(value.abs());
+        foretold.is_finite() && !agrees
     })
 }
 
