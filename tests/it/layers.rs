@@ -143,7 +143,7 @@ fn word(text: &str) -> Option<String> {
 
 /// What is wrong with a use of one room by another.
 fn refusal(table: &Table, from: &str, to: &str) -> Option<String> {
-    let Some(allowed) = table.get(from) else { return None };
+    let allowed = table.get(from)?;
     if from == to || !table.contains_key(to) || allowed.contains(to) {
         return None;
     }

@@ -45,7 +45,7 @@ fn words<'w>(words: &'w [&'w str]) -> Vec<&'w OsStr> {
 
 /// TOML's escapes for a text.
 fn escaped(text: &str) -> String {
-    text.chars().map(|c| format!("\\U{:08x}", c as u32)).collect()
+    text.chars().fold(String::new(), |text, c| text + &format!("\\U{:08x}", c as u32))
 }
 
 /// A file in which a text stands for each thing a person may write, in turn.
@@ -290,7 +290,8 @@ fn no_preset_or_folder_of_ones_own_steers_the_terminal() {
 fn no_cast_script_or_configuration_steers_the_terminal() {
     let home = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
-    let in_json: String = STEERING.encode_utf16().map(|unit| format!("\\u{unit:04x}")).collect();
+    let in_json: String =
+        STEERING.encode_utf16().fold(String::new(), |text, unit| text + &format!("\\u{unit:04x}"));
     let raw: String = STEERING.chars().filter(|&c| c > '\u{7f}').collect();
     let head = "{\"version\":2,\"width\":80,\"height\":24}\n";
     for cast in [

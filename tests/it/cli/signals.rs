@@ -114,7 +114,9 @@ fn a_command_that_waits_for_its_file_is_ended() {
     ];
     for (i, arguments) in commands.iter().enumerate() {
         let (by, code) = SIGNALS[i % SIGNALS.len()];
-        ends(|| command(home.path(), arguments).spawn().unwrap(), watching, by, code);
+        ends(|| command(home.path(), arguments).spawn().unwrap(), watching, by, code)
+            .wait()
+            .unwrap();
     }
     drop(open);
 }
@@ -148,7 +150,7 @@ fn a_run_whose_reader_is_stalled_is_ended() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
     for (by, code) in SIGNALS {
-        ends(|| stalled(home.path(), "csv"), waiting, by, code);
+        ends(|| stalled(home.path(), "csv"), waiting, by, code).wait().unwrap();
     }
 }
 
@@ -158,7 +160,7 @@ fn a_run_into_a_pipe_without_a_reader_is_ended() {
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
     pipe(home.path(), "out");
     let start = || command(home.path(), &["run", "system.toml", "-o", "out"]).spawn().unwrap();
-    ends(start, waiting, Signal::TERM, 143);
+    ends(start, waiting, Signal::TERM, 143).wait().unwrap();
 }
 
 /// Reads all that comes, so that nothing stalls.
@@ -235,7 +237,7 @@ fn a_signal_wins_over_a_full_disk() {
     let long = ["run", "system.toml", "--until", "1e9", "--every", "1e8"];
     let full = || File::options().write(true).open("/dev/full").unwrap();
     let start = || command(home.path(), &long).stdout(full()).spawn().unwrap();
-    ends(start, watching, Signal::TERM, 143);
+    ends(start, watching, Signal::TERM, 143).wait().unwrap();
 }
 
 #[test]

@@ -137,7 +137,8 @@ impl Walker<'_> {
                 return Err(Lost::NotFinite);
             }
             let step = self.step(*time, state, h)?;
-            if !(step.error <= 1.0) {
+            // an error that is not a number is too large
+            if step.error.is_nan() || step.error > 1.0 {
                 let factor = 0.9 * step.error.powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0));
                 h *= if factor.is_finite() { factor.clamp(0.1, 0.9) } else { 0.2 };
                 continue;
@@ -159,9 +160,10 @@ impl Walker<'_> {
                 if middle <= low || middle >= high {
                     break;
                 }
-                match self.step(*time, state, middle)?.crossed {
-                    true => high = middle,
-                    false => low = middle,
+                if self.step(*time, state, middle)?.crossed {
+                    high = middle;
+                } else {
+                    low = middle;
                 }
             }
             let step = self.step(*time, state, high)?;
@@ -210,7 +212,7 @@ impl Walker<'_> {
                 let pairs = row[j - 1].iter().zip(&table[j - 1]);
                 row.push(pairs.map(|(a, b)| a + (a - b) / ratio).collect());
             }
-            previous = row[k.saturating_sub(1)].clone();
+            previous.clone_from(&row[k.saturating_sub(1)]);
             table = row;
         }
         let state_after = table[COLUMNS - 1].clone();

@@ -155,7 +155,7 @@ fn potential(case: &mut Case, dice: &mut Dice) {
             case.potential.push(product([half(), k, square(variable(i))]));
         }
     }
-    for _ in 0..1 + dice.below(3) {
+    for _ in 0..=dice.below(3) {
         let term = potential_term(case, dice);
         case.potential.push(term);
     }
@@ -343,17 +343,17 @@ fn method(case: &mut Case, dice: &mut Dice) {
     match dice.below(10) {
         0..=4 => {}
         5 | 6 => {
-            case.method = "dop853".to_owned();
+            "dop853".clone_into(&mut case.method);
             if dice.chance(0.8) {
                 case.tolerance = Some(10.0_f64.powi(-3 - dice.below(11) as i32));
             }
         }
         7 => {
             case.tolerance = Some(10.0_f64.powi(-6 - dice.below(10) as i32));
-            case.method = "taylor".to_owned();
+            "taylor".clone_into(&mut case.method);
         }
         _ => {
-            case.method = dice.pick(&fixed).to_owned();
+            dice.pick(&fixed).clone_into(&mut case.method);
             let per_unit = dice.pick(&[0.8, 3.0, 10.0, 30.0, 100.0]);
             case.length = case.length.min(20_000.0 / per_unit);
             case.step = Some(1.0 / per_unit);

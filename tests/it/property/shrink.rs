@@ -21,7 +21,7 @@ fn simpler(case: &Case) -> Vec<Case> {
     add(&|c| c.forces.clear());
     add(&|c| c.dissipation.clear());
     add(&|c| {
-        c.method = "auto".to_owned();
+        "auto".clone_into(&mut c.method);
         c.step = None;
         c.tolerance = None;
     });

@@ -261,9 +261,10 @@ impl Tree {
             }
             Tree::Power(base, n) => {
                 let base = base.write(names);
-                match base.starts_with('(') || base.starts_with(char::is_alphabetic) {
-                    true if *n >= 0 => format!("{base}^{n}"),
-                    _ => format!("({base})^({n})"),
+                if *n >= 0 && base.starts_with(|c: char| c == '(' || c.is_alphabetic()) {
+                    format!("{base}^{n}")
+                } else {
+                    format!("({base})^({n})")
                 }
             }
             Tree::Smooth(function, argument) => {
