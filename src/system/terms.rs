@@ -130,6 +130,8 @@ pub struct TermWatch {
     exact: Vec<Double>,
     /// The last look was at a state in the canonical form.
     at_canonical: bool,
+    /// Where several velocities belong to a momentum: the state last looked at, in the system's own form.
+    near: Option<State>,
     work: f64,
 }
 
@@ -144,6 +146,7 @@ impl TermWatch {
             inputs: vec![0.0; inputs],
             exact: vec![Double::ZERO; inputs],
             at_canonical: false,
+            near: None,
             work: 0.0,
             system,
         };
@@ -167,10 +170,15 @@ impl TermWatch {
         self.at_canonical = !native && self.canonical.is_some();
         if native || self.at_canonical {
             self.take_in(state);
+            self.near = (native && self.system.has_branches()).then(|| state.clone());
         } else {
             let form = self.system.form();
-            match self.system.convert_by(&mut self.legendre, state, form, None) {
-                Ok(state) => self.take_in(&state),
+            let near = self.near.as_ref();
+            match self.system.convert_by(&mut self.legendre, state, form, near) {
+                Ok(state) => {
+                    self.take_in(&state);
+                    self.near = self.system.has_branches().then_some(state);
+                }
                 Err(_) => return false,
             }
         }

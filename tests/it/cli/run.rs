@@ -472,6 +472,17 @@ fn a_run_by_the_default_method_is_strict() {
     phaselab(&["run", "damped-pendulum", "--strict"]).success();
 }
 
+#[test]
+fn looks_at_steps_stay_on_the_branch_of_the_velocity() {
+    // p = v³ − v has three velocities for small p
+    let file = "title = 'three velocities'\n[coordinates]\nx = { initial = 0.3, velocity = 1.1 }\n\
+                [lagrangian]\nL = \"1/4*x'^4 - 1/2*x'^2 - 1/2*x^2\"\n";
+    for method in ["gauss4", "gauss6"] {
+        let done = with_file(file, &["run", "system.toml", "--method", method, "--until", "0.5"]);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{method}");
+    }
+}
+
 /// The drift of an energy is the same whatever constant is added to the potential.
 #[test]
 fn a_constant_in_the_potential_hides_no_drift() {
