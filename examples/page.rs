@@ -9,8 +9,8 @@ use std::thread;
 use std::time::Duration;
 
 use color_eyre::eyre::Result;
-use phaselab::app::{Code, Key, Mouse};
-use phaselab::shell::{Ending, Input, Pace, Page, Refusal, Wish, perform, report_panics};
+use crossterm::event::{Event, KeyCode};
+use phaselab::shell::{Ending, Pace, Page, Refusal, Wish, perform, report_panics};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -27,41 +27,44 @@ struct Clock {
 }
 
 impl Clock {
-    fn typed(&mut self, key: Key) {
-        match (&mut self.typing, key.code) {
-            (_, Code::Esc | Code::Enter) => self.typing = None,
-            (Some(text), Code::Char(character)) => text.push(character),
+    fn typed(&mut self, code: KeyCode) {
+        match (&mut self.typing, code) {
+            (_, KeyCode::Esc | KeyCode::Enter) => self.typing = None,
+            (Some(text), KeyCode::Char(character)) => text.push(character),
             _ => {}
         }
     }
 }
 
 impl Page for Clock {
-    fn input(&mut self, input: Input) -> Wish {
+    fn input(&mut self, event: Event) -> Wish {
         self.inputs += 1;
-        match input {
-            Input::Key(key) if self.typing.is_some() => self.typed(key),
-            Input::Key(key) if key == Key::char('q') => return Wish::Quit,
-            Input::Key(key) if key == Key::char('z') => return Wish::Suspend,
-            Input::Key(key) if key == Key::char('l') => return Wish::Repaint,
-            Input::Key(key) if key == Key::char(' ') => self.held = !self.held,
-            Input::Key(key) if key == Key::char('f') => self.full = !self.full,
-            Input::Key(key) if key == Key::char('i') => self.typing = Some(String::new()),
-            Input::Key(key) if key == Key::char('p') => panic!("the clock fell off the wall"),
-            Input::Key(key) if key == Key::char('t') => {
-                let broken = thread::spawn(|| panic!("somebody else's clock")).join();
-                self.typing = Some(format!("caught: {}", broken.is_err()));
+        match event {
+            Event::Key(key) if self.typing.is_some() => self.typed(key.code),
+            Event::Key(key) => match key.code {
+                KeyCode::Char('q') => return Wish::Quit,
+                KeyCode::Char('z') => return Wish::Suspend,
+                KeyCode::Char('l') => return Wish::Repaint,
+                KeyCode::Char(' ') => self.held = !self.held,
+                KeyCode::Char('f') => self.full = !self.full,
+                KeyCode::Char('i') => self.typing = Some(String::new()),
+                KeyCode::Char('p') => panic!("the clock fell off the wall"),
+                KeyCode::Char('t') => {
+                    let broken = thread::spawn(|| panic!("somebody else's clock")).join();
+                    self.typing = Some(format!("caught: {}", broken.is_err()));
+                }
+                KeyCode::Char('M') => {
+                    self.mouse = !self.mouse;
+                    return Wish::Mouse(self.mouse);
+                }
+                _ => {}
+            },
+            Event::Paste(text) => self.typing = Some(text),
+            Event::Mouse(mouse) => {
+                self.typing = Some(format!("{:?} {} {}", mouse.kind, mouse.column, mouse.row));
             }
-            Input::Paste(text) => self.typing = Some(text),
-            Input::Key(key) if key == Key::char('M') => {
-                self.mouse = !self.mouse;
-                return Wish::Mouse(self.mouse);
-            }
-            Input::Mouse(Mouse { column, row, act }) => {
-                self.typing = Some(format!("{act:?} {column} {row}"));
-            }
-            Input::Resize(columns, rows) => self.size = (columns, rows),
-            Input::Key(_) | Input::Focus(_) => {}
+            Event::Resize(columns, rows) => self.size = (columns, rows),
+            Event::FocusGained | Event::FocusLost => {}
         }
         Wish::Nothing
     }

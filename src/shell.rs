@@ -12,12 +12,13 @@
 mod bandwidth;
 mod checker;
 pub mod config;
+mod decoder;
 mod demo;
 mod diagnosis;
+mod events;
 mod files;
 mod fresh;
 mod governor;
-mod input;
 mod job;
 mod loader;
 mod log;
@@ -39,8 +40,8 @@ mod terminal;
 pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, NotBandwidth};
+pub use decoder::PASTE_LIMIT;
 pub use diagnosis::{Finding, diagnosis};
-pub use input::{Input, PASTE_LIMIT};
 pub use log::{LogFile, NoLog};
 pub use options::Options;
 pub use panic::report_panics;

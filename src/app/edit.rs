@@ -9,11 +9,12 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::field::paste;
 use super::sheet::{Asking, Found, Sheet, State, Unsaved};
-use super::{App, Effect, Key, Lab, Loaded, Notice, Over, Page};
+use super::{App, Effect, Lab, Loaded, Notice, Over, Page};
 use crate::preset::{Mistake, Origin, is_path};
 
 /// A text that was asked to be checked: what became of it.
@@ -137,7 +138,7 @@ impl App {
     }
 
     /// A key that stands for itself.
-    pub(super) fn type_on_sheet(&mut self, key: Key) {
+    pub(super) fn type_on_sheet(&mut self, key: KeyEvent) {
         let page = usize::from(self.drawn.rows).saturating_sub(1);
         if let Some(sheet) = self.sheet() {
             sheet.press(key, page);

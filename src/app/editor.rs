@@ -6,7 +6,7 @@
 //! Every change is one replacement of a stretch by another text, so taking one back is a replacement too. (The widgets
 //! for ratatui keep what was last drawn and move the cursor by it; here nothing is known of a screen.)
 
-use super::{Code, Key};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// A place in the text, both counted from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -113,23 +113,26 @@ impl Editor {
     }
 
     /// Handles a key of typing or moving, `page` being how many rows are shown; whether the text changed.
-    pub fn press(&mut self, key: Key, page: usize) -> bool {
-        match (key.code, key.ctrl) {
-            (Code::Char(c), false) if !key.alt && !c.is_control() => {
+    pub fn press(&mut self, key: KeyEvent, page: usize) -> bool {
+        let held = |modifier| key.modifiers.contains(modifier);
+        match (key.code, held(KeyModifiers::CONTROL)) {
+            (KeyCode::Char(c), false) if !held(KeyModifiers::ALT) && !c.is_control() => {
                 self.type_in(&c.to_string(), self.typing && self.selection().is_none())
             }
-            (Code::Enter, _) => {
+            (KeyCode::Enter, _) => {
                 let line = &self.lines[self.cursor.row];
                 let before = line.chars().take(self.cursor.column);
                 let indent: String = before.take_while(|c| matches!(c, ' ' | '\t')).collect();
                 self.insert(&format!("\n{indent}"))
             }
-            (Code::Tab, false) if !key.shift => {
-                self.insert(&" ".repeat(TAB - self.cursor.column % TAB))
+            (KeyCode::Tab, false) => self.insert(&" ".repeat(TAB - self.cursor.column % TAB)),
+            (KeyCode::Backspace, ctrl) => {
+                self.erase(if ctrl { Self::word_left } else { Self::left })
             }
-            (Code::Backspace, ctrl) => self.erase(if ctrl { Self::word_left } else { Self::left }),
-            (Code::Char('w'), true) => self.erase(Self::word_left),
-            (Code::Delete, ctrl) => self.erase(if ctrl { Self::word_right } else { Self::right }),
+            (KeyCode::Char('w'), true) => self.erase(Self::word_left),
+            (KeyCode::Delete, ctrl) => {
+                self.erase(if ctrl { Self::word_right } else { Self::right })
+            }
             _ => {
                 self.shift(key, page);
                 false
@@ -323,34 +326,35 @@ impl Editor {
     }
 
     /// Moves the cursor, with Shift one end of the selection.
-    fn shift(&mut self, key: Key, page: usize) {
+    fn shift(&mut self, key: KeyEvent, page: usize) {
         let Caret { row, column } = self.cursor;
         let last = self.lines.len() - 1;
         let goal = self.goal.unwrap_or(column);
         let upright = |row: usize| Caret { row, column: goal };
-        let (to, keeps_goal) = match (key.code, key.ctrl) {
-            (Code::Left, false) => (self.left(), false),
-            (Code::Right, false) => (self.right(), false),
-            (Code::Left, true) => (self.word_left(), false),
-            (Code::Right, true) => (self.word_right(), false),
-            (Code::Up, _) if row == 0 => (Caret::default(), false),
-            (Code::Up, _) => (upright(row - 1), true),
-            (Code::Down, _) if row == last => (Caret { row, column: self.length(row) }, false),
-            (Code::Down, _) => (upright(row + 1), true),
-            (Code::PageUp, _) => (upright(row.saturating_sub(page.max(1))), true),
-            (Code::PageDown, _) => (upright((row + page.max(1)).min(last)), true),
-            (Code::Home, true) => (Caret::default(), false),
-            (Code::End, true) => (Caret { row: last, column: self.length(last) }, false),
-            (Code::Home, false) | (Code::Char('a'), true) => {
+        let (to, keeps_goal) = match (key.code, key.modifiers.contains(KeyModifiers::CONTROL)) {
+            (KeyCode::Left, false) => (self.left(), false),
+            (KeyCode::Right, false) => (self.right(), false),
+            (KeyCode::Left, true) => (self.word_left(), false),
+            (KeyCode::Right, true) => (self.word_right(), false),
+            (KeyCode::Up, _) if row == 0 => (Caret::default(), false),
+            (KeyCode::Up, _) => (upright(row - 1), true),
+            (KeyCode::Down, _) if row == last => (Caret { row, column: self.length(row) }, false),
+            (KeyCode::Down, _) => (upright(row + 1), true),
+            (KeyCode::PageUp, _) => (upright(row.saturating_sub(page.max(1))), true),
+            (KeyCode::PageDown, _) => (upright((row + page.max(1)).min(last)), true),
+            (KeyCode::Home, true) => (Caret::default(), false),
+            (KeyCode::End, true) => (Caret { row: last, column: self.length(last) }, false),
+            (KeyCode::Home, false) | (KeyCode::Char('a'), true) => {
                 let blank = self.lines[row].chars().take_while(|c| c.is_whitespace()).count();
                 (Caret { row, column: if column == blank { 0 } else { blank } }, false)
             }
-            (Code::End, false) | (Code::Char('e'), true) => {
+            (KeyCode::End, false) | (KeyCode::Char('e'), true) => {
                 (Caret { row, column: self.length(row) }, false)
             }
             _ => return,
         };
-        let anchor = key.shift.then(|| self.anchor.unwrap_or(self.cursor));
+        let shift = key.modifiers.contains(KeyModifiers::SHIFT);
+        let anchor = shift.then(|| self.anchor.unwrap_or(self.cursor));
         self.go(to);
         self.anchor = anchor;
         self.goal = keeps_goal.then_some(goal);

@@ -7,7 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Act, Checked, Key, NotSaved, Spot};
+use crossterm::event::{KeyEvent, MouseEventKind};
+
+use super::{Checked, NotSaved, Spot};
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -18,13 +20,13 @@ use crate::system::System;
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A key was pressed.
-    Key(Key),
+    Key(KeyEvent),
     /// Text was pasted; it counts only where text is typed.
     Paste(String),
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
     /// The mouse did something at a spot that `view` has found.
-    Mouse(Act, Spot),
+    Mouse(MouseEventKind, Spot),
     /// The window of the terminal has got the keyboard, or lost it.
     Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.

@@ -3,14 +3,18 @@
 //! In: characters. Out: the text, the number it stands for, or a sentence on why it stands for none.
 //! Never here: where the field is drawn.
 
-use tui_input::{Input, InputRequest};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use tui_input::Input;
+use tui_input::backend::crossterm::EventHandler;
 
-use super::{Code, Key, Target};
+use super::Target;
 use crate::expr::Pool;
 use crate::model::{Allowed, Model, Scope};
 
 /// The most characters a field takes, so that a paste can do no harm.
 const MOST: usize = 4096;
+
+const CTRL_ALT: KeyModifiers = KeyModifiers::CONTROL.union(KeyModifiers::ALT);
 
 /// What a typed value is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,11 +48,8 @@ impl Field {
     }
 
     /// Handles a key of editing; whatever it was, the last complaint is answered.
-    pub fn press(&mut self, key: Key) {
-        let replaces = match key.code {
-            Code::Char(c) => !key.ctrl && !key.alt && !c.is_control(),
-            code => matches!(code, Code::Backspace | Code::Delete),
-        };
+    pub fn press(&mut self, key: KeyEvent) {
+        let replaces = types(key) || matches!(key.code, KeyCode::Backspace | KeyCode::Delete);
         let emptied = std::mem::take(&mut self.whole) && replaces;
         if emptied {
             self.input.reset();
@@ -105,24 +106,30 @@ fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> 
     }
 }
 
+/// Whether a key stands for a character of text.
+fn types(key: KeyEvent) -> bool {
+    matches!(key.code, KeyCode::Char(c) if !c.is_control()) && !key.modifiers.intersects(CTRL_ALT)
+}
+
 /// Handles a key of editing; whether the text or the cursor changed.
-pub(super) fn edit(input: &mut Input, key: Key) -> bool {
-    let request = match (key.code, key.ctrl) {
-        (Code::Char(c), false) if !key.alt && !c.is_control() => InputRequest::InsertChar(c),
-        (Code::Backspace, false) => InputRequest::DeletePrevChar,
-        (Code::Delete, false) => InputRequest::DeleteNextChar,
-        (Code::Left, false) => InputRequest::GoToPrevChar,
-        (Code::Right, false) => InputRequest::GoToNextChar,
-        (Code::Home, false) | (Code::Char('a'), true) => InputRequest::GoToStart,
-        (Code::End, false) | (Code::Char('e'), true) => InputRequest::GoToEnd,
-        (Code::Char('u'), true) => InputRequest::DeleteLine,
-        (Code::Char('w') | Code::Backspace, true) => InputRequest::DeletePrevWord,
-        (Code::Left, true) => InputRequest::GoToPrevWord,
-        (Code::Right, true) => InputRequest::GoToNextWord,
-        _ => return false,
+pub(super) fn edit(input: &mut Input, key: KeyEvent) -> bool {
+    let key = match key.code {
+        // Ctrl with Alt would be taken for a character that Windows types by AltGr
+        KeyCode::Char(c) if c.is_control() || key.modifiers.contains(CTRL_ALT) => return false,
+        // a character, or what was cut from the line
+        KeyCode::Char(c) if types(key) || c == 'y' => {
+            if input.value().len() >= MOST {
+                return false;
+            }
+            key
+        }
+        KeyCode::Char(_) => key,
+        KeyCode::Backspace if key.modifiers.contains(KeyModifiers::CONTROL) => {
+            KeyEvent::new(key.code, KeyModifiers::ALT)
+        }
+        code => KeyEvent::new(code, key.modifiers - KeyModifiers::SHIFT),
     };
-    let full = matches!(request, InputRequest::InsertChar(_)) && input.value().len() >= MOST;
-    !full && input.handle(request).is_some()
+    input.handle_event(&Event::Key(key)).is_some()
 }
 
 /// Takes pasted text in as if it were typed; whether all of it found room.
@@ -143,7 +150,7 @@ pub(super) fn paste(input: &mut Input, text: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn typed(text: &str, keys: &[Key]) -> String {
+    fn typed(text: &str, keys: &[KeyEvent]) -> String {
         let mut field = Field::new(Purpose::Step, text.to_owned());
         for key in keys {
             field.press(*key);
@@ -154,12 +161,12 @@ mod tests {
     /// What a field begins with is marked as a whole, as in any other field of a form.
     #[test]
     fn what_is_typed_takes_the_place_of_the_old_value() {
-        let [three, dot] = ['3', '.'].map(|c| Key::plain(Code::Char(c)));
+        let [three, dot] = ['3', '.'].map(|c| KeyEvent::from(KeyCode::Char(c)));
         assert_eq!(typed("1.06", &[three, dot]), "3.");
-        assert_eq!(typed("1.06", &[Key::plain(Code::Backspace), three]), "3");
-        assert_eq!(typed("1.06", &[Key::plain(Code::Delete)]), "");
+        assert_eq!(typed("1.06", &[KeyCode::Backspace.into(), three]), "3");
+        assert_eq!(typed("1.06", &[KeyCode::Delete.into()]), "");
         assert_eq!(typed("1.06", &[]), "1.06");
-        let [left, end] = [Code::Left, Code::End].map(Key::plain);
+        let [left, end] = [KeyCode::Left, KeyCode::End].map(KeyEvent::from);
         assert_eq!(typed("1.06", &[left, three]), "1.036");
         assert_eq!(typed("1.06", &[end, three]), "1.063");
         let mut field = Field::new(Purpose::Step, "1.06".to_owned());

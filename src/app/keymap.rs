@@ -3,8 +3,10 @@
 //! In: a key and the places that are active. Out: an [`Action`]. The help page, the hints in the footer, the palette
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
 use super::action::{Action, Axes, Way};
-use super::{Code, Key, Page, Work};
+use super::{Page, Work, key};
 
 /// Where a key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -112,7 +114,7 @@ pub const CHAINS: [&[Place]; 13] = {
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
     /// The keys, the one to be shown first.
-    pub keys: &'static [Key],
+    pub keys: &'static [KeyEvent],
     /// Where they hold.
     pub place: Place,
     /// What they do.
@@ -125,7 +127,7 @@ pub struct Binding {
 
 const fn row(
     place: Place,
-    keys: &'static [Key],
+    keys: &'static [KeyEvent],
     action: Action,
     hint: &'static str,
     help: &'static str,
@@ -133,39 +135,58 @@ const fn row(
     Binding { keys, place, action, hint, help }
 }
 
-const fn c(character: char) -> Key {
-    Key::char(character)
+impl Binding {
+    /// The names of its keys.
+    pub fn key_names(&self) -> Vec<String> {
+        self.keys.iter().map(key::name).collect()
+    }
+}
+
+const fn plain(code: KeyCode) -> KeyEvent {
+    KeyEvent::new(code, KeyModifiers::NONE)
+}
+
+const fn shift(code: KeyCode) -> KeyEvent {
+    KeyEvent::new(code, KeyModifiers::SHIFT)
+}
+
+const fn c(character: char) -> KeyEvent {
+    plain(KeyCode::Char(character))
+}
+
+const fn ctrl(character: char) -> KeyEvent {
+    KeyEvent::new(KeyCode::Char(character), KeyModifiers::CONTROL)
 }
 
 const fn change(sign: i8, coarse: bool) -> Action {
     Action::Change { sign, coarse }
 }
 
-const UP: Key = Key::plain(Code::Up);
-const DOWN: Key = Key::plain(Code::Down);
-const LEFT: Key = Key::plain(Code::Left);
-const RIGHT: Key = Key::plain(Code::Right);
-const ENTER: Key = Key::plain(Code::Enter);
-const ESC: Key = Key::plain(Code::Esc);
-const TAB: Key = Key::plain(Code::Tab);
-const BACKTAB: Key = Key::shift(Code::Tab);
-const BACKSPACE: Key = Key::plain(Code::Backspace);
-const DELETE: Key = Key::plain(Code::Delete);
-const HOME: Key = Key::plain(Code::Home);
-const END: Key = Key::plain(Code::End);
-const PAGE_UP: Key = Key::plain(Code::PageUp);
-const PAGE_DOWN: Key = Key::plain(Code::PageDown);
-const SHIFT_LEFT: Key = Key::shift(Code::Left);
-const SHIFT_RIGHT: Key = Key::shift(Code::Right);
+const UP: KeyEvent = plain(KeyCode::Up);
+const DOWN: KeyEvent = plain(KeyCode::Down);
+const LEFT: KeyEvent = plain(KeyCode::Left);
+const RIGHT: KeyEvent = plain(KeyCode::Right);
+const ENTER: KeyEvent = plain(KeyCode::Enter);
+const ESC: KeyEvent = plain(KeyCode::Esc);
+const TAB: KeyEvent = plain(KeyCode::Tab);
+const BACKTAB: KeyEvent = shift(KeyCode::BackTab);
+const BACKSPACE: KeyEvent = plain(KeyCode::Backspace);
+const DELETE: KeyEvent = plain(KeyCode::Delete);
+const HOME: KeyEvent = plain(KeyCode::Home);
+const END: KeyEvent = plain(KeyCode::End);
+const PAGE_UP: KeyEvent = plain(KeyCode::PageUp);
+const PAGE_DOWN: KeyEvent = plain(KeyCode::PageDown);
+const SHIFT_LEFT: KeyEvent = shift(KeyCode::Left);
+const SHIFT_RIGHT: KeyEvent = shift(KeyCode::Right);
 
 /// All keys.
 #[rustfmt::skip]
 pub const KEYS: &[Binding] = &[
-    row(Place::Always, &[Key::ctrl('c')], Action::Quit, "", "leave, whatever is being typed"),
-    row(Place::Always, &[Key::ctrl('z')], Action::Suspend, "", "stop until the shell's fg"),
-    row(Place::Always, &[Key::ctrl('l')], Action::Repaint, "", "draw the screen anew"),
+    row(Place::Always, &[ctrl('c')], Action::Quit, "", "leave, whatever is being typed"),
+    row(Place::Always, &[ctrl('z')], Action::Suspend, "", "stop until the shell's fg"),
+    row(Place::Always, &[ctrl('l')], Action::Repaint, "", "draw the screen anew"),
 
-    row(Place::Anywhere, &[c('?'), Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
+    row(Place::Anywhere, &[c('?'), plain(KeyCode::F(1))], Action::Help, "help", "show these keys"),
     row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave at once; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
@@ -195,7 +216,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('s')], Action::TypeStep, "", "type the step of a method of fixed step"),
     row(Place::Experiment, &[c('a')], Action::TypeTolerance, "", "type the accuracy (tolerance) of an adaptive method"),
     row(Place::Experiment, &[c('u')], Action::Undo, "", "undo the last change of a value, method or picture"),
-    row(Place::Experiment, &[c('U'), Key::ctrl('r')], Action::Redo, "", "redo the change that was undone last"),
+    row(Place::Experiment, &[c('U'), ctrl('r')], Action::Redo, "", "redo the change that was undone last"),
     row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
@@ -279,18 +300,18 @@ pub const KEYS: &[Binding] = &[
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 
-    row(Place::Workbench, &[Key::ctrl('s')], Action::Work(Work::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
-    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::Work(Work::Mistake(1)), "mistake", "go to the next mistake"),
-    row(Place::Workbench, &[Key::ctrl('p')], Action::Work(Work::Mistake(-1)), "", "go to the mistake before"),
-    row(Place::Workbench, &[Key::ctrl('f')], Action::Work(Work::Find), "find", "find words"),
-    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::Work(Work::FindNext), "", "find them again"),
-    row(Place::Workbench, &[Key::ctrl('u')], Action::Work(Work::Undo), "undo", "undo the last change of the text"),
-    row(Place::Workbench, &[Key::ctrl('r')], Action::Work(Work::Redo), "", "redo the change that was undone last"),
-    row(Place::Workbench, &[Key::ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
-    row(Place::Workbench, &[Key::ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
-    row(Place::Workbench, &[Key::ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
-    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
-    row(Place::Workbench, &[Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
+    row(Place::Workbench, &[ctrl('s')], Action::Work(Work::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
+    row(Place::Workbench, &[ctrl('n'), plain(KeyCode::F(8))], Action::Work(Work::Mistake(1)), "mistake", "go to the next mistake"),
+    row(Place::Workbench, &[ctrl('p')], Action::Work(Work::Mistake(-1)), "", "go to the mistake before"),
+    row(Place::Workbench, &[ctrl('f')], Action::Work(Work::Find), "find", "find words"),
+    row(Place::Workbench, &[ctrl('g'), plain(KeyCode::F(3))], Action::Work(Work::FindNext), "", "find them again"),
+    row(Place::Workbench, &[ctrl('u')], Action::Work(Work::Undo), "undo", "undo the last change of the text"),
+    row(Place::Workbench, &[ctrl('r')], Action::Work(Work::Redo), "", "redo the change that was undone last"),
+    row(Place::Workbench, &[ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
+    row(Place::Workbench, &[ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
+    row(Place::Workbench, &[ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
+    row(Place::Workbench, &[ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
+    row(Place::Workbench, &[plain(KeyCode::F(1))], Action::Help, "help", "show these keys"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
 
@@ -298,13 +319,13 @@ pub const KEYS: &[Binding] = &[
 ];
 
 /// What a key does where these places are active, the innermost first.
-pub fn action(key: Key, places: &[Place]) -> Option<Action> {
+pub fn action(key: KeyEvent, places: &[Place]) -> Option<Action> {
     let holds = |row: &&Binding| places.contains(&row.place) && row.keys.contains(&key);
     KEYS.iter().find(holds).map(|row| row.action)
 }
 
 /// The keys that would be ambiguous: held by two rows that can be active together.
-pub fn duplicates() -> Vec<(Key, &'static Binding, &'static Binding)> {
+pub fn duplicates() -> Vec<(KeyEvent, &'static Binding, &'static Binding)> {
     let mut found = Vec::new();
     for chain in CHAINS {
         let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.place)).collect();

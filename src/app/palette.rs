@@ -50,7 +50,6 @@ impl App {
     }
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
-        let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
         let refusal = elsewhere.or_else(|| self.lack(row.action));
         // The word of the footer is what people look for.
         let named = row.hint.is_empty() || moves(row.action) || row.help.contains(row.hint);
@@ -58,7 +57,7 @@ impl App {
         Item {
             label: format!("{name}{}", row.help),
             about: row.place.title().to_owned(),
-            keys: keys.join(" "),
+            keys: row.key_names().join(" "),
             refusal: refusal.map(str::to_owned),
             choice: Choice::Action(row.action),
         }

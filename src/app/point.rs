@@ -1,9 +1,10 @@
 //! What the mouse does: it selects, takes, drags, turns, zooms, and throws the motion to another beginning.
 //!
-//! In: an act, the spot it happened at. Out: the changed state and the effects. Never here: bytes, or where a spot is.
+//! In: what was done with the left button or the wheel, the spot it happened at. Out: the changed state and the effects. Never here: bytes, or where a spot is.
+
+use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::change::place;
-use super::mouse::Act;
 use super::spot::{Hold, Spot};
 use super::{Action, App, Effect, Lab, Over, Page, Pane, Plot, Target};
 use crate::system::{ChannelKind, Given};
@@ -15,14 +16,15 @@ const LINES: isize = 3;
 const NOTCH: f64 = 1.25;
 
 impl App {
-    /// Takes in what the mouse did.
-    pub(super) fn point(&mut self, act: Act, spot: Spot) -> Vec<Effect> {
-        match act {
-            Act::Press => self.touch(spot),
-            Act::Drag => self.drag(spot),
-            Act::Release => self.let_go(spot),
-            Act::WheelUp => self.wheel(spot, 1),
-            Act::WheelDown => self.wheel(spot, -1),
+    /// Takes in what the mouse did; only the left button and the wheel do something.
+    pub(super) fn point(&mut self, kind: MouseEventKind, spot: Spot) -> Vec<Effect> {
+        match kind {
+            MouseEventKind::Down(MouseButton::Left) => self.touch(spot),
+            MouseEventKind::Drag(MouseButton::Left) => self.drag(spot),
+            MouseEventKind::Up(MouseButton::Left) => self.let_go(spot),
+            MouseEventKind::ScrollUp => self.wheel(spot, 1),
+            MouseEventKind::ScrollDown => self.wheel(spot, -1),
+            _ => Vec::new(),
         }
     }
 

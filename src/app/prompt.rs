@@ -2,10 +2,11 @@
 //!
 //! In: characters. Out: the question, its answer, or a mistake at its place. Never here: how either is found.
 
+use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Key, Lab, Over};
+use super::{App, Effect, Lab, Over};
 use crate::analysis::Inquiry;
 use crate::expr::{Symbol, SyntaxError};
 use crate::mechanics::body_values;
@@ -24,7 +25,7 @@ pub struct Prompt {
 
 impl Prompt {
     /// Handles a key of editing; whatever it was, the last complaint is answered.
-    pub(super) fn press(&mut self, key: Key) {
+    pub(super) fn press(&mut self, key: KeyEvent) {
         if edit(&mut self.input, key) {
             self.mistake = None;
         }

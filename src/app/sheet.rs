@@ -6,12 +6,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crossterm::event::KeyEvent;
 use serde::{Deserialize, Serialize};
 use tui_input::Input;
 
+use super::Loaded;
 use super::editor::{Caret, Editor};
 use super::field::edit;
-use super::{Key, Loaded};
 use crate::preset::{Mistake, Severity, TEXT_LIMIT};
 
 /// For how long typing rests before the text is checked.
@@ -304,7 +305,7 @@ impl Sheet {
     }
 
     /// Types a key.
-    pub(super) fn press(&mut self, key: Key, page: usize) {
+    pub(super) fn press(&mut self, key: KeyEvent, page: usize) {
         match &mut self.asking {
             Some(Asking::Words(input) | Asking::Name(input)) => {
                 edit(input, key);

@@ -4,10 +4,13 @@
 
 use std::sync::Arc;
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
 use super::editor::beginning;
 use super::field::{edit, paste};
+use super::key::pressed;
 use super::keymap::{self, Place};
-use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
+use super::{App, Effect, Event, Lab, LoadFailure, Loaded, Notice, Over, Page};
 use crate::experiment::Snapshot;
 
 /// The most that is taken of one paste, in bytes.
@@ -21,9 +24,9 @@ impl App {
     /// Takes an event in, and says what is to be done about it.
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
         match event {
-            Event::Key(key) => self.press(key),
+            Event::Key(key) => pressed(key).map_or_else(Vec::new, |key| self.press(key)),
             Event::Paste(text) => self.paste(&text),
-            Event::Mouse(act, spot) => self.point(act, spot),
+            Event::Mouse(kind, spot) => self.point(kind, spot),
             Event::Resize(..) | Event::Focus(_) => Vec::new(),
             Event::Snapshot(snapshot) => self.see(&snapshot),
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),
@@ -72,7 +75,7 @@ impl App {
         Effect::Load(name)
     }
 
-    fn press(&mut self, key: Key) -> Vec<Effect> {
+    fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.drop_hold();
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {
@@ -81,9 +84,10 @@ impl App {
             return effects;
         }
         // Over a slow line Esc and the next key arrive together, and look like one key with Alt.
-        if key.alt && !self.is_typing() {
-            let mut effects = self.press(Key::plain(Code::Esc));
-            effects.extend(self.press(Key { alt: false, ..key }));
+        if key.modifiers.contains(KeyModifiers::ALT) && !self.is_typing() {
+            let mut effects = self.press(KeyCode::Esc.into());
+            let modifiers = key.modifiers - KeyModifiers::ALT;
+            effects.extend(self.press(KeyEvent { modifiers, ..key }));
             return effects;
         }
         let searching = places.contains(&Place::Search)
@@ -219,6 +223,7 @@ fn news<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
 }
 
 /// In the list of systems any letter that is no key begins a search.
-fn begins_search(key: Key) -> bool {
-    matches!(key.code, Code::Char(c) if c.is_alphanumeric()) && !key.ctrl && !key.alt
+fn begins_search(key: KeyEvent) -> bool {
+    let held = key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    matches!(key.code, KeyCode::Char(c) if c.is_alphanumeric()) && !held
 }

@@ -144,8 +144,7 @@ fn keys(roff: &mut Roff) {
         }
         roff.control("SS", [place.title()]);
         for row in rows {
-            let keys: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
-            entry(roff, &keys.join("  "), row.help);
+            entry(roff, &row.key_names().join("  "), row.help);
         }
     }
 }

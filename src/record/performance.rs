@@ -7,6 +7,7 @@
 use std::ops::Range;
 use std::{mem, vec};
 
+use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
@@ -15,7 +16,7 @@ use super::clock::Micros;
 use super::laboratory::{Budget, Laboratory};
 use super::plain::plain;
 use super::script::{Assert, PACE, Script, Step, Text, Way};
-use crate::app::{Code, Drawn, Event, Key, Target};
+use crate::app::{Drawn, Event, Target, key};
 use crate::experiment::Command;
 use crate::preset::{Document, Mistake};
 use crate::view::caption::{self, Caption};
@@ -50,7 +51,7 @@ pub struct Performance {
 /// What of a step is still to be done.
 enum UnderWay {
     Nothing,
-    Keys(vec::IntoIter<Key>),
+    Keys(vec::IntoIter<KeyEvent>),
     Sweep { courses: Vec<Course>, frame: u64, count: u64 },
 }
 
@@ -211,7 +212,7 @@ impl Performance {
                 done("press", written)
             }
             Step::Type(text) => {
-                let keys: Vec<Key> = text.chars().map(|c| Key::plain(Code::Char(c))).collect();
+                let keys: Vec<KeyEvent> = text.chars().map(key::character).collect();
                 self.under_way = UnderWay::Keys(keys.into_iter());
                 done("type", text)
             }
@@ -310,7 +311,7 @@ impl Performance {
     }
 
     /// Presses a key, and gives it time to be seen.
-    fn press(&mut self, key: Key) {
+    fn press(&mut self, key: KeyEvent) {
         if self.lab.left {
             return;
         }
@@ -320,10 +321,10 @@ impl Performance {
     }
 
     /// The key stands beside the caption for a while; typed characters stand together.
-    fn show_key(&mut self, key: Key) {
+    fn show_key(&mut self, key: KeyEvent) {
         let until = self.lab.now().saturating_add(KEY_SHOWN);
-        let typing = self.lab.app.is_typing() && matches!(key.code, Code::Char(c) if c != ' ');
-        let name = key.to_string();
+        let typing = self.lab.app.is_typing() && matches!(key.code, KeyCode::Char(c) if c != ' ');
+        let name = key::name(&key);
         match self.keys.last_mut() {
             Some(last) if last.name == name && !typing => {
                 last.count += 1;
@@ -404,10 +405,10 @@ impl Performance {
 }
 
 /// Keys as they are written in a script.
-fn keys_written(keys: &[Key]) -> String {
+fn keys_written(keys: &[KeyEvent]) -> String {
     let mut written: Vec<(String, usize)> = Vec::new();
     for key in keys {
-        let key = key.to_string();
+        let key = key::name(key);
         match written.last_mut() {
             Some((last, count)) if *last == key => *count += 1,
             _ => written.push((key, 1)),

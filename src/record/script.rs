@@ -5,12 +5,12 @@
 //! means in a system, or playing it.
 
 mod command;
-mod key;
 mod line;
 
 use std::collections::HashMap;
 
-use crate::app::Key;
+use crossterm::event::KeyEvent;
+
 use crate::expr::nearest;
 use crate::model::Place;
 use crate::preset::{Document, Mistake};
@@ -103,7 +103,7 @@ pub enum Step {
     /// Each key that follows is given so much time to be seen.
     Pace(Micros),
     /// Keys are pressed.
-    Press(Vec<Key>),
+    Press(Vec<KeyEvent>),
     /// Characters are typed.
     Type(String),
     /// Time passes.

@@ -5,12 +5,11 @@
 
 use std::time::Duration;
 
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
-use super::input::Input;
 use super::stage::{Page, Wish};
-use crate::app::{Code, Key};
 use crate::preset::Mistake;
 use crate::record::Performance;
 use crate::view::{Detail, Look};
@@ -46,13 +45,14 @@ impl Demo {
 }
 
 impl Page for Demo {
-    fn input(&mut self, input: Input) -> Wish {
-        match input {
-            Input::Key(Key { ctrl: true, code: Code::Char('c'), .. }) => Wish::Quit,
-            Input::Key(Key { ctrl: true, code: Code::Char('z'), .. }) => Wish::Suspend,
-            Input::Key(Key { ctrl: true, code: Code::Char('l'), .. }) => Wish::Repaint,
-            Input::Key(Key { code: Code::Char('q') | Code::Esc, .. }) => Wish::Quit,
-            Input::Key(Key { code: Code::Char(' '), .. }) => {
+    fn input(&mut self, event: Event) -> Wish {
+        let Event::Key(KeyEvent { code, modifiers, .. }) = event else { return Wish::Nothing };
+        match (code, modifiers.contains(KeyModifiers::CONTROL)) {
+            (KeyCode::Char('c'), true) => Wish::Quit,
+            (KeyCode::Char('z'), true) => Wish::Suspend,
+            (KeyCode::Char('l'), true) => Wish::Repaint,
+            (KeyCode::Char('q') | KeyCode::Esc, _) => Wish::Quit,
+            (KeyCode::Char(' '), _) => {
                 self.held = !self.held;
                 self.performance.hold(self.held);
                 Wish::Nothing

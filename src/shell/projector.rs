@@ -6,13 +6,12 @@
 
 use std::time::{Duration, Instant};
 
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 
-use super::input::Input;
 use super::stage::{Page, Wish};
-use crate::app::{Code, Key};
 use crate::record::{Tape, Turn};
 use crate::view::Look;
 use crate::view::colour::{ColourDepth, Rgb};
@@ -134,30 +133,31 @@ impl Projector {
         })
     }
 
-    fn press(&mut self, key: Key) -> Wish {
+    fn press(&mut self, key: KeyEvent) -> Wish {
         let told = self.is_told();
         self.awake = self.awake.max(AWAKE);
-        match key {
-            Key { ctrl: true, code: Code::Char(c), .. } => match c {
+        let ctrl = key.modifiers.contains(KeyModifiers::CONTROL);
+        match key.code {
+            KeyCode::Char(c) if ctrl => match c {
                 'c' => return Wish::Quit,
                 'z' => return Wish::Suspend,
                 'l' => return Wish::Repaint,
                 _ => {}
             },
-            Key { code, shift, .. } => match code {
-                Code::Char('q') | Code::Esc => return Wish::Quit,
-                Code::Char(' ' | 'p') if self.is_over() => self.go(0.0),
-                Code::Char(' ' | 'p') => self.held = !self.held,
-                Code::Char('.') => self.step(),
-                Code::Char('c') => self.wanted = Some(!told),
-                Code::Char('[') => self.speed = self.speed.saturating_sub(1),
-                Code::Char(']') => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
-                Code::Left | Code::Char('h') => self.go(self.time - LEAP),
-                Code::Right | Code::Char('l') => self.go(self.time + LEAP),
-                Code::Home | Code::Char('0') => self.go(0.0),
-                Code::End => self.go(self.tape.end as f64),
-                Code::Tab => {
-                    let to = if shift {
+            code => match code {
+                KeyCode::Char('q') | KeyCode::Esc => return Wish::Quit,
+                KeyCode::Char(' ' | 'p') if self.is_over() => self.go(0.0),
+                KeyCode::Char(' ' | 'p') => self.held = !self.held,
+                KeyCode::Char('.') => self.step(),
+                KeyCode::Char('c') => self.wanted = Some(!told),
+                KeyCode::Char('[') => self.speed = self.speed.saturating_sub(1),
+                KeyCode::Char(']') => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
+                KeyCode::Left | KeyCode::Char('h') => self.go(self.time - LEAP),
+                KeyCode::Right | KeyCode::Char('l') => self.go(self.time + LEAP),
+                KeyCode::Home | KeyCode::Char('0') => self.go(0.0),
+                KeyCode::End => self.go(self.tape.end as f64),
+                KeyCode::Tab | KeyCode::BackTab => {
+                    let to = if code == KeyCode::BackTab {
                         // shortly after a chapter's beginning the one before is meant
                         let before = self.time - AT_ONCE;
                         let found = self.chapters().rfind(|(time, _)| *time < before);
@@ -276,11 +276,11 @@ impl Projector {
 }
 
 impl Page for Projector {
-    fn input(&mut self, input: Input) -> Wish {
-        match input {
-            Input::Key(key) => self.press(key),
+    fn input(&mut self, event: Event) -> Wish {
+        match event {
+            Event::Key(key) => self.press(key),
             // it may not show all any more
-            Input::Resize(..) => {
+            Event::Resize(..) => {
                 self.awake = self.awake.max(AWAKE);
                 Wish::Nothing
             }

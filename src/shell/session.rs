@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use crossterm::event::{Event as TerminalEvent, MouseButton, MouseEventKind};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
 use super::files::{self, News, Watch};
 use super::fresh;
-use super::input::Input;
 use super::job::{Job, Told};
 use super::loader::Loader;
 use super::log::Log;
@@ -23,9 +23,7 @@ use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
 use super::store::{NoStore, Store};
-use crate::app::{
-    Act, App, Checked, Effect, Event, LoadFailure, Loaded, Mouse, Notice, Saved, Unsaved,
-};
+use crate::app::{App, Checked, Effect, Event, LoadFailure, Loaded, Notice, Saved, Unsaved};
 use crate::experiment::{Export, Ready, Snapshot, Status};
 use crate::preset::{Catalog, Document, Origin, is_path};
 use crate::record::{data, plain, still};
@@ -581,24 +579,26 @@ fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
 }
 
 impl Page for Session {
-    fn input(&mut self, input: Input) -> Wish {
-        if let Input::Mouse(Mouse { act: Act::Press, .. }) = input {
-            // Not every terminal says that the button came up.
-            self.app.drop_hold();
-        }
-        self.update(match input {
-            Input::Key(key) => Event::Key(key),
-            Input::Paste(text) => Event::Paste(text),
-            Input::Mouse(Mouse { column, row, act }) => {
+    fn input(&mut self, event: TerminalEvent) -> Wish {
+        let event = match event {
+            TerminalEvent::Key(key) => Event::Key(key),
+            TerminalEvent::Paste(text) => Event::Paste(text),
+            TerminalEvent::Mouse(mouse) => {
+                if mouse.kind == MouseEventKind::Down(MouseButton::Left) {
+                    // Not every terminal says that the button came up.
+                    self.app.drop_hold();
+                }
                 let area = Rect::from((Position::ORIGIN, self.size));
-                match view::spot(&self.app, &self.look, area, column, row) {
-                    Some(spot) => Event::Mouse(act, spot),
+                match view::spot(&self.app, &self.look, area, mouse.column, mouse.row) {
+                    Some(spot) => Event::Mouse(mouse.kind, spot),
                     None => return Wish::Nothing,
                 }
             }
-            Input::Focus(gained) => Event::Focus(gained),
-            Input::Resize(columns, rows) => Event::Resize(columns, rows),
-        })
+            TerminalEvent::FocusGained => Event::Focus(true),
+            TerminalEvent::FocusLost => Event::Focus(false),
+            TerminalEvent::Resize(columns, rows) => Event::Resize(columns, rows),
+        };
+        self.update(event)
     }
 
     /// Time by itself changes nothing that is worth a frame, except that a notice goes.

@@ -10,24 +10,25 @@ use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crossterm::event::Event;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use super::decoder::Decoder;
+use super::events::EventSource;
 use super::governor::Governor;
-use super::input::{Decoder, Input};
 use super::panic;
 use super::queue::Queue;
 use super::request::Refusal;
 use super::signals::Signals;
 use super::terminal::{Mode, NoTerminal, Ready, Terminal};
-use crate::app::Mouse;
 use crate::view::Detail;
 use crate::view::frame::Frames;
 
 /// What can be held up on a terminal.
 pub trait Page {
     /// Something was done at the terminal.
-    fn input(&mut self, input: Input) -> Wish;
+    fn input(&mut self, event: Event) -> Wish;
 
     /// A frame is due and this much time has passed since the last; whether anything to be seen has changed.
     fn advance(&mut self, elapsed: Duration) -> bool;
@@ -92,10 +93,6 @@ pub enum Ending {
     Signal(i32),
 }
 
-/// Reads in a row before a frame is drawn, each of [`READ`] bytes; a flood must not keep the screen still.
-const READS: usize = 64;
-const READ: usize = 4096;
-
 /// Frames that may fail one after the other before the terminal is given up.
 const FAILURES: u32 = 20;
 
@@ -112,7 +109,7 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
     let mut stage = Stage {
         terminal: &guard.0,
         signals,
-        decoder: Decoder::default(),
+        events: Decoder::default(),
         screen: Frames::new(pace.synchronized),
         queue: Queue::default(),
         size: None,
@@ -134,10 +131,10 @@ impl Drop for Guard {
     }
 }
 
-struct Stage<'a> {
+struct Stage<'a, E> {
     terminal: &'a Terminal,
     signals: Signals,
-    decoder: Decoder,
+    events: E,
     screen: Frames,
     queue: Queue,
     size: Option<Size>,
@@ -147,7 +144,7 @@ struct Stage<'a> {
     failures: u32,
 }
 
-impl Stage<'_> {
+impl<E: EventSource> Stage<'_, E> {
     fn run(&mut self, page: &mut impl Page) -> io::Result<Ending> {
         let mut last = Instant::now();
         let mut due = last;
@@ -165,16 +162,13 @@ impl Stage<'_> {
                 // Even where the size is the same again, the terminal may have lost what it showed.
                 self.screen.forget();
             }
-            if self.decoder.deadline().is_some_and(|deadline| deadline <= Instant::now()) {
-                self.decoder.expire();
-            }
-            while let Some(input) = self.decoder.next() {
+            while let Some(event) = self.events.next(Instant::now()) {
                 changed = true;
                 due = due.min(self.governor.soon(Instant::now()));
-                if !self.admits(&input) {
+                if !self.admits(&event) {
                     continue;
                 }
-                match page.input(input) {
+                match page.input(event) {
                     Wish::Nothing => {}
                     Wish::Repaint => self.screen.forget(),
                     Wish::Mouse(on) => self.mouse = on,
@@ -196,7 +190,7 @@ impl Stage<'_> {
             }
 
             let ready = self.wait(due)?;
-            if ready.gone || ready.input && !self.read()? {
+            if ready.gone || ready.input && !self.events.read(self.terminal)? {
                 return Ok(Ending::Gone);
             }
         }
@@ -206,7 +200,7 @@ impl Stage<'_> {
     fn enter(&mut self) -> io::Result<()> {
         self.queue.clear();
         self.queue.push(&self.terminal.enter()?);
-        self.decoder.expect(Mode::Focus, true);
+        self.events.expect(Mode::Focus, true);
         self.governor.watched = true;
         self.screen.forget();
         Ok(())
@@ -215,20 +209,20 @@ impl Stage<'_> {
     /// Switches a mode, and knows what may then come in.
     fn switch(&mut self, mode: Mode, on: bool) {
         self.queue.push(self.terminal.switch(mode, on));
-        self.decoder.expect(mode, on);
+        self.events.expect(mode, on);
     }
 
-    /// Whether an input is for the page: what lies beyond the window is not. Who types or clicks looks here, even
+    /// Whether an event is for the page: what lies beyond the window is not. Who types or clicks looks here, even
     /// where the terminal has not said so.
-    fn admits(&mut self, input: &Input) -> bool {
-        match *input {
-            Input::Focus(gained) => self.governor.watched = gained,
-            Input::Key(_) | Input::Paste(_) => self.governor.watched = true,
-            Input::Mouse(Mouse { column, row, .. }) => {
+    fn admits(&mut self, event: &Event) -> bool {
+        match event {
+            Event::FocusLost => self.governor.watched = false,
+            Event::FocusGained | Event::Key(_) | Event::Paste(_) => self.governor.watched = true,
+            Event::Mouse(mouse) => {
                 let size = self.size.unwrap_or_default();
-                return column < size.width && row < size.height;
+                return mouse.column < size.width && mouse.row < size.height;
             }
-            Input::Resize(..) => {}
+            Event::Resize(..) => {}
         }
         true
     }
@@ -246,7 +240,7 @@ impl Stage<'_> {
         let size = self.terminal.size();
         let changed = self.size.replace(size) != Some(size);
         if changed {
-            page.input(Input::Resize(size.width, size.height));
+            page.input(Event::Resize(size.width, size.height));
         }
         changed
     }
@@ -292,27 +286,9 @@ impl Stage<'_> {
         let busy = self.queue.is_busy();
         let now = Instant::now();
         let frame = Some(due).filter(|_| !busy);
-        let times = [frame, self.decoder.deadline(), Some(now + Duration::from_secs(1))];
+        let times = [frame, self.events.deadline(), Some(now + Duration::from_secs(1))];
         let next = times.into_iter().flatten().min().unwrap_or(now);
         let time = next.saturating_duration_since(now);
         self.terminal.wait(self.signals.wake(), busy, time)
-    }
-
-    /// Reads what was typed; `false` if the terminal is gone.
-    fn read(&mut self) -> io::Result<bool> {
-        let mut buffer = [0; READ];
-        for _ in 0..READS {
-            match self.terminal.read(&mut buffer) {
-                Ok(0) => return Ok(false),
-                Ok(count) => self.decoder.feed(&buffer[..count], Instant::now()),
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
-                Err(_) => return Ok(false),
-            }
-            if !self.terminal.wait(self.signals.wake(), false, Duration::ZERO)?.input {
-                break;
-            }
-        }
-        Ok(true)
     }
 }

@@ -193,6 +193,15 @@ impl Terminal {
         Ok(rustix::io::read(self.input, buffer)?)
     }
 
+    /// Whether there is something to read.
+    pub(super) fn has_input(&self) -> io::Result<bool> {
+        let mut fds = [PollFd::new(&self.input, PollFlags::IN)];
+        match poll(&mut fds, Some(&timespec(Duration::ZERO))) {
+            Ok(_) | Err(rustix::io::Errno::INTR) => Ok(fds[0].revents().contains(PollFlags::IN)),
+            Err(error) => Err(error.into()),
+        }
+    }
+
     /// Columns and rows.
     pub(super) fn size(&self) -> Size {
         let (columns, rows) = match tcgetwinsize(&self.output) {

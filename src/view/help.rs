@@ -22,8 +22,7 @@ pub(super) fn document(look: &Look, active: &[Place]) -> Document {
 
 /// The keys of a row, as they are named on keyboards.
 pub(super) fn keys(row: &Binding, look: &Look) -> String {
-    let names: Vec<String> = row.keys.iter().map(ToString::to_string).collect();
-    named(&names.join(" "), look)
+    named(&row.key_names().join(" "), look)
 }
 
 /// Names of keys, the arrows as words where they cannot be drawn.

@@ -73,7 +73,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     }
     say("Keys:".to_owned());
     for row in PLACES.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place)) {
-        let keys: Vec<String> = row.keys.iter().map(spoken).collect();
+        let keys: Vec<String> = row.key_names().into_iter().map(spoken).collect();
         say(format!("{}: {}", keys.join(" or "), row.help));
     }
     page
@@ -124,8 +124,7 @@ fn after(unit: &str) -> String {
 }
 
 /// A key as it is read out.
-fn spoken(key: &crate::app::Key) -> String {
-    let name = key.to_string();
+fn spoken(name: String) -> String {
     let words = [
         ("↑", "Up"),
         ("↓", "Down"),

@@ -4,7 +4,8 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
+use crossterm::event::KeyEvent;
+use phaselab::app::{App, Effect, Event, Loaded, key};
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
 use phaselab::preset::{Catalog, Document};
@@ -146,38 +147,6 @@ pub(crate) fn press(app: &mut App, keys: &str) -> Vec<Effect> {
 }
 
 /// The key of a word.
-pub(crate) fn key(word: &str) -> Key {
-    if let Some(rest) = word.strip_prefix("Ctrl-") {
-        return Key { ctrl: true, ..key(rest) };
-    }
-    if let Some(rest) = word.strip_prefix("Alt-") {
-        return Key { alt: true, ..key(rest) };
-    }
-    if let Some(rest) = word.strip_prefix("Shift-") {
-        return Key { shift: true, ..key(rest) };
-    }
-    Key::plain(match word {
-        "Enter" => Code::Enter,
-        "Esc" => Code::Esc,
-        "Tab" => Code::Tab,
-        "Backspace" => Code::Backspace,
-        "Delete" => Code::Delete,
-        "Up" => Code::Up,
-        "Down" => Code::Down,
-        "Left" => Code::Left,
-        "Right" => Code::Right,
-        "Home" => Code::Home,
-        "End" => Code::End,
-        "PageUp" => Code::PageUp,
-        "PageDown" => Code::PageDown,
-        "Space" => Code::Char(' '),
-        "F1" => Code::F(1),
-        word => {
-            let mut letters = word.chars();
-            let (Some(letter), None) = (letters.next(), letters.next()) else {
-                panic!("no key is called {word}")
-            };
-            Code::Char(letter)
-        }
-    })
+pub(crate) fn key(word: &str) -> KeyEvent {
+    key::named(word).unwrap_or_else(|_| panic!("no key is called {word}"))
 }

@@ -16,7 +16,7 @@ fn keys() -> String {
     for place in Place::ALL {
         let mut title = place.title();
         for row in KEYS.iter().filter(|row| row.place == place) {
-            let keys: Vec<String> = row.keys.iter().map(|key| format!("`{key}`")).collect();
+            let keys: Vec<String> = row.key_names().iter().map(|key| format!("`{key}`")).collect();
             writeln!(table, "| {title} | {} | {} |", keys.join(" "), row.help).unwrap();
             title = "";
         }

@@ -2,9 +2,9 @@
 //!
 //! In: the rest of the line. Out: what it says. Never here: lines and places, or doing it.
 
-use super::key;
 use super::line::Line;
 use super::{Assert, Measure, Relation, Said, Step, Text, Way, Word};
+use crate::app::key;
 use crate::preset::Mistake;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;

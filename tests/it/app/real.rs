@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Effect, Event, Key, Lab, Loaded, Target};
+use crossterm::event::KeyEvent;
+use phaselab::app::{App, Effect, Event, Lab, Loaded, Target};
 use phaselab::experiment::{Experiment, Ready, Setup, Snapshot, Status};
 use phaselab::view::draw;
 use proptest::prelude::*;
@@ -72,7 +73,7 @@ impl Real {
         }
     }
 
-    pub(crate) fn strike(&mut self, key: Key) {
+    pub(crate) fn strike(&mut self, key: KeyEvent) {
         let effects = self.app.update(Event::Key(key));
         self.obey(effects);
         self.look();

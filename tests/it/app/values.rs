@@ -10,7 +10,7 @@ fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
     let mut app = in_lab();
     press(&mut app, "Enter Ctrl-u");
     for letter in text.chars() {
-        app.update(Event::Key(phaselab::app::Key::char(letter)));
+        app.update(Event::Key(phaselab::app::key::character(letter)));
     }
     let effects = press(&mut app, "Enter");
     match app.over {

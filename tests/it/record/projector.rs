@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use phaselab::app::{Code, Key};
+use crossterm::event::{Event, KeyCode};
 use phaselab::record::Tape;
-use phaselab::shell::{Input, Page, Projector, Wish};
+use phaselab::shell::{Page, Projector, Wish};
 use phaselab::view::Look;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -31,8 +31,8 @@ fn shown(projector: &mut Projector, (width, height): (u16, u16)) -> String {
     (0..height).map(|y| row(y).trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
-fn press(projector: &mut Projector, code: Code) -> Wish {
-    projector.input(Input::Key(Key::plain(code)))
+fn press(projector: &mut Projector, code: KeyCode) -> Wish {
+    projector.input(Event::Key(code.into()))
 }
 
 /// Lets so many milliseconds pass, in frames.
@@ -52,30 +52,30 @@ fn a_cast_runs_at_its_pace() {
     assert!(shown(&mut it, (30, 4)).starts_with("one\n\n"));
     pass(&mut it, 600);
     assert!(shown(&mut it, (30, 4)).starts_with("one two\n\n"));
-    press(&mut it, Code::Char(' '));
+    press(&mut it, KeyCode::Char(' '));
     pass(&mut it, 5000);
     let held = shown(&mut it, (80, 4));
     assert!(
         held.contains("one two\n") && held.contains("‖ 0:01 of 0:02") && held.contains("middle")
     );
-    press(&mut it, Code::Char('.'));
+    press(&mut it, KeyCode::Char('.'));
     pass(&mut it, 20);
     assert!(shown(&mut it, (30, 4)).contains("one two three"));
     assert!(it.is_over());
-    press(&mut it, Code::Home);
+    press(&mut it, KeyCode::Home);
     pass(&mut it, 20);
     assert!(shown(&mut it, (30, 4)).starts_with("one\n"));
-    press(&mut it, Code::Tab);
+    press(&mut it, KeyCode::Tab);
     pass(&mut it, 20);
     assert!(shown(&mut it, (30, 4)).starts_with("one two\n"));
-    press(&mut it, Code::Char(' '));
-    press(&mut it, Code::Home);
+    press(&mut it, KeyCode::Char(' '));
+    press(&mut it, KeyCode::Home);
     for _ in 0..2 {
-        press(&mut it, Code::Char(']'));
+        press(&mut it, KeyCode::Char(']'));
     }
     pass(&mut it, 300);
     assert!(shown(&mut it, (30, 4)).starts_with("one two\n"), "four times as fast");
-    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    assert_eq!(press(&mut it, KeyCode::Char('q')), Wish::Quit);
 }
 
 #[test]
@@ -85,26 +85,26 @@ fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
     assert!(last(&mut it).contains("▶ 0:00 of 0:02"), "{}", last(&mut it));
     // the cast is over before they go away by themselves
     for _ in 0..3 {
-        press(&mut it, Code::Char('['));
+        press(&mut it, KeyCode::Char('['));
     }
     pass(&mut it, 4000);
     assert!(last(&mut it).contains("0:00 of 0:02"));
     pass(&mut it, 2000);
     assert_eq!(last(&mut it), "");
     // any key brings them back, for a shorter time
-    press(&mut it, Code::Char('x'));
+    press(&mut it, KeyCode::Char('x'));
     assert!(last(&mut it).contains("0:00 of 0:02"));
     pass(&mut it, 3500);
     assert_eq!(last(&mut it), "");
     // and by `c` they stay, or stay away
-    press(&mut it, Code::Char('c'));
+    press(&mut it, KeyCode::Char('c'));
     pass(&mut it, 4000);
     assert!(last(&mut it).contains("of 0:02"));
-    press(&mut it, Code::Char('c'));
-    press(&mut it, Code::Char(' '));
+    press(&mut it, KeyCode::Char('c'));
+    press(&mut it, KeyCode::Char(' '));
     assert_eq!(last(&mut it), "");
     // where there is a row below the cast they are always there
-    press(&mut it, Code::Char('c'));
+    press(&mut it, KeyCode::Char('c'));
     assert!(shown(&mut it, (80, 4)).lines().nth(3).is_some_and(|row| row.contains("q quit")));
 }
 
@@ -208,7 +208,7 @@ proptest! {
             }
         }
         let mut it = projector(&cast);
-        for code in [Code::Right, Code::Home, Code::Char('.'), Code::End, Code::Char(' ')] {
+        for code in [KeyCode::Right, KeyCode::Home, KeyCode::Char('.'), KeyCode::End, KeyCode::Char(' ')] {
             press(&mut it, code);
             pass(&mut it, 60);
             let mut buffer = Buffer::empty(Rect::new(0, 0, area.0, area.1));
@@ -216,7 +216,7 @@ proptest! {
             let escapes = buffer.content.iter().filter(|c| c.symbol().contains('\u{1b}')).count();
             prop_assert_eq!(escapes, 0);
         }
-        prop_assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+        prop_assert_eq!(press(&mut it, KeyCode::Char('q')), Wish::Quit);
     }
 }
 
@@ -231,6 +231,6 @@ fn a_bomb_does_not_keep_the_keys_waiting() {
     for _ in 0..10 {
         it.advance(Duration::from_millis(20));
     }
-    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    assert_eq!(press(&mut it, KeyCode::Char('q')), Wish::Quit);
     assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
 }

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
+use crossterm::event::MouseButton::Left;
+use crossterm::event::MouseEventKind;
+use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
+use phaselab::app::{App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{spot, spots};
@@ -30,7 +33,7 @@ fn places(app: &App, size: (u16, u16), is: impl Fn(&Spot) -> bool) -> Vec<(u16, 
     all(app, size).into_iter().filter(|(_, spot)| is(spot)).map(|(place, _)| place).collect()
 }
 
-fn act(real: &mut Real, size: (u16, u16), act: Act, place: (u16, u16)) {
+fn act(real: &mut Real, size: (u16, u16), act: MouseEventKind, place: (u16, u16)) {
     let Some(spot) = at(&real.app, size, place) else { return };
     let effects = real.app.update(Event::Mouse(act, spot));
     real.obey(effects);
@@ -38,8 +41,8 @@ fn act(real: &mut Real, size: (u16, u16), act: Act, place: (u16, u16)) {
 }
 
 fn click(real: &mut Real, size: (u16, u16), place: (u16, u16)) {
-    act(real, size, Act::Press, place);
-    act(real, size, Act::Release, place);
+    act(real, size, Down(Left), place);
+    act(real, size, Up(Left), place);
 }
 
 /// The lab with two gauges more.
@@ -195,19 +198,19 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
         matches!(spot, Spot::Bar { target: Target::Parameter(1), .. })
     });
     assert!(bar.len() > 8, "{bar:?}");
-    act(&mut real, size, Act::Press, bar[2]);
+    act(&mut real, size, Down(Left), bar[2]);
     assert_eq!(real.app.hold, Some(Hold::Bar(Target::Parameter(1))));
     for place in &bar {
-        act(&mut real, size, Act::Drag, *place);
+        act(&mut real, size, Drag(Left), *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
         let buffer = screen(&real.app, &rich(), size);
         assert_eq!(buffer[*place].symbol(), "●", "the knob is under the mouse");
     }
     // Beside the bar the knob stops at its end.
-    act(&mut real, size, Act::Drag, (119, 0));
+    act(&mut real, size, Drag(Left), (119, 0));
     let (_, max, _) = real.lab().facts(Target::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
-    act(&mut real, size, Act::Release, (119, 0));
+    act(&mut real, size, Up(Left), (119, 0));
     assert_eq!(real.app.hold, None);
     real.press("u");
     assert_eq!(real.seen().parameters, before);
@@ -242,7 +245,7 @@ fn the_wheel_zooms_about_the_place_under_it() {
             };
             let (before, plot) = (coordinates(&real), real.lab().plots[picture].clone());
             for _ in 0..3 {
-                act(&mut real, size, Act::WheelUp, place);
+                act(&mut real, size, ScrollUp, place);
             }
             assert_ne!(real.lab().plots[picture], plot);
             // What ticks are shown moves the axes by a cell or so; the place stays to a part of it.
@@ -250,7 +253,7 @@ fn the_wheel_zooms_about_the_place_under_it() {
             let wide = if picture == 1 { 6.3 } else { 20.0 };
             assert!((after[0] - before[0]).abs() < 0.05 * wide, "{before:?} {after:?}");
             for _ in 0..3 {
-                act(&mut real, size, Act::WheelDown, place);
+                act(&mut real, size, ScrollDown, place);
             }
             let after = coordinates(&real);
             assert!((after[0] - before[0]).abs() < 0.03 * wide, "{before:?} {after:?}");
@@ -267,10 +270,10 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         let (x, y) = inside(&real.app, size, picture);
         let before = real.lab().plots.clone();
         let grabbed = at(&real.app, size, (x, y)).unwrap();
-        act(&mut real, size, Act::Press, (x, y));
-        act(&mut real, size, Act::Drag, (x + 3, y));
-        act(&mut real, size, Act::Drag, (x + 6, y - 1));
-        act(&mut real, size, Act::Release, (x + 6, y - 1));
+        act(&mut real, size, Down(Left), (x, y));
+        act(&mut real, size, Drag(Left), (x + 3, y));
+        act(&mut real, size, Drag(Left), (x + 6, y - 1));
+        act(&mut real, size, Up(Left), (x + 6, y - 1));
         assert_eq!(real.lab().focus, Pane::Plot(picture));
         let after = real.lab().plots.clone();
         match (&before[picture], &after[picture], grabbed) {
@@ -311,7 +314,7 @@ fn clicks_do_what_stands_there() {
     let place = on(&real, "? help");
     click(&mut real, size, place);
     assert!(matches!(real.app.over, Some(Over::Help { .. })));
-    act(&mut real, size, Act::WheelDown, (10, 10));
+    act(&mut real, size, ScrollDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");
     click(&mut real, size, place);
@@ -346,29 +349,29 @@ fn the_wheel_scrolls_text_and_lists() {
     app.update(Event::Drawn(drawn));
     let spot = at(&app, (80, 16), (20, 8)).unwrap();
     assert_eq!(spot, Spot::Text);
-    app.update(Event::Mouse(Act::WheelDown, spot));
+    app.update(Event::Mouse(ScrollDown, spot));
     assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
-    app.update(Event::Mouse(Act::WheelUp, spot));
+    app.update(Event::Mouse(ScrollUp, spot));
     assert_eq!(app.scroll, 0);
 
     let mut app = at_picker();
     let before = app.picker.selected;
     let spot = at(&app, (80, 24), (6, 12)).unwrap();
-    app.update(Event::Mouse(Act::WheelUp, spot));
+    app.update(Event::Mouse(ScrollUp, spot));
     assert_eq!(app.picker.selected, before - 1);
     let systems: Vec<usize> = all(&app, (80, 24))
         .into_iter()
         .filter_map(|(_, spot)| if let Spot::System(place) = spot { Some(place) } else { None })
         .collect();
     let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
-    app.update(Event::Mouse(Act::Press, Spot::System(other)));
+    app.update(Event::Mouse(Down(Left), Spot::System(other)));
     assert_eq!(app.picker.selected, other);
 
     let mut app = in_lab();
     press(&mut app, ":");
     let spot = at(&app, (80, 24), (20, 8)).unwrap();
     assert!(matches!(spot, Spot::Line(_)), "{spot:?}");
-    app.update(Event::Mouse(Act::WheelDown, spot));
+    app.update(Event::Mouse(ScrollDown, spot));
     let Some(Over::Menu(menu)) = &app.over else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
@@ -385,10 +388,10 @@ fn nothing_is_under_a_place_that_shows_nothing() {
     // A knob that is held but not shown any more, and a command that cannot be meant.
     app.hold = Some(Hold::Bar(Target::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
-    let effects = app.update(Event::Mouse(Act::Drag, Spot::Text));
+    let effects = app.update(Event::Mouse(Drag(Left), Spot::Text));
     assert!(effects.is_empty());
     let spot = Spot::Bar { target: Target::Parameter(99), value: f64::NAN };
-    for act in [Act::Press, Act::Drag, Act::Release, Act::WheelDown] {
+    for act in [Down(Left), Drag(Left), Up(Left), ScrollDown] {
         let effects = app.update(Event::Mouse(act, spot));
         let harmless = |e: &phaselab::app::Effect| {
             !matches!(e, phaselab::app::Effect::Tell(Command::Parameter { .. }))
@@ -402,7 +405,7 @@ fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     let bar = places(&real.app, size, |spot| matches!(spot, Spot::Bar { .. }));
-    act(&mut real, size, Act::Press, bar[0]);
+    act(&mut real, size, Down(Left), bar[0]);
     assert!(real.app.hold.is_some());
     real.press("2");
     assert_eq!(real.app.hold, None);

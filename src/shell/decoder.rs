@@ -7,28 +7,17 @@
 //! The sequences are taken apart by `vte`, which alacritty's terminal lives on; what a lone Esc is, time tells.
 
 use std::collections::VecDeque;
-use std::mem;
 use std::time::{Duration, Instant};
+use std::{io, mem};
 
+use crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use vte::{Params, Parser, Perform};
 
-use super::terminal::Mode;
-use crate::app::{Act, Code, Key, LONGEST_PASTE, Mouse};
-
-/// What a person did at the terminal.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Input {
-    /// A key was pressed.
-    Key(Key),
-    /// Text was pasted, and the terminal said so; longer text is cut after [`PASTE_LIMIT`] bytes.
-    Paste(String),
-    /// Something was done with the mouse.
-    Mouse(Mouse),
-    /// The window has got the keyboard, or lost it.
-    Focus(bool),
-    /// The window has another size: columns, rows.
-    Resize(u16, u16),
-}
+use super::events::EventSource;
+use super::terminal::{Mode, Terminal};
+use crate::app::{LONGEST_PASTE, key};
 
 /// The most that one paste brings, in bytes: a character more than is taken of it, so that it is told where it was cut.
 pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
@@ -44,10 +33,14 @@ const PASTE: Duration = Duration::from_secs(1);
 /// How many times as long it may take in all, where more keeps coming and nothing is finished.
 const IN_ALL: u32 = 10;
 
+/// Reads in a row before what came is looked at, each of [`READ`] bytes; a flood must not keep the screen still.
+const READS: usize = 64;
+const READ: usize = 4096;
+
 /// The longest sequence that is waited for, in bytes; what is longer is noise.
 const SEQUENCE_LIMIT: usize = 16 * 1024;
 
-/// Turns bytes into inputs.
+/// Turns bytes into events.
 #[derive(Default)]
 pub(super) struct Decoder {
     parser: Parser,
@@ -60,9 +53,50 @@ pub(super) struct Decoder {
     times: Option<(Instant, Instant)>,
 }
 
+impl EventSource for Decoder {
+    fn read(&mut self, terminal: &Terminal) -> io::Result<bool> {
+        let mut buffer = [0; READ];
+        for _ in 0..READS {
+            match terminal.read(&mut buffer) {
+                Ok(0) => return Ok(false),
+                Ok(count) => self.feed(&buffer[..count], Instant::now()),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
+                Err(_) => return Ok(false),
+            }
+            if !terminal.has_input()? {
+                break;
+            }
+        }
+        Ok(true)
+    }
+
+    fn next(&mut self, now: Instant) -> Option<Event> {
+        if self.deadline().is_some_and(|deadline| deadline <= now) {
+            self.expire();
+        }
+        self.sink.events.pop_front()
+    }
+
+    fn deadline(&self) -> Option<Instant> {
+        let ((first, last), patience) = (self.times?, self.patience()?);
+        Some((last + patience).min(first + IN_ALL * patience))
+    }
+
+    fn expect(&mut self, mode: Mode, expected: bool) {
+        let expects = &mut self.sink.expects;
+        match mode {
+            Mode::Paste => expects.pastes = expected,
+            Mode::Mouse => expects.mouse = expected,
+            Mode::Focus => expects.focus = expected,
+            Mode::AlternateScreen | Mode::HiddenCursor => {}
+        }
+    }
+}
+
 impl Decoder {
     /// Takes bytes in that came at that time.
-    pub(super) fn feed(&mut self, bytes: &[u8], now: Instant) {
+    fn feed(&mut self, bytes: &[u8], now: Instant) {
         self.parse(bytes);
         let first = self.times.map_or(now, |(first, _)| first);
         self.times = self.patience().map(|_| (first, now));
@@ -75,7 +109,7 @@ impl Decoder {
                 continue;
             }
             if self.escaped && byte == ESC {
-                self.sink.press(Code::Esc);
+                self.sink.press(KeyCode::Esc);
                 continue;
             }
             if self.escaped && !(0x20..=0x7e).contains(&byte) {
@@ -97,23 +131,6 @@ impl Decoder {
         }
     }
 
-    /// Whether the terminal was told to send what a mode brings; if not, it is noise.
-    pub(super) fn expect(&mut self, mode: Mode, expected: bool) {
-        let expects = &mut self.sink.expects;
-        match mode {
-            Mode::Paste => expects.pastes = expected,
-            Mode::Mouse => expects.mouse = expected,
-            Mode::Focus => expects.focus = expected,
-            Mode::AlternateScreen | Mode::HiddenCursor => {}
-        }
-    }
-
-    /// When [`Self::expire`] is due; `None` where nothing is unfinished.
-    pub(super) fn deadline(&self) -> Option<Instant> {
-        let ((first, last), patience) = (self.times?, self.patience()?);
-        Some((last + patience).min(first + IN_ALL * patience))
-    }
-
     /// How long to wait for more of what is unfinished.
     fn patience(&self) -> Option<Duration> {
         if self.sink.paste.is_some() {
@@ -126,26 +143,21 @@ impl Decoder {
     }
 
     /// Nothing more came: what is unfinished is a key of its own, or noise.
-    pub(super) fn expire(&mut self) {
+    fn expire(&mut self) {
         if let Some(text) = self.sink.paste.take() {
-            self.sink.inputs.push_back(Input::Paste(text));
+            self.sink.events.push_back(Event::Paste(text));
         } else if self.escaped {
-            self.sink.press(Code::Esc);
+            self.sink.press(KeyCode::Esc);
         } else if self.sink.prefix == Prefix::Keypad {
             self.sink.alt = true;
-            self.sink.press(Code::Char('O'));
+            self.sink.press(KeyCode::Char('O'));
         }
         self.reset();
     }
 
-    /// The next input, in the order of the bytes.
-    pub(super) fn next(&mut self) -> Option<Input> {
-        self.sink.inputs.pop_front()
-    }
-
     fn reset(&mut self) {
-        let (inputs, expects) = (mem::take(&mut self.sink.inputs), self.sink.expects);
-        *self = Self { sink: Sink { inputs, expects, ..Sink::default() }, ..Self::default() };
+        let (events, expects) = (mem::take(&mut self.sink.events), self.sink.expects);
+        *self = Self { sink: Sink { events, expects, ..Sink::default() }, ..Self::default() };
     }
 }
 
@@ -174,7 +186,7 @@ struct Expected {
 /// What the parser has found.
 #[derive(Default)]
 struct Sink {
-    inputs: VecDeque<Input>,
+    events: VecDeque<Event>,
     prefix: Prefix,
     /// Alt goes with the next key.
     alt: bool,
@@ -188,23 +200,32 @@ struct Sink {
 }
 
 impl Sink {
-    fn press(&mut self, code: Code) {
+    fn press(&mut self, code: KeyCode) {
         self.press_with(code, 1);
     }
 
     /// A key with modifiers as xterm counts them: one more than shift 1, alt 2, ctrl 4.
-    fn press_with(&mut self, code: Code, modifiers: u16) {
+    fn press_with(&mut self, code: KeyCode, modifiers: u16) {
         let bits = modifiers.saturating_sub(1);
-        let (shift, alt, ctrl) = (bits & 1 != 0, bits & 2 != 0, bits & 4 != 0);
-        let alt = mem::take(&mut self.alt) || alt;
+        let held = [
+            (bits & 1 != 0, KeyModifiers::SHIFT),
+            (bits & 2 != 0 || mem::take(&mut self.alt), KeyModifiers::ALT),
+            (bits & 4 != 0, KeyModifiers::CONTROL),
+        ];
+        let held = held.into_iter().filter(|(held, _)| *held).map(|(_, modifier)| modifier);
+        let typed = match code {
+            KeyCode::Char(c) => key::character(c),
+            code => code.into(),
+        };
         if self.paste.is_none() {
-            self.inputs.push_back(Input::Key(Key { code, ctrl, alt, shift }));
+            let modifiers = held.fold(typed.modifiers, |all, modifier| all | modifier);
+            self.events.push_back(Event::Key(KeyEvent::new(code, modifiers)));
         }
     }
 
     fn write(&mut self, character: char) {
         let Some(paste) = &mut self.paste else {
-            self.press(Code::Char(character));
+            self.press(KeyCode::Char(character));
             return;
         };
         if paste.len() + character.len_utf8() <= PASTE_LIMIT {
@@ -215,20 +236,20 @@ impl Sink {
     /// Keys that end in `~`, by their number.
     fn numbered(&mut self, number: u16, modifiers: u16) {
         let code = match number {
-            1 | 7 => Code::Home,
-            3 => Code::Delete,
-            4 | 8 => Code::End,
-            5 => Code::PageUp,
-            6 => Code::PageDown,
-            11..=15 => Code::F((number - 10) as u8),
-            17..=21 => Code::F((number - 11) as u8),
-            23 | 24 => Code::F((number - 12) as u8),
+            1 | 7 => KeyCode::Home,
+            3 => KeyCode::Delete,
+            4 | 8 => KeyCode::End,
+            5 => KeyCode::PageUp,
+            6 => KeyCode::PageDown,
+            11..=15 => KeyCode::F((number - 10) as u8),
+            17..=21 => KeyCode::F((number - 11) as u8),
+            23 | 24 => KeyCode::F((number - 12) as u8),
             200 if self.expects.pastes => {
                 self.paste = Some(String::new());
                 return;
             }
             201 => {
-                self.inputs.extend(self.paste.take().map(Input::Paste));
+                self.events.extend(self.paste.take().map(Event::Paste));
                 return;
             }
             _ => return,
@@ -238,43 +259,45 @@ impl Sink {
 
     /// A mouse report of xterm's mode 1006: button and modifiers, column and row from 1.
     fn report(&mut self, [button, column, row]: [u16; 3], released: bool) {
-        // Shift, alt and ctrl held with it make no difference.
-        let act = match (button & !0b1_1100, released) {
-            (0, false) => Act::Press,
-            (0, true) => Act::Release,
-            (32, false) => Act::Drag,
-            (64, false) => Act::WheelUp,
-            (65, false) => Act::WheelDown,
+        let kind = match (button & !0b1_1100, released) {
+            (0, false) => MouseEventKind::Down(MouseButton::Left),
+            (0, true) => MouseEventKind::Up(MouseButton::Left),
+            (32, false) => MouseEventKind::Drag(MouseButton::Left),
+            (64, false) => MouseEventKind::ScrollUp,
+            (65, false) => MouseEventKind::ScrollDown,
             _ => return,
         };
+        let held = [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
+        let held = held.into_iter().filter(|(bit, _)| button & bit != 0);
+        let modifiers = held.fold(KeyModifiers::NONE, |all, (_, modifier)| all | modifier);
         if let (Some(column), Some(row)) = (column.checked_sub(1), row.checked_sub(1))
             && self.paste.is_none()
         {
-            self.inputs.push_back(Input::Mouse(Mouse { column, row, act }));
+            self.events.push_back(Event::Mouse(MouseEvent { kind, column, row, modifiers }));
         }
     }
 
     fn focus(&mut self, gained: bool) {
         if self.paste.is_none() {
-            self.inputs.push_back(Input::Focus(gained));
+            self.events.push_back(if gained { Event::FocusGained } else { Event::FocusLost });
         }
     }
 
     /// Keys that end in a letter of their own.
     fn lettered(&mut self, letter: char, modifiers: u16) {
         let code = match letter {
-            'A' => Code::Up,
-            'B' => Code::Down,
-            'C' => Code::Right,
-            'D' => Code::Left,
-            'F' => Code::End,
-            'H' => Code::Home,
-            'P' => Code::F(1),
-            'Q' => Code::F(2),
-            'R' => Code::F(3),
-            'S' => Code::F(4),
+            'A' => KeyCode::Up,
+            'B' => KeyCode::Down,
+            'C' => KeyCode::Right,
+            'D' => KeyCode::Left,
+            'F' => KeyCode::End,
+            'H' => KeyCode::Home,
+            'P' => KeyCode::F(1),
+            'Q' => KeyCode::F(2),
+            'R' => KeyCode::F(3),
+            'S' => KeyCode::F(4),
             'Z' => {
-                self.press_with(Code::Tab, 2);
+                self.press_with(KeyCode::BackTab, 2);
                 return;
             }
             _ => return,
@@ -287,16 +310,16 @@ impl Perform for Sink {
     fn print(&mut self, character: char) {
         self.settled = true;
         match mem::take(&mut self.prefix) {
-            Prefix::None if character == '\x7f' => self.press(Code::Backspace),
+            Prefix::None if character == '\x7f' => self.press(KeyCode::Backspace),
             Prefix::None => self.write(character),
             Prefix::Keypad => match character {
-                'M' => self.press(Code::Enter),
+                'M' => self.press(KeyCode::Enter),
                 'j'..='y' => self.write(char::from(character as u8 - 0x40)),
                 letter => self.lettered(letter, 1),
             },
             Prefix::Console => {
                 if let 'A'..='E' = character {
-                    self.press(Code::F(character as u8 - b'A' + 1));
+                    self.press(KeyCode::F(character as u8 - b'A' + 1));
                 }
             }
         }
@@ -307,12 +330,12 @@ impl Perform for Sink {
         self.prefix = Prefix::None;
         match byte {
             b'\t' | b'\n' | b'\r' if self.paste.is_some() => self.write(byte.into()),
-            0 => self.press_with(Code::Char(' '), 5),
-            8 | 0x7f => self.press(Code::Backspace),
-            b'\t' => self.press(Code::Tab),
-            b'\n' | b'\r' => self.press(Code::Enter),
-            1..=26 => self.press_with(Code::Char((byte + 0x60).into()), 5),
-            _ => self.press_with(Code::Char((byte + 0x40).into()), 5),
+            0 => self.press_with(KeyCode::Char(' '), 5),
+            8 | 0x7f => self.press(KeyCode::Backspace),
+            b'\t' => self.press(KeyCode::Tab),
+            b'\n' | b'\r' => self.press(KeyCode::Enter),
+            1..=26 => self.press_with(KeyCode::Char((byte + 0x60).into()), 5),
+            _ => self.press_with(KeyCode::Char((byte + 0x40).into()), 5),
         }
     }
 
@@ -348,7 +371,7 @@ impl Perform for Sink {
             b'O' => self.prefix = Prefix::Keypad,
             _ => {
                 self.alt = true;
-                self.press(Code::Char(byte.into()));
+                self.press(KeyCode::Char(byte.into()));
             }
         }
     }
@@ -361,62 +384,128 @@ mod tests {
     use super::*;
 
     /// What whole bytes, and then silence, mean.
-    fn decode(bytes: &[u8]) -> Vec<Input> {
+    fn decode(bytes: &[u8]) -> Vec<Event> {
         decode_with(Mode::Paste, bytes)
     }
 
     /// The same where a mode is on.
-    fn decode_with(mode: Mode, bytes: &[u8]) -> Vec<Input> {
+    fn decode_with(mode: Mode, bytes: &[u8]) -> Vec<Event> {
         let mut decoder = Decoder::default();
         decoder.expect(mode, true);
         decoder.feed(bytes, Instant::now());
         if decoder.deadline().is_some() {
             decoder.expire();
         }
-        std::iter::from_fn(|| decoder.next()).collect()
+        taken(&mut decoder)
     }
 
-    fn check(bytes: &str, keys: &[Key]) {
-        let expected: Vec<_> = keys.iter().copied().map(Input::Key).collect();
+    fn check(bytes: &str, keys: &[KeyEvent]) {
+        let expected: Vec<_> = keys.iter().copied().map(Event::Key).collect();
         assert_eq!(decode(bytes.as_bytes()), expected, "{bytes:?} at once");
         let mut decoder = Decoder::default();
         bytes.bytes().for_each(|byte| decoder.feed(&[byte], Instant::now()));
         decoder.expire();
-        let pieces: Vec<_> = std::iter::from_fn(|| decoder.next()).collect();
+        let pieces = taken(&mut decoder);
         assert_eq!(pieces, expected, "{bytes:?} in pieces");
     }
 
-    const fn alt(code: Code) -> Key {
-        Key { alt: true, ..Key::plain(code) }
+    /// Keys by their names.
+    fn keys(names: &str) -> Vec<KeyEvent> {
+        names.split_whitespace().map(|name| key::named(name).expect("a key")).collect()
+    }
+
+    /// What came of it so far.
+    fn taken(decoder: &mut Decoder) -> Vec<Event> {
+        decoder.sink.events.drain(..).collect()
     }
 
     #[test]
     fn keys_of_every_kind() {
-        check("aZ θ", &[Key::char('a'), Key::char('Z'), Key::char(' '), Key::char('θ')]);
-        check("\r\n\t", &[Code::Enter, Code::Enter, Code::Tab].map(Key::plain));
-        check("\x7f\x08", &[Code::Backspace, Code::Backspace].map(Key::plain));
-        check("\x03\x1a\0", &[Key::ctrl('c'), Key::ctrl('z'), Key::ctrl(' ')]);
-        check("\x1c\x1f", &[Key::ctrl('\\'), Key::ctrl('_')]);
-        check("\x1b[A\x1bOA\x1b[D", &[Code::Up, Code::Up, Code::Left].map(Key::plain));
-        check("\x1b[H\x1b[4~\x1bOF", &[Code::Home, Code::End, Code::End].map(Key::plain));
-        check(
-            "\x1b[5~\x1b[6~\x1b[3~",
-            &[Code::PageUp, Code::PageDown, Code::Delete].map(Key::plain),
-        );
-        check("\x1bOP\x1b[15~\x1b[24~\x1b[[B", &[1, 5, 12, 2].map(|n| Key::plain(Code::F(n))));
-        check("\x1b[Z\x1b[1;2C", &[Key::shift(Code::Tab), Key::shift(Code::Right)]);
-        check("\x1b[1;5A", &[Key { ctrl: true, ..Key::plain(Code::Up) }]);
-        check("\x1bx\x1b\r", &[alt(Code::Char('x')), alt(Code::Enter)]);
-        check("\x1bé\x1b\x7f", &[alt(Code::Char('é')), alt(Code::Backspace)]);
-        check("\x1bOp\x1bOM", &[Key::char('0'), Key::plain(Code::Enter)]);
+        check("aZ θ", &keys("a Z Space θ"));
+        check("\r\n\t", &keys("Enter Enter Tab"));
+        check("\x7f\x08", &keys("Backspace Backspace"));
+        check("\x03\x1a\0", &keys("Ctrl-c Ctrl-z Ctrl-Space"));
+        check("\x1c\x1f", &keys("Ctrl-\\ Ctrl-_"));
+        check("\x1b[A\x1bOA\x1b[D", &keys("Up Up Left"));
+        check("\x1b[H\x1b[4~\x1bOF", &keys("Home End End"));
+        check("\x1b[5~\x1b[6~\x1b[3~", &keys("PgUp PgDn Delete"));
+        check("\x1bOP\x1b[15~\x1b[24~\x1b[[B", &keys("F1 F5 F12 F2"));
+        check("\x1b[Z\x1b[1;2C\x1b[1;5A", &keys("Shift-Tab Shift-Right Ctrl-Up"));
+        check("\x1bx\x1b\r\x1bé\x1b\x7f", &keys("Alt-x Alt-Enter Alt-é Alt-Backspace"));
+        check("\x1bOp\x1bOM", &keys("0 Enter"));
     }
 
     #[test]
     fn esc_is_a_key_when_nothing_follows() {
-        check("\x1b", &[Key::plain(Code::Esc)]);
-        check("\x1b\x1b", &[Code::Esc, Code::Esc].map(Key::plain));
-        check("\x1b\x1b[A", &[Code::Esc, Code::Up].map(Key::plain));
-        check("\x1bO", &[alt(Code::Char('O'))]);
+        check("\x1b", &keys("Esc"));
+        check("\x1b\x1b", &keys("Esc Esc"));
+        check("\x1b\x1b[A", &keys("Esc Up"));
+        check("\x1bO", &keys("Alt-O"));
+    }
+
+    #[test]
+    fn a_cut_arrow_key_is_no_esc() {
+        let (mut decoder, now) = (Decoder::default(), Instant::now());
+        for (part, soon) in ["\x1b", "[", "A"].iter().zip(0..) {
+            decoder.feed(part.as_bytes(), now + SEQUENCE / 2 * soon);
+            let found = decoder.next(now + SEQUENCE / 2 * soon);
+            assert_eq!(found, (*part == "A").then(|| Event::Key(KeyCode::Up.into())));
+        }
+        assert_eq!(decoder.deadline(), None);
+        decoder.feed(b"\x1b", now);
+        assert_eq!(decoder.next(now + SEQUENCE), Some(Event::Key(KeyCode::Esc.into())));
+    }
+
+    /// What is typed a while after something that has no end.
+    fn q_after(unfinished: &[u8], patience: Duration) -> Vec<Event> {
+        let (mut decoder, now) = (Decoder::default(), Instant::now());
+        for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+            decoder.expect(mode, true);
+        }
+        decoder.feed(unfinished, now);
+        let mut events: Vec<Event> = decoder.next(now + patience).into_iter().collect();
+        decoder.feed(b"q", now + patience);
+        events.extend(taken(&mut decoder));
+        events
+    }
+
+    #[test]
+    fn a_sequence_without_an_end_swallows_no_key_for_long() {
+        for unfinished in [
+            "\x1b[<",
+            "\x1b[<0;1",
+            "\x1b[?",
+            "\x1b[?2026;2$",
+            "\x1b[200",
+            "\x1b[M",
+            "\x1b]0;",
+            "\x1bP",
+        ] {
+            let found = q_after(unfinished.as_bytes(), SEQUENCE);
+            assert_eq!(found, [Event::Key(key::character('q'))], "{unfinished:?}");
+        }
+    }
+
+    #[test]
+    fn an_answer_that_is_not_understood_swallows_no_key() {
+        for noise in ["\x1b[?2026;2$y", "\x1b[?997;1n", "\x1b[>1;2c", "\x1b[8;24;80t"] {
+            check(&format!("{noise}q"), &keys("q"));
+        }
+    }
+
+    #[test]
+    fn a_paste_without_an_end_is_taken_when_it_rests() {
+        let found = q_after(b"\x1b[200~text", PASTE);
+        assert_eq!(found, [Event::Paste("text".into()), Event::Key(key::character('q'))]);
+    }
+
+    #[test]
+    fn what_is_not_utf_8_is_no_key_and_keeps_none() {
+        for noise in [b"\xff".as_slice(), b"\xc3", b"\xe2\x82", b"\x9b", b"\x90", b"\xf0\x9f\x98"] {
+            let found = q_after(noise, SEQUENCE);
+            assert_eq!(found.last(), Some(&Event::Key(key::character('q'))), "{noise:?}");
+            assert!(found.iter().all(|event| matches!(event, Event::Key(_))), "{found:?}");
+        }
     }
 
     #[test]
@@ -433,28 +522,30 @@ mod tests {
             "\x1b[12;40R",
             "\x1b[I\x1b[O",
         ] {
-            check(&format!("{noise}q"), &[Key::char('q')]);
+            check(&format!("{noise}q"), &keys("q"));
         }
     }
 
     #[test]
     fn the_mouse_is_its_left_button_and_its_wheel() {
-        let check = |bytes: &str, expected: &[(u16, u16, Act)]| {
-            let expected: Vec<_> = expected
-                .iter()
-                .map(|&(column, row, act)| Input::Mouse(Mouse { column, row, act }))
-                .collect();
+        let check = |bytes: &str, expected: &[(u16, u16, MouseEventKind)]| {
+            let plain = |&(column, row, kind): &(u16, u16, MouseEventKind)| {
+                Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
+            };
+            let expected: Vec<_> = expected.iter().map(plain).collect();
             assert_eq!(decode_with(Mode::Mouse, bytes.as_bytes()), expected, "{bytes:?}");
         };
-        check("\x1b[<0;1;1M\x1b[<0;1;1m", &[(0, 0, Act::Press), (0, 0, Act::Release)]);
-        check("\x1b[<32;80;24M", &[(79, 23, Act::Drag)]);
-        check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, Act::WheelUp), (4, 5, Act::WheelDown)]);
-        // With shift, alt and ctrl.
-        check("\x1b[<28;2;3M", &[(1, 2, Act::Press)]);
-        check("\x1b[<0;99999;99999M", &[(65534, 65534, Act::Press)]);
+        let (press, release) =
+            (MouseEventKind::Down(MouseButton::Left), MouseEventKind::Up(MouseButton::Left));
+        check("\x1b[<0;1;1M\x1b[<0;1;1m", &[(0, 0, press), (0, 0, release)]);
+        check("\x1b[<32;80;24M", &[(79, 23, MouseEventKind::Drag(MouseButton::Left))]);
+        let (up, down) = (MouseEventKind::ScrollUp, MouseEventKind::ScrollDown);
+        check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, up), (4, 5, down)]);
+        check("\x1b[<0;99999;99999M", &[(65534, 65534, press)]);
+        let modifiers = KeyModifiers::SHIFT | KeyModifiers::ALT | KeyModifiers::CONTROL;
+        let held = Event::Mouse(MouseEvent { kind: press, column: 1, row: 2, modifiers });
+        assert_eq!(decode_with(Mode::Mouse, b"\x1b[<28;2;3M"), [held]);
         for nothing in [
-            "\x1b[<0;0;0M",
-            "\x1b[<0;1;0M",
             "\x1b[<0;1M",
             "\x1b[<0;1;1;1M",
             "\x1b[<M",
@@ -472,16 +563,23 @@ mod tests {
     }
 
     #[test]
+    fn a_report_from_row_or_column_zero_is_none() {
+        for report in ["\x1b[<0;0;0M", "\x1b[<0;1;0M", "\x1b[<0;0;1M", "\x1b[M   ", "\x1b[0;0;0M"] {
+            assert_eq!(decode_with(Mode::Mouse, report.as_bytes()), [], "{report:?}");
+        }
+    }
+
+    #[test]
     fn focus_is_told_where_it_was_asked_for() {
-        let expected = [false, true].map(Input::Focus);
+        let expected = [Event::FocusLost, Event::FocusGained];
         assert_eq!(decode_with(Mode::Focus, b"\x1b[O\x1b[I"), expected);
         assert_eq!(decode_with(Mode::Mouse, b"\x1b[O\x1b[I"), []);
         assert_eq!(decode_with(Mode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
     }
 
     #[test]
-    fn pastes_are_one_input_and_bounded() {
-        let paste = |text: &str| vec![Input::Paste(text.to_owned())];
+    fn pastes_are_one_event_and_bounded() {
+        let paste = |text: &str| vec![Event::Paste(text.to_owned())];
         assert_eq!(decode(b"\x1b[200~q\r2*x\x1b[A\x1b[201~"), paste("q\r2*x"));
         assert_eq!(decode(b"\x1b[200~never ended"), paste("never ended"));
         let long = format!("\x1b[200~{}\x1b[201~", "θ".repeat(500_000));
@@ -517,13 +615,13 @@ mod tests {
                     .collect();
             decoder.feed(&bytes, now);
             now += Duration::from_millis(20);
-            while decoder.next().is_some() {}
+            taken(&mut decoder);
         }
         decoder.feed(b"\x1b[<0;0;0M\x1b]0;never ended", now);
         decoder.expire();
-        while decoder.next().is_some() {}
+        taken(&mut decoder);
         decoder.feed(b"q", now);
-        assert_eq!(decoder.next(), Some(Input::Key(Key::char('q'))));
+        assert_eq!(taken(&mut decoder), [Event::Key(key::character('q'))]);
     }
 
     proptest! {
@@ -550,9 +648,9 @@ mod tests {
             }
             prop_assert!(decoder.deadline().is_none_or(|deadline| deadline <= now));
             decoder.expire();
-            while decoder.next().is_some() {}
+            taken(&mut decoder);
             decoder.feed(b"q", now);
-            prop_assert_eq!(decoder.next(), Some(Input::Key(Key::char('q'))));
+            prop_assert_eq!(taken(&mut decoder), [Event::Key(key::character('q'))]);
             prop_assert_eq!(decoder.deadline(), None);
         }
     }
