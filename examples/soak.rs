@@ -37,7 +37,7 @@ fn main() -> Result<ExitCode> {
     let (mut app, _) = App::new(&catalog, Some(&name));
     app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
     let look = Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
-    let mut frames = Frames::new(true);
+    let mut frames = Frames::new(true)?;
     let (start, mut bytes, mut first) = (experiment.time(), 0, 0);
     for frame in 0..count {
         let time = start + f64::from(frame) / 30.0 * experiment.speed();
@@ -47,7 +47,7 @@ fn main() -> Result<ExitCode> {
         let draw = |area, buffer: &mut _| {
             view::draw(&app, &look, area, buffer);
         };
-        bytes += frames.next(Size::new(80, 24), draw).len();
+        bytes += frames.next(Size::new(80, 24), draw)?.len();
         if frame == count / 10 {
             first = memory()?;
         }

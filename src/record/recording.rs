@@ -3,6 +3,7 @@
 //! In: a [`Script`], a document. Out: a [`Recording`], or every mistake that only playing shows. Never here: what a line
 //! of a script does, or the form of a cast.
 
+use std::io;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
@@ -97,7 +98,7 @@ pub fn play(
     let performance = Performance::new(script.clone(), document, called, area, Budget::RECORDED);
     let mut take = Take {
         performance: performance.map_err(alone)?,
-        screen: Frames::new(false),
+        screen: Frames::new(false).map_err(unwritten).map_err(alone)?,
         look: script.head.look(),
         area,
         events: Vec::new(),
@@ -125,6 +126,11 @@ pub fn play(
         log,
         false_claims,
     })
+}
+
+/// A frame that could not be written down.
+fn unwritten(why: io::Error) -> Mistake {
+    Mistake::error(0..0, format!("a frame cannot be written: {why}"))
 }
 
 /// Captions that have no room on a screen of this width.
@@ -156,7 +162,7 @@ impl Take {
         let beat = self.performance.beat()?;
         let now = self.performance.now();
         match beat {
-            Beat::Frame => self.draw(now),
+            Beat::Frame => self.draw(now).map_err(unwritten)?,
             Beat::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
             Beat::Claim(place, claim) => {
                 let screen = rows(&self.performance.picture(&self.look));
@@ -179,18 +185,19 @@ impl Take {
     }
 
     /// Shows the present as a frame.
-    fn draw(&mut self, now: Micros) {
+    fn draw(&mut self, now: Micros) -> io::Result<()> {
         let Self { performance, screen, look, .. } = self;
         if performance.lab.takes_repaint() {
             screen.forget();
         }
         let bytes = screen.next(self.area, |area, buffer| {
             performance.draw(look, area, buffer);
-        });
+        })?;
         if !bytes.is_empty() {
             let text = String::from_utf8_lossy(&bytes).into_owned();
             self.events.push((now, Event::Output(text)));
         }
+        Ok(())
     }
 }
 

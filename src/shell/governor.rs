@@ -183,7 +183,7 @@ mod tests {
 
     /// A picture of which every cell changes with every frame, as bytes that `governor` lets through.
     fn heat(governor: &mut Governor, seconds: f64) -> Vec<(f64, usize)> {
-        let mut screen = Frames::new(true);
+        let mut screen = Frames::new(true).expect("memory");
         let mut turn = 0_usize;
         carried(governor, seconds, |governor| {
             turn += 1;
@@ -201,7 +201,7 @@ mod tests {
                 }
                 assert_eq!(area.area() as usize, buffer.content.len());
             };
-            screen.next_within(Size::new(80, 24), governor.most(), draw).len()
+            screen.next_within(Size::new(80, 24), governor.most(), draw).expect("bytes").len()
         })
     }
 

@@ -2,7 +2,7 @@
 //!
 //! In: frames. Out: as much as the terminal takes at the moment. Never here: waiting.
 
-use std::io::{Error, ErrorKind, Result};
+use std::io::{Error, ErrorKind, Result, Write};
 
 /// Bytes not yet sent.
 #[derive(Debug, Default)]
@@ -15,11 +15,6 @@ impl Queue {
     /// Whether something is still to be sent; then no frame should be drawn.
     pub(super) fn is_busy(&self) -> bool {
         self.sent < self.bytes.len()
-    }
-
-    /// Puts bytes at the end.
-    pub(super) fn push(&mut self, bytes: &[u8]) {
-        self.bytes.extend(bytes);
     }
 
     /// Drops all that is not sent.
@@ -46,6 +41,18 @@ impl Queue {
             }
         }
         self.clear();
+        Ok(())
+    }
+}
+
+/// Bytes are put at the end; crossterm's commands are queued so.
+impl Write for Queue {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+        self.bytes.extend(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<()> {
         Ok(())
     }
 }
@@ -79,11 +86,11 @@ mod tests {
     #[test]
     fn what_is_not_taken_waits_in_order() {
         let mut queue = Queue::default();
-        queue.push(b"frame one");
+        queue.write_all(b"frame one").expect("memory");
         let busy = [Ok(3), Err(ErrorKind::Interrupted), Ok(2), Err(ErrorKind::WouldBlock)];
         assert_eq!(sent(&mut queue, &busy), (b"frame".to_vec(), true));
         assert!(queue.is_busy());
-        queue.push(b", frame two");
+        queue.write_all(b", frame two").expect("memory");
         assert_eq!(sent(&mut queue, &[Ok(99)]), (b" one, frame two".to_vec(), true));
         assert!(!queue.is_busy());
     }
@@ -92,7 +99,7 @@ mod tests {
     fn an_error_empties_it() {
         for answer in [Err(ErrorKind::Other), Ok(0)] {
             let mut queue = Queue::default();
-            queue.push(b"frame");
+            queue.write_all(b"frame").expect("memory");
             assert_eq!(sent(&mut queue, &[Ok(2), answer]), (b"fr".to_vec(), false));
             assert!(!queue.is_busy());
         }
@@ -100,17 +107,18 @@ mod tests {
 
     #[test]
     fn the_frame_after_a_failed_write_paints_every_cell() {
-        let (mut queue, mut frames) = (Queue::default(), Frames::new(true));
+        let (mut queue, mut frames) = (Queue::default(), Frames::new(true).expect("memory"));
         let mut terminal = vt100::Parser::new(4, 20, 0);
         let mut paint = |text: &str, queue: &mut Queue, answers: &[_], forget: bool| {
             if forget {
                 frames.forget();
             }
-            queue.push(&frames.next(Size::new(20, 4), |area, buffer| {
+            let frame = frames.next(Size::new(20, 4), |area, buffer| {
                 for y in area.rows() {
                     buffer.set_string(0, y.y, text, Style::new());
                 }
-            }));
+            });
+            queue.write_all(&frame.expect("bytes")).expect("memory");
             let (shown, whole) = sent(queue, answers);
             terminal.process(&shown);
             (whole, terminal.screen().contents())

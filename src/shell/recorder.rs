@@ -34,7 +34,7 @@ impl Recorder {
     ) -> io::Result<Self> {
         let file = Fresh::begin(stem, "cast")?;
         let cast = Cast::begin(file, Version::Three, (size.width, size.height), title, palette)?;
-        Ok(Self { cast, frames: Frames::new(false), began: Instant::now(), size })
+        Ok(Self { cast, frames: Frames::new(false)?, began: Instant::now(), size })
     }
 
     /// Takes a screen down.
@@ -49,7 +49,7 @@ impl Recorder {
         let bytes = self.frames.next(size, |_, buffer| {
             buffer.clone_from(screen);
             plain(buffer);
-        });
+        })?;
         if bytes.is_empty() {
             return Ok(());
         }

@@ -720,7 +720,13 @@ mod tests {
             let loaded = Loaded { name, epoch: 1, document, model, equations, system };
             app.update(Event::Loaded(Ok(loaded)));
             let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
-            Self { app, experiment, look, screen: Frames::new(true), size: Size { width, height } }
+            Self {
+                app,
+                experiment,
+                look,
+                screen: Frames::new(true).expect("memory"),
+                size: Size { width, height },
+            }
         }
 
         /// The bytes of a frame at that time of the clock, in seconds.
@@ -732,7 +738,7 @@ mod tests {
             let draw = |area, buffer: &mut Buffer| {
                 view::draw(&self.app, &look, area, buffer);
             };
-            self.screen.next_within(self.size, most, draw).len()
+            self.screen.next_within(self.size, most, draw).expect("bytes").len()
         }
     }
 

@@ -6,7 +6,7 @@
 //! There is no writing thread: the terminal is written to without blocking, and while it has not taken the last frame
 //! none is drawn. So a stalled terminal costs pictures, never a key.
 
-use std::io;
+use std::io::{self, Write};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -110,7 +110,7 @@ pub fn perform(page: &mut impl Page, pace: Pace) -> Result<Ending, Refusal> {
         terminal: &guard.0,
         signals,
         events: Decoder::default(),
-        screen: Frames::new(pace.synchronized),
+        screen: Frames::new(pace.synchronized)?,
         queue: Queue::default(),
         size: None,
         governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
@@ -180,7 +180,7 @@ impl<E: EventSource> Stage<'_, E> {
             if due <= Instant::now() && !self.queue.is_busy() {
                 let now = Instant::now();
                 changed |= self.resize(page) | page.advance(now - last) | !self.screen.is_current();
-                let bytes = if changed { self.frame(page) } else { 0 };
+                let bytes = if changed { self.frame(page)? } else { 0 };
                 changed = self.count(bytes, page);
                 (last, due) = (now, self.governor.due());
             }
@@ -199,7 +199,7 @@ impl<E: EventSource> Stage<'_, E> {
     /// Sets the terminal up, and knows nothing of what it shows.
     fn enter(&mut self) -> io::Result<()> {
         self.queue.clear();
-        self.queue.push(&self.terminal.enter()?);
+        self.terminal.enter(&mut self.queue)?;
         self.events.expect(Mode::Focus, true);
         self.governor.watched = true;
         self.screen.forget();
@@ -207,9 +207,10 @@ impl<E: EventSource> Stage<'_, E> {
     }
 
     /// Switches a mode, and knows what may then come in.
-    fn switch(&mut self, mode: Mode, on: bool) {
-        self.queue.push(self.terminal.switch(mode, on));
+    fn switch(&mut self, mode: Mode, on: bool) -> io::Result<()> {
+        self.terminal.switch(mode, on, &mut self.queue)?;
         self.events.expect(mode, on);
+        Ok(())
     }
 
     /// Whether an event is for the page: what lies beyond the window is not. Who types or clicks looks here, even
@@ -246,15 +247,15 @@ impl<E: EventSource> Stage<'_, E> {
     }
 
     /// Draws, and puts what has changed in the queue; how many bytes that are.
-    fn frame(&mut self, page: &mut impl Page) -> usize {
+    fn frame(&mut self, page: &mut impl Page) -> io::Result<usize> {
         let size = self.size.unwrap_or_default();
-        self.switch(Mode::Paste, page.is_typing());
-        self.switch(Mode::Mouse, self.mouse);
+        self.switch(Mode::Paste, page.is_typing())?;
+        self.switch(Mode::Mouse, self.mouse)?;
         let draw = |area, buffer: &mut Buffer| page.draw(area, buffer);
-        let frame = self.screen.next_with(size, self.governor.most(), draw);
-        self.queue.push(&frame);
-        self.switch(Mode::HiddenCursor, self.screen.cursor().is_none());
-        frame.len()
+        let frame = self.screen.next_with(size, self.governor.most(), draw)?;
+        self.queue.write_all(&frame)?;
+        self.switch(Mode::HiddenCursor, self.screen.cursor().is_none())?;
+        Ok(frame.len())
     }
 
     /// Has the bytes of a frame count, and says whether the next must be drawn because it is richer or poorer.

@@ -1,24 +1,31 @@
 //! The terminal and its one guard: every mode that is set goes through here, and one call undoes them all.
 //!
-//! In: what to set, bytes to show. Out: bytes typed, the window's size. Several threads hold it: the frame loop, the
+//! In: what to set, bytes to show. Out: crossterm's commands for the modes, bytes typed, the window's size. Several threads hold it: the frame loop, the
 //! signal thread and the panic hook, any of which may have to [`Terminal::leave`]; after that no byte is sent.
 //! Never here: what the bytes mean, or a question put to the terminal.
 
-use std::env;
 use std::ffi::OsStr;
-use std::io;
+use std::io::{self, Write};
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
+use std::{env, fmt};
 
+use crossterm::cursor::{Hide, Show};
+use crossterm::event::{
+    DisableBracketedPaste, DisableFocusChange, EnableBracketedPaste, EnableFocusChange,
+};
+use crossterm::style::{Attribute, SetAttribute};
+use crossterm::terminal::{
+    EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
+    enable_raw_mode, window_size,
+};
+use crossterm::{Command, queue};
 use ratatui::layout::Size;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode as FileMode, OFlags, open};
-use rustix::termios::{
-    OptionalActions, QueueSelector, Termios, isatty, tcflush, tcgetattr, tcgetwinsize, tcsetattr,
-    ttyname,
-};
+use rustix::termios::{QueueSelector, isatty, tcflush, ttyname};
 
 /// How long a terminal may take to accept what restores it, before its unsent output is thrown away.
 const PATIENCE: Duration = Duration::from_millis(60);
@@ -72,17 +79,35 @@ pub(super) enum Mode {
 }
 
 impl Mode {
-    /// What switches it on, and off.
-    fn sequences(self) -> [&'static [u8]; 2] {
-        match self {
-            Self::AlternateScreen => [b"\x1b[?1049h", b"\x1b[?1049l"],
-            Self::HiddenCursor => [b"\x1b[?25l", b"\x1b[?25h"],
-            Self::Paste => [b"\x1b[?2004h", b"\x1b[?2004l"],
-            Self::Mouse => {
-                [b"\x1b[?1000h\x1b[?1002h\x1b[?1006h", b"\x1b[?1006l\x1b[?1002l\x1b[?1000l"]
-            }
-            Self::Focus => [b"\x1b[?1004h", b"\x1b[?1004l"],
+    /// Writes what switches it on or off.
+    fn switch(self, on: bool, mut out: impl Write) -> io::Result<()> {
+        match (self, on) {
+            (Self::AlternateScreen, true) => queue!(out, EnterAlternateScreen),
+            (Self::AlternateScreen, false) => queue!(out, LeaveAlternateScreen),
+            (Self::HiddenCursor, true) => queue!(out, Hide),
+            (Self::HiddenCursor, false) => queue!(out, Show),
+            (Self::Paste, true) => queue!(out, EnableBracketedPaste),
+            (Self::Paste, false) => queue!(out, DisableBracketedPaste),
+            (Self::Mouse, on) => queue!(out, ReportMouse(on)),
+            (Self::Focus, true) => queue!(out, EnableFocusChange),
+            (Self::Focus, false) => queue!(out, DisableFocusChange),
         }
+    }
+}
+
+/// Has buttons, drags and the wheel reported, or not any more. crossterm's `EnableMouseCapture` has every motion
+/// reported besides (mode 1003, crossterm-rs/crossterm#640): a line would carry some ten bytes, and the program wake,
+/// for each place that the mouse passes.
+struct ReportMouse(bool);
+
+impl Command for ReportMouse {
+    fn write_ansi(&self, f: &mut impl fmt::Write) -> fmt::Result {
+        let ReportMouse(on) = *self;
+        f.write_str(if on {
+            "\x1b[?1000h\x1b[?1002h\x1b[?1006h"
+        } else {
+            "\x1b[?1006l\x1b[?1002l\x1b[?1000l"
+        })
     }
 }
 
@@ -101,14 +126,8 @@ pub(super) struct Terminal {
     input: BorrowedFd<'static>,
     /// Opened anew, so that it does not block and the setting is not shared with the shell that started us.
     output: OwnedFd,
-    held: Mutex<Option<Held>>,
-}
-
-/// What has to be undone.
-#[derive(Debug)]
-struct Held {
-    cooked: Termios,
-    modes: Vec<Mode>,
+    /// What has to be undone, raw mode beside; `None` where nothing has.
+    held: Mutex<Option<Vec<Mode>>>,
 }
 
 impl Terminal {
@@ -124,54 +143,49 @@ impl Terminal {
         Ok(Self { input, output, held: Mutex::new(None) })
     }
 
-    /// Makes the terminal raw; the bytes that set the modes are for the caller to send. Entering again sets everything
-    /// anew, for after a stop or a failure nobody knows how the terminal was left.
-    pub(super) fn enter(&self) -> io::Result<Vec<u8>> {
+    /// Makes the terminal raw, and writes what sets its modes. Entering again sets everything anew, for after a stop or a
+    /// failure nobody knows how the terminal was left.
+    pub(super) fn enter(&self, mut out: impl Write) -> io::Result<()> {
         let mut held = self.lock();
-        let now = match held.take() {
-            Some(held) => held,
-            None => Held {
-                cooked: tcgetattr(self.input)?,
-                modes: vec![Mode::AlternateScreen, Mode::HiddenCursor, Mode::Focus],
-            },
-        };
-        let mut raw = now.cooked.clone();
-        raw.make_raw();
-        let sequences = now.modes.iter().flat_map(|mode| mode.sequences()[0]).copied().collect();
-        *held = Some(now);
-        tcsetattr(self.input, OptionalActions::Now, &raw)?;
-        Ok(sequences)
+        let first = || vec![Mode::AlternateScreen, Mode::HiddenCursor, Mode::Focus];
+        let modes = held.get_or_insert_with(first);
+        // what crossterm takes for raw may have been made otherwise since by a shell
+        disable_raw_mode()?;
+        enable_raw_mode()?;
+        modes.iter().try_for_each(|mode| mode.switch(true, &mut out))
     }
 
-    /// Switches a mode; the bytes are for the caller to send.
-    pub(super) fn switch(&self, mode: Mode, on: bool) -> &'static [u8] {
+    /// Switches a mode, and writes what does that.
+    pub(super) fn switch(&self, mode: Mode, on: bool, out: impl Write) -> io::Result<()> {
         let mut held = self.lock();
-        let Some(held) = held.as_mut().filter(|held| held.modes.contains(&mode) != on) else {
-            return b"";
+        let Some(modes) = held.as_mut().filter(|modes| modes.contains(&mode) != on) else {
+            return Ok(());
         };
-        held.modes.retain(|&other| other != mode);
-        let [switch_on, switch_off] = mode.sequences();
+        modes.retain(|&other| other != mode);
         if on {
-            held.modes.push(mode);
-            return switch_on;
+            modes.push(mode);
         }
-        switch_off
+        mode.switch(on, out)
     }
 
     /// Undoes all that was done. May be called by any thread, at any time, more than once. Typed input that nobody has
     /// read is dropped, so that the rest of a paste does not become commands of the shell.
     pub(super) fn leave(&self) {
         let held = self.lock_soon().and_then(|mut held| held.take());
-        let Some(Held { cooked, modes }) = held else { return };
-        let mut bytes = b"\x1b[?2026l\x1b[0m".to_vec();
-        bytes.extend(modes.iter().rev().flat_map(|mode| mode.sequences()[1]));
+        let Some(modes) = held else { return };
+        let mut bytes = Vec::new();
+        // memory takes what is written
+        let _ = queue!(bytes, EndSynchronizedUpdate, SetAttribute(Attribute::Reset));
+        for mode in modes.iter().rev() {
+            let _ = mode.switch(false, &mut bytes);
+        }
         if !self.write_within(&mut bytes, PATIENCE) {
             // A stalled terminal: what it has not taken so far was a frame that no longer matters.
             let _ = tcflush(&self.output, QueueSelector::OFlush);
             self.write_within(&mut bytes, PATIENCE);
         }
         let _ = tcflush(self.input, QueueSelector::IFlush);
-        let _ = tcsetattr(self.input, OptionalActions::Now, &cooked);
+        let _ = disable_raw_mode();
     }
 
     /// Whether there is something to undo.
@@ -204,8 +218,8 @@ impl Terminal {
 
     /// Columns and rows.
     pub(super) fn size(&self) -> Size {
-        let (columns, rows) = match tcgetwinsize(&self.output) {
-            Ok(size) if size.ws_col > 0 && size.ws_row > 0 => (size.ws_col, size.ws_row),
+        let (columns, rows) = match window_size() {
+            Ok(size) if size.columns > 0 && size.rows > 0 => (size.columns, size.rows),
             _ => USUAL,
         };
         Size::new(columns.min(LARGEST.0), rows.min(LARGEST.1))
@@ -260,12 +274,12 @@ impl Terminal {
         true
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Held>> {
+    fn lock(&self) -> MutexGuard<'_, Option<Vec<Mode>>> {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The lock, unless its holder is stuck in a write that blocks: then nothing can be restored.
-    fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Held>>> {
+    fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Vec<Mode>>>> {
         let end = Instant::now() + PATIENCE;
         loop {
             match self.held.try_lock() {

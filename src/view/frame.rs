@@ -2,38 +2,37 @@
 //!
 //! In: a function that draws. Out: a frame of bytes, between the marks of synchronized output, or nothing if no cell
 //! has changed. Never here: sending them, or when to draw.
+//!
+//! ratatui's [`Terminal`] holds the pictures and finds what has changed; the [`Encoder`] behind it is its backend.
 
+mod encoder;
 mod pen;
 
-use std::mem;
+use std::io;
 
+use ratatui::Terminal;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
-use pen::Pen;
+use encoder::Encoder;
 
 use crate::printable::is_steering;
-
-/// The marks round a frame, between which a terminal holds back what it shows.
-const SYNCHRONIZED: [&[u8]; 2] = [b"\x1b[?2026h", b"\x1b[?2026l"];
 
 /// The picture on a terminal, and the way to the next one.
 #[derive(Debug)]
 pub struct Frames {
+    terminal: Terminal<Encoder>,
+    /// What was drawn last, while the terminal shows it or is on the way there.
     shown: Option<Buffer>,
-    next: Buffer,
-    pen: Pen,
-    /// The row in which the next frame begins, where the last had not room for all.
-    rest: Option<u16>,
-    synchronized: bool,
-    cursor: Option<Position>,
 }
 
 impl Frames {
     /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
-    pub fn new(synchronized: bool) -> Self {
-        let (next, pen) = (Buffer::default(), Pen::default());
-        Self { shown: None, next, pen, rest: None, synchronized, cursor: None }
+    ///
+    /// # Errors
+    /// None that the memory of the bytes does not have.
+    pub fn new(synchronized: bool) -> io::Result<Self> {
+        Ok(Self { terminal: Terminal::new(Encoder::new(synchronized))?, shown: None })
     }
 
     /// What the terminal shows is no longer known: the next frame paints every cell.
@@ -43,32 +42,42 @@ impl Frames {
 
     /// Whether the terminal shows what was drawn last, as far as is known.
     pub fn is_current(&self) -> bool {
-        self.shown.is_some() && self.rest.is_none()
+        self.shown.is_some() && !self.terminal.backend().owes()
     }
 
-    /// What the terminal shows, where that is known.
+    /// What was drawn last, where the terminal shows it or is on the way there.
     pub fn shown(&self) -> Option<&Buffer> {
         self.shown.as_ref()
     }
 
     /// Where the terminal's cursor was left, if it is to be seen there.
     pub fn cursor(&self) -> Option<Position> {
-        self.cursor
+        self.terminal.backend().cursor()
     }
 
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
-    pub fn next(&mut self, size: Size, draw: impl FnOnce(Rect, &mut Buffer)) -> Vec<u8> {
+    ///
+    /// # Errors
+    /// None that the memory of the bytes does not have.
+    pub fn next(
+        &mut self,
+        size: Size,
+        draw: impl FnOnce(Rect, &mut Buffer),
+    ) -> io::Result<Vec<u8>> {
         self.next_within(size, usize::MAX, draw)
     }
 
     /// The same in about so many bytes at most: where there would be more, the frame turns as many cells into what is
     /// drawn as it has room for, and the frame after it goes on from there.
+    ///
+    /// # Errors
+    /// None that the memory of the bytes does not have.
     pub fn next_within(
         &mut self,
         size: Size,
         most: usize,
         draw: impl FnOnce(Rect, &mut Buffer),
-    ) -> Vec<u8> {
+    ) -> io::Result<Vec<u8>> {
         self.next_with(size, most, |area, buffer| {
             draw(area, buffer);
             None
@@ -76,57 +85,35 @@ impl Frames {
     }
 
     /// The same, with the terminal's cursor left where `draw` says that it belongs.
+    ///
+    /// # Errors
+    /// None that the memory of the bytes does not have.
     pub fn next_with(
         &mut self,
         size: Size,
         most: usize,
         draw: impl FnOnce(Rect, &mut Buffer) -> Option<Position>,
-    ) -> Vec<u8> {
-        let area = Rect::new(0, 0, size.width, size.height);
-        self.next.resize(area);
-        self.next.reset();
-        let cursor = draw(area, &mut self.next).filter(|at| area.contains(*at));
-        // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
-        for cell in &mut self.next.content {
-            if cell.symbol().chars().any(is_steering) {
-                cell.set_symbol(" ");
+    ) -> io::Result<Vec<u8>> {
+        self.terminal.backend_mut().begin(size, most);
+        if self.shown.is_none() {
+            // not `clear`, which asks for the cursor's place
+            self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
+        }
+        let drawn = self.terminal.draw(|frame| {
+            let area = frame.area();
+            let cursor = draw(area, frame.buffer_mut());
+            // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
+            for cell in &mut frame.buffer_mut().content {
+                if cell.symbol().chars().any(is_steering) {
+                    cell.set_symbol(" ");
+                }
             }
-        }
-
-        let mut out = Vec::new();
-        if self.synchronized {
-            out.extend(SYNCHRONIZED[0]);
-        }
-        let empty = out.len();
-        let shown = self.shown.take().filter(|shown| shown.area == area).unwrap_or_else(|| {
-            self.pen.clear(&mut out);
-            Buffer::empty(area)
-        });
-        let changed: Vec<_> = shown.diff_iter(&self.next).map(|(x, y, _)| (x, y)).collect();
-        let start = changed.partition_point(|(_, y)| Some(*y) < self.rest);
-        self.rest = None;
-        for at in changed[start..].iter().chain(&changed[..start]).copied() {
-            if self.rest.is_none() && out.len() >= most {
-                self.rest = Some(at.1);
+            if let Some(at) = cursor.filter(|at| area.contains(*at)) {
+                frame.set_cursor_position(at);
             }
-            if self.rest.is_none() {
-                self.pen.put(&mut out, at, &self.next[at], area.width);
-            } else {
-                self.next[at] = shown[at].clone();
-            }
-        }
-        self.shown = Some(mem::replace(&mut self.next, shown));
-        if let Some(at) = cursor {
-            self.pen.rest(&mut out, (at.x, at.y));
-        }
-        self.cursor = cursor;
-        if out.len() == empty {
-            return Vec::new();
-        }
-        if self.synchronized {
-            out.extend(SYNCHRONIZED[1]);
-        }
-        out
+        })?;
+        self.shown.get_or_insert_default().clone_from(drawn.buffer);
+        Ok(self.terminal.backend_mut().take())
     }
 }
 
@@ -213,7 +200,7 @@ mod tests {
         ) {
             let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
             terminal.process("left by somebody else\r\n\x1b[7mso".as_bytes());
-            let mut screen = Frames::new(true);
+            let mut screen = Frames::new(true).expect("memory");
             for (cells, forget) in pictures {
                 if forget {
                     terminal.process(b"\x1b[41mthe terminal was resized");
@@ -221,10 +208,10 @@ mod tests {
                 }
                 let mut drawn = Buffer::empty(Rect::from(SIZE));
                 paint(&cells, drawn.area, &mut drawn);
-                let bytes = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer));
+                let bytes = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer)).expect("bytes");
                 terminal.process(&bytes);
                 check(terminal.screen(), &drawn);
-                let again = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer));
+                let again = screen.next(SIZE, |area, buffer| paint(&cells, area, buffer)).expect("bytes");
                 prop_assert_eq!(again, Vec::<u8>::new());
             }
         }
@@ -236,14 +223,14 @@ mod tests {
             pictures in prop::collection::vec((cells(), 1..60_usize), 1..6),
         ) {
             let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
-            let mut screen = Frames::new(false);
+            let mut screen = Frames::new(false).expect("memory");
             for (cells, most) in pictures {
                 let mut drawn = Buffer::empty(Rect::from(SIZE));
                 paint(&cells, drawn.area, &mut drawn);
                 // A picture has 60 cells, and each frame brings at least one of them.
                 for _ in 0..=60 {
                     let paint = |area, buffer: &mut Buffer| paint(&cells, area, buffer);
-                    let bytes = screen.next_within(SIZE, most, paint);
+                    let bytes = screen.next_within(SIZE, most, paint).expect("bytes");
                     // The clearing before and one cell with its way and its colours.
                     prop_assert!(bytes.len() <= most + 64, "{} bytes for {most}", bytes.len());
                     terminal.process(&bytes);
@@ -259,7 +246,7 @@ mod tests {
 
     #[test]
     fn the_cursor_is_left_where_it_belongs() {
-        let mut screen = Frames::new(true);
+        let mut screen = Frames::new(true).expect("memory");
         let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
         for (text, cursor) in
             [("a", (3, 2)), ("ab", (3, 2)), ("ab", (4, 2)), ("ab", (4, 2)), ("", (0, 0))]
@@ -268,24 +255,26 @@ mod tests {
                 buffer.set_string(area.x, 1, text, Style::new());
                 Some(Position::from(cursor))
             });
+            let bytes = bytes.expect("bytes");
             terminal.process(&bytes);
             assert_eq!(terminal.screen().cursor_position(), (cursor.1, cursor.0), "{text}");
             assert_eq!(screen.cursor(), Some(Position::from(cursor)));
         }
         let again = screen.next_with(SIZE, usize::MAX, |_, _| Some(Position::new(0, 0)));
+        let again = again.expect("bytes");
         assert!(again.is_empty(), "nothing is sent where nothing changes: {again:?}");
         let outside = screen.next_with(SIZE, usize::MAX, |_, _| Some(Position::new(SIZE.width, 0)));
-        assert!(outside.is_empty() && screen.cursor().is_none());
+        assert!(outside.expect("bytes").is_empty() && screen.cursor().is_none());
     }
 
     #[test]
     fn a_frame_is_marked_and_small() {
-        let mut screen = Frames::new(true);
+        let mut screen = Frames::new(true).expect("memory");
         let mut frame = |text: &str, style: Style| {
             let bytes = screen.next(SIZE, |area, buffer| {
                 buffer.set_string(area.x, 1, text, style);
             });
-            String::from_utf8(bytes).expect("text")
+            String::from_utf8(bytes.expect("bytes")).expect("text")
         };
         let plain = Style::new();
         assert_eq!(frame("12:30", plain), "\x1b[?2026h\x1b[0m\x1b[2J\x1b[2H12:30\x1b[?2026l");
@@ -295,11 +284,13 @@ mod tests {
 
     #[test]
     fn no_size_is_too_strange() {
-        let mut screen = Frames::new(false);
+        let mut screen = Frames::new(false).expect("memory");
         for (width, height) in [(0, 0), (1, 1), (500, 500), (0, 9), (9, 0), (80, 24)] {
-            screen.next(Size { width, height }, |area, buffer| {
+            let bytes = screen.next(Size { width, height }, |area, buffer| {
                 assert_eq!(buffer.area, area);
             });
+            let bytes = bytes.expect("bytes");
+            assert!(width == 0 || height == 0 || !bytes.is_empty());
         }
     }
 }

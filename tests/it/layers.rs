@@ -57,10 +57,29 @@ const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
     ("files", &["std::fs", "fs::", "File::"], &["file", "preset", "shell", "cli"]),
     (
         "the terminal",
-        &["rustix::", "crossterm", "signal_hook::", "stdin(", "stdout(", "stderr(", "IsTerminal"],
+        &["rustix::", "signal_hook::", "stdin(", "stdout(", "stderr(", "IsTerminal"],
         &["file", "shell", "cli"],
     ),
 ];
+
+/// The rooms that speak of keys and the mouse in crossterm's words.
+const SPEAK_OF_KEYS: [&str; 4] = ["app", "view", "record", "shell"];
+
+/// Those words; everything else of crossterm does something with a terminal.
+const OF_KEYS: [&str; 9] = [
+    "Event",
+    "KeyCode",
+    "KeyEvent",
+    "KeyEventKind",
+    "KeyEventState",
+    "KeyModifiers",
+    "MouseButton",
+    "MouseEvent",
+    "MouseEventKind",
+];
+
+/// The files that write crossterm's commands into memory, and never further.
+const WRITE_FRAMES: [&str; 2] = ["view/frame/encoder.rs", "view/frame/pen.rs"];
 
 /// A source file and the room it stands in.
 struct File {
@@ -203,6 +222,63 @@ fn the_world_outside_stays_where_it_is_let_in() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What code says of crossterm beyond the words for keys and the mouse.
+fn beyond_keys(code: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices("crossterm::") {
+        let own = code[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && c != ':');
+        if !own {
+            // tui-input's handler of events, for one
+            continue;
+        }
+        let rest = &code[at + "crossterm::".len()..];
+        let Some(items) = rest.strip_prefix("event::") else {
+            found.extend(word(rest).or(Some("{".to_owned())));
+            continue;
+        };
+        let named = match items.strip_prefix('{') {
+            Some(list) => heads(list),
+            None => word(items).into_iter().collect(),
+        };
+        found.extend(named.into_iter().filter(|name| !OF_KEYS.contains(&name.as_str())));
+    }
+    if code.contains("CrosstermBackend") {
+        found.push("CrosstermBackend".to_owned());
+    }
+    found
+}
+
+#[test]
+fn crossterm_is_a_vocabulary_outside_the_shell() {
+    let mut wrong = Vec::new();
+    for file in files().iter().filter(|file| file.room != "shell") {
+        let path = file.path.to_string_lossy().replace('\\', "/");
+        let beyond = beyond_keys(&file.code);
+        if WRITE_FRAMES.iter().any(|own| path.ends_with(own)) {
+            let outward = ["execute!", "raw_mode", "read(", "poll("];
+            wrong.extend(
+                outward
+                    .iter()
+                    .filter(|w| file.code.contains(**w))
+                    .map(|w| (path.clone(), (*w).to_owned())),
+            );
+        } else {
+            wrong.extend(beyond.into_iter().map(|word| (path.clone(), word)));
+        }
+        if file.code.contains("crossterm::") && !SPEAK_OF_KEYS.contains(&file.room.as_str()) {
+            wrong.push((path, "crossterm".to_owned()));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let seen = |code: &str| beyond_keys(code);
+    assert!(
+        seen("use crossterm::event::{Event, KeyCode};\nlet x = backend::crossterm::Y;").is_empty()
+    );
+    assert_eq!(seen("use crossterm::event::{Event, read, poll};"), ["read", "poll"]);
+    assert_eq!(seen("crossterm::terminal::enable_raw_mode()"), ["terminal"]);
+    assert_eq!(seen("use crossterm::{event, execute};"), ["{"]);
 }
 
 #[test]

@@ -6,6 +6,11 @@
 //! ratatui's own writer is passed over: with `NO_COLOR` its colours become a bare `CSI m`, which also ends bold and
 //! reverse; and it spends more bytes on placing the cursor and on colours, which a slow line feels.
 
+use std::io;
+
+use crossterm::queue;
+use crossterm::style::{Attribute, SetAttribute};
+use crossterm::terminal::{Clear, ClearType};
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
@@ -36,10 +41,10 @@ struct Ink {
 
 impl Pen {
     /// Clears the whole screen, whatever was there and however the pen was left.
-    pub(super) fn clear(&mut self, out: &mut Vec<u8>) {
-        out.extend(b"\x1b[0m\x1b[2J");
+    pub(super) fn clear(&mut self, out: &mut Vec<u8>) -> io::Result<()> {
         self.at = None;
         self.ink = Some(Ink { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
+        queue!(out, SetAttribute(Attribute::Reset), Clear(ClearType::All))
     }
 
     /// Writes a cell of a screen so many columns wide.
@@ -53,6 +58,11 @@ impl Pen {
         let plain = symbol.chars().count() == 1 && symbol.width() == 1;
         let known = plain && x + 1 < width;
         self.at = known.then_some((x + 1, y));
+    }
+
+    /// Whether the cursor stands at a cell.
+    pub(super) fn is_at(&self, place: (u16, u16)) -> bool {
+        self.at == Some(place)
     }
 
     /// Leaves the cursor at a cell.
