@@ -4,8 +4,10 @@
 //! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Page`] that takes inputs and
 //! can be drawn.
 //!
-//! It is at home on Unix terminals, and speaks to them itself: crossterm's reader panics on a malformed mouse report,
-//! spins once the terminal is gone and takes a cut arrow key for Esc; its writer blocks, and asks `NO_COLOR` by itself.
+//! It is at home on Unix terminals. Their vocabulary and their encoding are crossterm's: events, commands for the modes,
+//! raw mode, the window's size. Two things are its own: `decoder` reads, for reasons its head lists one by one; and
+//! commands are queued into a buffer that the terminal empties as it can (`queue`), so that a stalled one holds nobody
+//! up. Whether there are colours the theme decides (`NO_COLOR` leaves it none), so crossterm is not asked to.
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 

@@ -173,4 +173,30 @@ mod tests {
         assert!(field.paste("0.5") && field.paste("1"));
         assert_eq!(field.input.value(), "0.51");
     }
+
+    #[test]
+    fn a_line_is_edited_as_lines_are() {
+        let typed = |keys: &str| {
+            let mut input = Input::new("2*sin(theta) + 1".to_owned());
+            for name in keys.split(' ') {
+                edit(&mut input, super::super::key::named(name).expect("a key"));
+            }
+            input.value().to_owned()
+        };
+        assert_eq!(typed("Ctrl-u Ctrl-y x"), "2*sin(theta) + 1x");
+        assert_eq!(typed("Home Right Ctrl-k"), "2");
+        assert_eq!(typed("Ctrl-w Ctrl-Backspace"), "2*sin(");
+        assert_eq!(typed("Alt-Backspace Ctrl-h"), "2*sin(theta) +");
+        assert_eq!(typed("Shift-Left Θ Ctrl-a Shift-z"), "Z2*sin(theta) + Θ1");
+        assert_eq!(typed("Ctrl-Alt-x Alt-x Ctrl-x Tab F1"), "2*sin(theta) + 1");
+    }
+
+    #[test]
+    fn a_line_has_an_end() {
+        let mut input = Input::new("x".repeat(MOST));
+        for name in ["x", "Ctrl-u", "Ctrl-y", "Ctrl-y"] {
+            edit(&mut input, super::super::key::named(name).expect("a key"));
+        }
+        assert_eq!(input.value().len(), MOST);
+    }
 }

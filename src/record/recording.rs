@@ -98,7 +98,7 @@ pub fn play(
     let performance = Performance::new(script.clone(), document, called, area, Budget::RECORDED);
     let mut take = Take {
         performance: performance.map_err(alone)?,
-        screen: Frames::new(false).map_err(unwritten).map_err(alone)?,
+        screen: Frames::new(false).map_err(|why| alone(unwritten(&why)))?,
         look: script.head.look(),
         area,
         events: Vec::new(),
@@ -129,7 +129,7 @@ pub fn play(
 }
 
 /// A frame that could not be written down.
-fn unwritten(why: io::Error) -> Mistake {
+fn unwritten(why: &io::Error) -> Mistake {
     Mistake::error(0..0, format!("a frame cannot be written: {why}"))
 }
 
@@ -162,7 +162,7 @@ impl Take {
         let beat = self.performance.beat()?;
         let now = self.performance.now();
         match beat {
-            Beat::Frame => self.draw(now).map_err(unwritten)?,
+            Beat::Frame => self.draw(now).map_err(|why| unwritten(&why))?,
             Beat::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
             Beat::Claim(place, claim) => {
                 let screen = rows(&self.performance.picture(&self.look));

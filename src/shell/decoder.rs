@@ -1,10 +1,23 @@
-//! Input: the bytes a terminal sends, as keys, pasted text and reports of the mouse.
+//! The decoder: the bytes a terminal sends, as crossterm's events.
 //!
 //! In: bytes, in pieces of any size, and the news that no more came for a while; which reports were asked for.
-//! Out: [`Input`]s.
-//! Never here: reading them, or what a key does. No byte string makes it panic or get stuck.
+//! Out: [`Event`]s. Never here: what a key does. No byte string makes it panic or get stuck.
 //!
 //! The sequences are taken apart by `vte`, which alacritty's terminal lives on; what a lone Esc is, time tells.
+//!
+//! It stands where crossterm's own reader would, because of what that does in version 0.29. Each row was seen on a
+//! pseudo-terminal, and has its thread upstream (crossterm-rs/crossterm) and the test that holds it here. When all
+//! are mended upstream this file goes: `event::poll` and `event::read` fit behind [`EventSource`].
+//!
+//! | crossterm's reader | thread | test |
+//! |---|---|---|
+//! | A paste whose end never comes swallows all further keys, without a limit of bytes or time, and `poll` does not return. | #1060 | `a_paste_without_an_end_is_taken_when_it_rests`, `pastes_are_one_event_and_bounded` |
+//! | So do `CSI <`, `CSI M` and `CSI ?` without an end … | #1104 | `a_sequence_without_an_end_swallows_no_key_for_long` |
+//! | … and an answer `CSI ? … y` that has one. | #1104, #1106 | `an_answer_that_is_not_understood_swallows_no_key` |
+//! | An arrow key cut after its first byte, as a slow line cuts it, is Esc and two letters. | #993 | `a_cut_arrow_key_is_no_esc` |
+//! | A report of the mouse from column or row 0 panics, or wraps to 65535 in a release. | #835, #590, #1049 | `a_report_from_row_or_column_zero_is_none` |
+//! | An answer nobody asked for (OSC, DCS, `CSI >`) is typed, letter by letter. | #834 | `what_nobody_asked_for_is_no_key` |
+//! | Once the terminal is gone `poll` spins and never returns. | #793, #1067, #1116 | `a_dead_line_ends_it_soon_and_without_a_loop` |
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};

@@ -2,8 +2,8 @@
 //!
 //! In: a terminal at which something was typed. Out: crossterm's [`Event`]s, without waiting for any. Never here: bytes.
 //!
-//! crossterm's own reader would fit behind it: `read` by `event::poll` and `event::read`, and nothing to wait for. Why
-//! it is not the one behind it, the head of [`super::decoder`] says fact by fact.
+//! The reader behind it is [`super::decoder`]. crossterm's own would fit as well: `event::poll` and `event::read` for
+//! `read`, and no deadline.
 
 use std::io;
 use std::time::Instant;

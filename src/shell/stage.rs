@@ -238,7 +238,7 @@ impl<E: EventSource> Stage<'_, E> {
 
     /// Tells the page of a new size. It is asked for every time, which many resizes at once cannot outrun.
     fn resize(&mut self, page: &mut impl Page) -> bool {
-        let size = self.terminal.size();
+        let size = Terminal::size();
         let changed = self.size.replace(size) != Some(size);
         if changed {
             page.input(Event::Resize(size.width, size.height));

@@ -1,7 +1,8 @@
 //! The terminal and its one guard: every mode that is set goes through here, and one call undoes them all.
 //!
-//! In: what to set, bytes to show. Out: crossterm's commands for the modes, bytes typed, the window's size. Several threads hold it: the frame loop, the
-//! signal thread and the panic hook, any of which may have to [`Terminal::leave`]; after that no byte is sent.
+//! In: what to set, bytes to show. Out: crossterm's commands for the modes, bytes typed, the window's size. Several
+//! threads hold it: the frame loop, the signal thread and the panic hook, any of which may have to [`Terminal::leave`];
+//! after that no byte is sent. (`ratatui::restore` would leave pastes, the mouse and focus as they were set.)
 //! Never here: what the bytes mean, or a question put to the terminal.
 
 use std::ffi::OsStr;
@@ -217,7 +218,7 @@ impl Terminal {
     }
 
     /// Columns and rows.
-    pub(super) fn size(&self) -> Size {
+    pub(super) fn size() -> Size {
         let (columns, rows) = match window_size() {
             Ok(size) if size.columns > 0 && size.rows > 0 => (size.columns, size.rows),
             _ => USUAL,
