@@ -11,8 +11,8 @@
 //!
 //! | crossterm's reader | thread | test |
 //! |---|---|---|
-//! | A paste whose end never comes swallows all further keys, without a limit of bytes or time, and `poll` does not return. | #1060 | `a_paste_without_an_end_is_taken_when_it_rests`, `pastes_are_one_event_and_bounded` |
-//! | So do `CSI <`, `CSI M` and `CSI ?` without an end … | #1104 | `a_sequence_without_an_end_swallows_no_key_for_long` |
+//! | A paste whose end never comes swallows all further keys, without a limit of bytes or time, and `poll` does not return. | #1060 | `a_paste_without_an_end_is_taken_when_it_rests`, `pastes_are_one_event_and_bounded`, `a_paste_that_never_ends_does_not_keep_it` |
+//! | So do `CSI <`, `CSI M` and `CSI ?` without an end … | #1104 | `a_sequence_without_an_end_swallows_no_key_for_long`, `a_report_that_never_ends_does_not_keep_it` |
 //! | … and an answer `CSI ? … y` that has one. | #1104, #1106 | `an_answer_that_is_not_understood_swallows_no_key` |
 //! | An arrow key cut after its first byte, as a slow line cuts it, is Esc and two letters. | #993 | `a_cut_arrow_key_is_no_esc` |
 //! | A report of the mouse from column or row 0 panics, or wraps to 65535 in a release. | #835, #590, #1049 | `a_report_from_row_or_column_zero_is_none` |

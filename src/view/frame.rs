@@ -3,7 +3,7 @@
 //! In: a function that draws. Out: a frame of bytes, between the marks of synchronized output, or nothing if no cell
 //! has changed. Never here: sending them, or when to draw.
 //!
-//! ratatui's [`Terminal`] holds the pictures and finds what has changed; the [`Encoder`] behind it is its backend.
+//! ratatui's [`Terminal`] holds the pictures and finds what has changed; the encoder behind it is its backend.
 
 mod encoder;
 mod pen;
@@ -30,7 +30,7 @@ impl Frames {
     /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
     ///
     /// # Errors
-    /// None that the memory of the bytes does not have.
+    /// Those of the encoder, which has none: it writes into memory.
     pub fn new(synchronized: bool) -> io::Result<Self> {
         Ok(Self { terminal: Terminal::new(Encoder::new(synchronized))?, shown: None })
     }
@@ -58,7 +58,7 @@ impl Frames {
     /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
     ///
     /// # Errors
-    /// None that the memory of the bytes does not have.
+    /// Those of the encoder, which has none: it writes into memory.
     pub fn next(
         &mut self,
         size: Size,
@@ -71,7 +71,7 @@ impl Frames {
     /// drawn as it has room for, and the frame after it goes on from there.
     ///
     /// # Errors
-    /// None that the memory of the bytes does not have.
+    /// Those of the encoder, which has none: it writes into memory.
     pub fn next_within(
         &mut self,
         size: Size,
@@ -87,7 +87,7 @@ impl Frames {
     /// The same, with the terminal's cursor left where `draw` says that it belongs.
     ///
     /// # Errors
-    /// None that the memory of the bytes does not have.
+    /// Those of the encoder, which has none: it writes into memory.
     pub fn next_with(
         &mut self,
         size: Size,

@@ -367,6 +367,28 @@ fn noise_does_not_keep_it_from_ending() {
 }
 
 #[test]
+fn a_paste_that_never_ends_does_not_keep_it() {
+    let mut page = started();
+    page.press("i");
+    page.until("pastes are bracketed", |page| page.screen().bracketed_paste());
+    page.press("\x1b[200~never");
+    page.shows("text [never]");
+    page.press("\rq");
+    assert_eq!(page.ends().0, 0);
+    page.assert_restored();
+}
+
+#[test]
+fn a_report_that_never_ends_does_not_keep_it() {
+    for report in ["\x1b[<", "\x1b[<0;1", "\x1b[M", "\x1b[?2026;2$"] {
+        let mut page = pointed_at();
+        page.press(report);
+        assert_eq!(page.press_until_it_ends("q"), 0, "{report:?}");
+        page.assert_restored();
+    }
+}
+
+#[test]
 fn without_a_terminal_there_is_a_sentence() {
     let mut page = Setup::page().variable("TERM", "dumb").start();
     assert_eq!(page.ends().0, 2);
