@@ -9,13 +9,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::{App, Event, Loaded};
-use phaselab::experiment::{Experiment, Ready};
+use phaselab::experiment::{Experiment, Prepared};
 use phaselab::preset::Catalog;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
-use phaselab::view::{self, Look};
+use phaselab::view::{self, RenderStyle};
 use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
@@ -28,21 +28,21 @@ const COUNT: u32 = 300;
 struct Motion {
     app: App,
     experiment: Experiment,
-    look: Look,
+    look: RenderStyle,
 }
 
 impl Motion {
     fn of(name: &str, depth: ColourDepth) -> Self {
         let catalog = Catalog::with_folder(None);
         let document = catalog.find(name).expect("a shipped preset");
-        let Ready { document, model, equations, system, mut experiment } =
-            Ready::of(&document).expect("a preset without mistakes");
+        let Prepared { document, model, equations, system, mut experiment } =
+            Prepared::of(&document).expect("a preset without mistakes");
         experiment.set_epoch(1);
         let name = name.to_owned();
         let (mut app, _) = App::new(&catalog, Some(&name));
         let loaded = Loaded { name, epoch: 1, document, model, equations, system };
         app.update(Event::Loaded(Ok(loaded)));
-        let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         Self { app, experiment, look }
     }
 

@@ -1,4 +1,4 @@
-//! A page of one's own in phaselab's shell: a clock that runs until it is told otherwise.
+//! A page of one's own in phaselab's shell: a clock that runs until it is reported otherwise.
 //!
 //! `cargo run --example page`, then: Space holds it, `f` fills the screen with its digits, `i` opens a line of text, `M` has the mouse reported, `z` suspends, `p` panics, `t` panics on
 //! another thread, `q` quits. The tests of the shell run it on a pseudo-terminal.
@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use color_eyre::eyre::Result;
 use crossterm::event::{Event, KeyCode};
-use phaselab::shell::{Ending, Pace, Page, Refusal, Wish, perform, report_panics};
+use phaselab::shell::{Ending, LabError, Pace, Screen, ScreenRequest, perform, report_panics};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -36,15 +36,15 @@ impl Clock {
     }
 }
 
-impl Page for Clock {
-    fn input(&mut self, event: Event) -> Wish {
+impl Screen for Clock {
+    fn input(&mut self, event: Event) -> ScreenRequest {
         self.inputs += 1;
         match event {
             Event::Key(key) if self.typing.is_some() => self.typed(key.code),
             Event::Key(key) => match key.code {
-                KeyCode::Char('q') => return Wish::Quit,
-                KeyCode::Char('z') => return Wish::Suspend,
-                KeyCode::Char('l') => return Wish::Repaint,
+                KeyCode::Char('q') => return ScreenRequest::Quit,
+                KeyCode::Char('z') => return ScreenRequest::Suspend,
+                KeyCode::Char('l') => return ScreenRequest::Repaint,
                 KeyCode::Char(' ') => self.held = !self.held,
                 KeyCode::Char('f') => self.full = !self.full,
                 KeyCode::Char('i') => self.typing = Some(String::new()),
@@ -55,7 +55,7 @@ impl Page for Clock {
                 }
                 KeyCode::Char('M') => {
                     self.mouse = !self.mouse;
-                    return Wish::Mouse(self.mouse);
+                    return ScreenRequest::Mouse(self.mouse);
                 }
                 _ => {}
             },
@@ -66,7 +66,7 @@ impl Page for Clock {
             Event::Resize(columns, rows) => self.size = (columns, rows),
             Event::FocusGained | Event::FocusLost => {}
         }
-        Wish::Nothing
+        ScreenRequest::Nothing
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
@@ -123,7 +123,7 @@ fn main() -> Result<ExitCode> {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),
         Ok(Ending::Signal(number)) => Ok(ExitCode::from(128 + number as u8)),
-        Err(Refusal::NoTerminal(why)) => {
+        Err(LabError::TerminalError(why)) => {
             writeln!(stderr(), "{why}")?;
             Ok(ExitCode::from(2))
         }

@@ -7,7 +7,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
-use super::Target;
+use super::ValueId;
 use crate::expr::Pool;
 use crate::model::{Allowed, Model, Scope};
 
@@ -20,7 +20,7 @@ const CTRL_ALT: KeyModifiers = KeyModifiers::CONTROL.union(KeyModifiers::ALT);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A parameter or an initial value.
-    Value(Target),
+    Value(ValueId),
     /// The step of a method of fixed step.
     Step,
     /// The tolerance of an adaptive method.

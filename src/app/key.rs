@@ -5,7 +5,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyEventState, KeyModifiers};
 
-use crate::expr::nearest;
+use crate::diagnostic::nearest;
 
 /// The names of keys that are not one character. Where a key has several, the first one is shown.
 const NAMES: [(&str, KeyCode); 22] = [

@@ -6,7 +6,7 @@ use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Lab, Over};
+use super::{App, Effect, Lab, Overlay};
 use crate::analysis::Inquiry;
 use crate::expr::{Symbol, SyntaxError};
 use crate::mechanics::body_values;
@@ -35,7 +35,7 @@ impl Prompt {
 impl App {
     pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
         if self.lab.is_some() {
-            self.over = Some(Over::Prompt(Prompt::default()));
+            self.overlay = Some(Overlay::Prompt(Prompt::default()));
         }
         Vec::new()
     }
@@ -52,7 +52,7 @@ impl App {
                 Err(mistake) => (prompt.mistake, prompt.answered) = (Some(mistake), None),
             }
         }
-        self.over = Some(Over::Prompt(prompt));
+        self.overlay = Some(Overlay::Prompt(prompt));
         Vec::new()
     }
 }

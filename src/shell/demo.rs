@@ -1,6 +1,6 @@
 //! The demo: a script performed on the terminal while one watches, from its beginning to its end.
 //!
-//! In: a [`Performance`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this terminal.
+//! In: a [`ScriptRunner`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this terminal.
 //! It ends by itself, so that a program that records terminals can record it. Never here: what a script says.
 
 use std::time::Duration;
@@ -9,10 +9,10 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
-use super::stage::{Page, Wish};
-use crate::preset::Mistake;
-use crate::record::Performance;
-use crate::view::{Detail, Look};
+use super::frame_loop::{Screen, ScreenRequest};
+use crate::diagnostic::Diagnostic;
+use crate::record::ScriptRunner;
+use crate::view::{Detail, RenderStyle};
 
 /// The most that one frame lets pass. Where the terminal or the machine cannot keep up the demo waits for it, so that
 /// nothing is missed.
@@ -20,44 +20,46 @@ const LONGEST: Duration = Duration::from_secs(1);
 
 /// A script being performed on the terminal.
 pub(super) struct Demo {
-    performance: Performance,
-    look: Look,
+    performance: ScriptRunner,
+    look: RenderStyle,
     detail: Detail,
     /// Since its beginning, without what it was held.
     time: Duration,
     held: bool,
     /// Nothing more comes, or it was left; with what is wrong with the script, if that is why.
-    end: Option<Result<(), Mistake>>,
+    end: Option<Result<(), Diagnostic>>,
 }
 
 impl Demo {
     /// At its beginning.
-    pub(super) fn new(performance: Performance, look: Look) -> Self {
+    pub(super) fn new(performance: ScriptRunner, look: RenderStyle) -> Self {
         let (detail, time) = (Detail::default(), Duration::ZERO);
         Self { performance, look, detail, time, held: false, end: None }
     }
 
     /// The last picture of a demo that was not left before; or what is wrong with the script.
-    pub(super) fn outcome(self) -> Result<Option<Buffer>, Mistake> {
+    pub(super) fn outcome(self) -> Result<Option<Buffer>, Diagnostic> {
         let Self { performance, look, end, .. } = self;
         Ok(end.transpose()?.map(|()| performance.picture(&look)))
     }
 }
 
-impl Page for Demo {
-    fn input(&mut self, event: Event) -> Wish {
-        let Event::Key(KeyEvent { code, modifiers, .. }) = event else { return Wish::Nothing };
+impl Screen for Demo {
+    fn input(&mut self, event: Event) -> ScreenRequest {
+        let Event::Key(KeyEvent { code, modifiers, .. }) = event else {
+            return ScreenRequest::Nothing;
+        };
         match (code, modifiers.contains(KeyModifiers::CONTROL)) {
-            (KeyCode::Char('c'), true) => Wish::Quit,
-            (KeyCode::Char('z'), true) => Wish::Suspend,
-            (KeyCode::Char('l'), true) => Wish::Repaint,
-            (KeyCode::Char('q') | KeyCode::Esc, _) => Wish::Quit,
+            (KeyCode::Char('c'), true) => ScreenRequest::Quit,
+            (KeyCode::Char('z'), true) => ScreenRequest::Suspend,
+            (KeyCode::Char('l'), true) => ScreenRequest::Repaint,
+            (KeyCode::Char('q') | KeyCode::Esc, _) => ScreenRequest::Quit,
             (KeyCode::Char(' '), _) => {
                 self.held = !self.held;
                 self.performance.hold(self.held);
-                Wish::Nothing
+                ScreenRequest::Nothing
             }
-            _ => Wish::Nothing,
+            _ => ScreenRequest::Nothing,
         }
     }
 

@@ -30,12 +30,12 @@ const FEEDS: u16 = 4;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pen {
     at: Option<(u16, u16)>,
-    ink: Option<Ink>,
+    ink: Option<CellStyle>,
 }
 
 /// How characters are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Ink {
+struct CellStyle {
     fg: Color,
     bg: Color,
     modifier: Modifier,
@@ -45,7 +45,8 @@ impl Pen {
     /// Clears the whole screen, whatever was there and however the pen was left.
     pub(super) fn clear(&mut self, out: &mut Vec<u8>) -> io::Result<()> {
         self.at = None;
-        self.ink = Some(Ink { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
+        self.ink =
+            Some(CellStyle { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
         queue!(out, SetAttribute(Attribute::Reset), Clear(ClearType::All))
     }
 
@@ -94,7 +95,7 @@ impl Pen {
 
     /// Takes up the ink of a cell.
     fn dip(&mut self, out: &mut Vec<u8>, cell: &Cell) {
-        let mut ink = Ink { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
+        let mut ink = CellStyle { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
         if let (" ", Some(now)) = (cell.symbol(), self.ink) {
             let seen = ink.modifier & ON_BLANKS;
             ink.modifier = seen | (now.modifier - ON_BLANKS);
@@ -145,7 +146,7 @@ fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
 }
 
 /// From one ink to another.
-fn change(from: Ink, to: Ink) -> Vec<u16> {
+fn change(from: CellStyle, to: CellStyle) -> Vec<u16> {
     let mut numbers = Vec::new();
     let mut kept = from.modifier;
     for (modifier, _, off) in MODIFIERS {
