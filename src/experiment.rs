@@ -4,16 +4,16 @@
 //! Never here: threads, clocks, terminals.
 
 mod attitude;
-mod chronicle;
+mod event_log;
 mod command;
 mod deviation;
 mod export;
 mod gauges;
 mod law;
-mod moment;
-mod motion;
-mod obey;
-mod ready;
+mod checkpoint;
+mod observed_motion;
+mod execute;
+mod prepared;
 mod recorder;
 mod residual;
 mod setup;
@@ -23,26 +23,26 @@ mod trail;
 use std::sync::Arc;
 
 use crate::cancel::Cancel;
-use crate::expr::portable;
+use crate::num::math;
 use crate::integrate::Stepping;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
-pub use chronicle::{Chronicle, Tally};
+pub use event_log::{EventLog, EventCount};
 pub use command::Command;
 pub use export::Export;
-pub use moment::{Changed, Moment, Named, Past, Reference, Whereabouts};
-pub use ready::{Ready, Unready};
-pub use setup::{NoMethod, Setup, choose_method, with_given};
+pub use checkpoint::{Changed, Checkpoint, Named, Past, Reference, MotionState};
+pub use prepared::{Prepared, PrepareError};
+pub use setup::{MethodNotFound, Setup, choose_method, with_given};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 
-use crate::integrate::{Happening, Kind, Reached};
+use crate::integrate::{Occurrence, OccurrenceKind, Reached};
 use gauges::{Gauges, Present};
-use motion::Motion;
-use obey::short;
+use observed_motion::ObservedMotion;
+use execute::short;
 use recorder::Recorder;
 
 /// A system in motion, with its gauges and its recorded past.
@@ -52,7 +52,7 @@ pub struct Experiment {
     setup: Setup,
     /// The same as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
-    motion: Motion,
+    motion: ObservedMotion,
     recorder: Recorder,
     gauges: Gauges,
     running: bool,
@@ -60,8 +60,8 @@ pub struct Experiment {
     epoch: u64,
     notices: Vec<String>,
     /// What happened since the last restart.
-    happenings: Chronicle,
-    /// The names of those that were told of.
+    happenings: EventLog,
+    /// The names of those that were reported of.
     told: Vec<String>,
     /// The event that ended the motion.
     ended: Option<String>,
@@ -93,9 +93,9 @@ impl Experiment {
         equations: &Arc<Equations>,
         system: &System,
         setup: Setup,
-    ) -> Result<Experiment, NoMethod> {
+    ) -> Result<Experiment, MethodNotFound> {
         let method = choose_method(system, &setup.method)?;
-        let motion = Motion::new(system, method, setup.settings, &setup.parameters)?;
+        let motion = ObservedMotion::new(system, method, setup.settings, &setup.parameters)?;
         let mut experiment = Experiment {
             model: Arc::clone(model),
             initial: Arc::default(),
@@ -106,7 +106,7 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
-            happenings: Chronicle::default(),
+            happenings: EventLog::default(),
             told: Vec::new(),
             ended: None,
             taken_up: false,
@@ -193,7 +193,7 @@ impl Experiment {
     }
 
     /// What happened since the last restart, in time.
-    pub fn happenings(&self) -> &Chronicle {
+    pub fn happenings(&self) -> &EventLog {
         &self.happenings
     }
 
@@ -326,20 +326,20 @@ impl Experiment {
     }
 
     /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
-    /// from what a blow left. Returns a sentence on it.
-    fn note(&mut self, happening: Happening) -> Result<String, system::Fault> {
+    /// from what an impulse left. Returns a sentence on it.
+    fn note(&mut self, happening: Occurrence) -> Result<String, system::Fault> {
         let lead = format!("{} at t = {}", happening.name, short(happening.time));
         let sentence = match &happening.kind {
-            Kind::Mark => lead,
-            Kind::Stop => {
+            OccurrenceKind::Mark => lead,
+            OccurrenceKind::Stop => {
                 self.ended = Some(happening.name.clone());
                 format!("{lead}: the motion ends")
             }
-            Kind::Release(constraint) => {
+            OccurrenceKind::Release(constraint) => {
                 let name = &self.model.constraints[*constraint].name;
                 format!("{lead}: the constraint {name} holds no longer")
             }
-            Kind::Blow { .. } => {
+            OccurrenceKind::CompiledImpulse { .. } => {
                 let before = self.motion.values_before()?;
                 self.recorder.insert(happening.time, &before);
                 let after = self.motion.values();
@@ -385,7 +385,7 @@ impl Experiment {
             return least;
         }
         // in powers of two, so that it does not change with every step
-        (least * portable::exp2(portable::log2(smooth / least).floor())).min(most)
+        (least * math::exp2(math::log2(smooth / least).floor())).min(most)
     }
 
     /// Has the gauges look at the present.

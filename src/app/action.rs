@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Action`]. Never here: which key it is, or how it is done.
 
-use super::{Page, Work};
+use super::{Page, EditCommand};
 
 /// Something a person wants done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,7 +56,7 @@ pub enum Action {
     /// Edit the system's file.
     Edit,
     /// Do something to the text being edited.
-    Work(Work),
+    EditCommand(EditCommand),
     /// Write a still of the screen.
     Still,
     /// Write the recorded motion as a table.
@@ -65,8 +65,8 @@ pub enum Action {
     Record,
     /// Look from the next frame of the file.
     NextFrame,
-    /// Strike a blow that waits for a key.
-    Strike,
+    /// Strike an impulse that waits for a key.
+    ApplyImpulse,
     /// Choose a method of integration.
     ChooseMethod,
     /// Type the step of a method of fixed step.

@@ -5,7 +5,7 @@
 
 use super::plot::Lens;
 use super::{
-    App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Over, Pane, Plot, Purpose,
+    App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Overlay, Pane, Plot, Purpose,
 };
 use crate::integrate::METHODS;
 use crate::model::ViewKind;
@@ -26,7 +26,7 @@ impl App {
             METHODS.iter().map(item).collect(),
         );
         let now = lab.method().map(Choice::Method);
-        self.over = Some(Over::Menu(match now {
+        self.over = Some(Overlay::Menu(match now {
             Some(now) => menu.on(now),
             None => menu,
         }));
@@ -43,7 +43,7 @@ impl App {
         }
         let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
         let menu = Menu::new("Theme", Choosing::Theme, items);
-        self.over = Some(Over::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
+        self.over = Some(Overlay::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
         Vec::new()
     }
 
@@ -71,7 +71,7 @@ impl App {
         items.push(line("t", "time, with one or several quantities upwards", Choice::Time));
         items.extend(channels(lab));
         let menu = Menu::new("Along the axis", Choosing::Across { plot }, items).on(now);
-        self.over = Some(Over::Menu(menu));
+        self.over = Some(Overlay::Menu(menu));
         Vec::new()
     }
 
@@ -89,7 +89,7 @@ impl App {
             Choosing::Upwards { plot, x },
             channels(lab),
         );
-        self.over = Some(Over::Menu(match now {
+        self.over = Some(Overlay::Menu(match now {
             Some(now) => menu.on(Choice::Channel(now)),
             None => menu,
         }));
@@ -99,11 +99,11 @@ impl App {
     /// Enter, in a list or a field.
     pub(super) fn accept(&mut self) -> Vec<Effect> {
         match self.over.take() {
-            Some(Over::Menu(menu)) => self.accept_line(menu),
-            Some(Over::Field(field)) => self.accept_value(field),
-            Some(Over::Prompt(prompt)) => self.answer(prompt),
-            Some(Over::Workbench) => {
-                self.over = Some(Over::Workbench);
+            Some(Overlay::Menu(menu)) => self.accept_line(menu),
+            Some(Overlay::Field(field)) => self.accept_value(field),
+            Some(Overlay::Prompt(prompt)) => self.answer(prompt),
+            Some(Overlay::Workbench) => {
+                self.over = Some(Overlay::Workbench);
                 self.accept_on_sheet()
             }
             other => {
@@ -115,19 +115,19 @@ impl App {
 
     fn accept_line(&mut self, menu: Menu) -> Vec<Effect> {
         let Some((_, item)) = menu.current() else {
-            self.over = Some(Over::Menu(menu));
+            self.over = Some(Overlay::Menu(menu));
             return self.say("Nothing fits what is typed.");
         };
         if let Some(reason) = &item.refusal {
             let sentence = format!("{} cannot be used here: {reason}", item.label);
-            self.over = Some(Over::Menu(menu));
+            self.over = Some(Overlay::Menu(menu));
             return self.say(sentence);
         }
         match (menu.purpose, item.choice) {
             (_, Choice::Method(name)) => {
                 self.lab.as_mut().map_or(Vec::new(), |lab| lab.integrate_by(name))
             }
-            (_, Choice::Blow(index)) => self.strike_by(index),
+            (_, Choice::CompiledImpulse(index)) => self.apply_impulse(index),
             (_, Choice::Theme(index)) => {
                 self.theme = self.themes.get(index).map(|(name, _)| *name);
                 Vec::new()
@@ -170,7 +170,7 @@ impl App {
             Ok(value) => value,
             Err(sentence) => {
                 field.mistake = Some(sentence);
-                self.over = Some(Over::Field(field));
+                self.over = Some(Overlay::Field(field));
                 return Vec::new();
             }
         };

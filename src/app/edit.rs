@@ -12,9 +12,10 @@ use std::time::Duration;
 use tui_input::Input;
 
 use super::field::paste;
-use super::sheet::{Asking, Found, Sheet, State, Unsaved};
-use super::{App, Effect, Key, Lab, Loaded, Notice, Over, Page};
-use crate::preset::{Mistake, Origin, is_path};
+use super::buffer::{Asking, Found, SourceBuffer, State, Unsaved};
+use super::{App, Effect, Key, Lab, Loaded, Notification, Overlay, Page};
+use crate::diagnostic::Diagnostic;
+use crate::preset::{Origin, is_path};
 
 /// A text that was asked to be checked: what became of it.
 #[derive(Clone, Debug)]
@@ -22,14 +23,14 @@ pub struct Checked {
     /// Which check it was.
     pub ticket: u64,
     /// The system it makes, running already, or its mistakes.
-    pub outcome: Result<Loaded, Vec<Mistake>>,
+    pub outcome: Result<Loaded, Vec<Diagnostic>>,
     /// How long that took.
     pub took: Duration,
 }
 
 /// Why a text was not saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotSaved {
+pub enum SaveError {
     /// The file is not what it was when it was read.
     Changed,
     /// There is a file of that name already.
@@ -40,16 +41,16 @@ pub enum NotSaved {
 
 impl App {
     /// The sheet being edited, while its editor is open.
-    pub fn open_sheet(&self) -> Option<&Sheet> {
-        self.workbench.top().filter(|_| matches!(self.over, Some(Over::Workbench)))
+    pub fn open_sheet(&self) -> Option<&SourceBuffer> {
+        self.workbench.top().filter(|_| matches!(self.over, Some(Overlay::Workbench)))
     }
 
-    fn sheet(&mut self) -> Option<&mut Sheet> {
+    fn sheet(&mut self) -> Option<&mut SourceBuffer> {
         self.workbench.top_mut()
     }
 
     /// The sheet of the system in the lab, if it has one.
-    pub(super) fn own_sheet(&self) -> Option<&Sheet> {
+    pub(super) fn own_sheet(&self) -> Option<&SourceBuffer> {
         let lab = self.lab.as_ref()?;
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
     }
@@ -88,13 +89,13 @@ impl App {
     /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
         if self.ready_sheet().is_some() {
-            self.over = Some(Over::Workbench);
+            self.over = Some(Overlay::Workbench);
         }
         Vec::new()
     }
 
     /// The sheet of the system in the lab, as it was left.
-    fn ready_sheet(&mut self) -> Option<&mut Sheet> {
+    fn ready_sheet(&mut self) -> Option<&mut SourceBuffer> {
         let place = self.file();
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
@@ -113,7 +114,7 @@ impl App {
     /// The program was about to end, and a text could not be kept.
     pub fn stay(&mut self) {
         self.workbench.keeps = false;
-        self.notice = self.loss().map(Notice::error);
+        self.notice = self.loss().map(Notification::error);
     }
 
     /// A sentence on what would be lost.
@@ -124,7 +125,7 @@ impl App {
 
     /// The text that was not saved is the one that ran: it is checked at once. Whether there is such a text.
     pub(super) fn wake(&mut self) -> bool {
-        let modified = self.own_sheet().is_some_and(Sheet::is_modified);
+        let modified = self.own_sheet().is_some_and(SourceBuffer::is_modified);
         modified && self.ready_sheet().is_some()
     }
 
@@ -132,7 +133,7 @@ impl App {
     pub(super) fn remind(&mut self) {
         if let Some(sheet) = self.own_sheet().filter(|sheet| sheet.is_modified()) {
             let told = format!("{} has changes that are not saved; E goes to them.", sheet.title);
-            self.notice = Some(Notice::info(told));
+            self.notice = Some(Notification::info(told));
         }
     }
 
@@ -158,41 +159,41 @@ impl App {
     }
 
     /// Something done to the text as a whole.
-    pub(super) fn work(&mut self, work: Work) -> Vec<Effect> {
+    pub(super) fn work(&mut self, work: EditCommand) -> Vec<Effect> {
         let Some(sheet) = self.sheet() else { return Vec::new() };
         let changed = match work {
-            Work::Save => return self.save_file(),
-            Work::Find => {
+            EditCommand::Save => return self.save_file(),
+            EditCommand::Find => {
                 sheet.asking = Some(Asking::Words(Input::new(sheet.sought.clone())));
                 false
             }
-            Work::FindNext => return self.find(),
-            Work::Mistake(sign) => {
+            EditCommand::FindNext => return self.find(),
+            EditCommand::Diagnostic(sign) => {
                 if !sheet.step(sign) {
                     return self.say("There is no mistake.");
                 }
                 false
             }
-            Work::Cut => sheet.editor.cut(),
-            Work::Copy => {
+            EditCommand::Cut => sheet.editor.cut(),
+            EditCommand::Copy => {
                 sheet.editor.copy();
-                self.notice = Some(Notice::info("Copied; Ctrl-v puts it in."));
+                self.notice = Some(Notification::info("Copied; Ctrl-v puts it in."));
                 return Vec::new();
             }
-            Work::PutBack => sheet.editor.put_back(),
-            Work::Undo => {
+            EditCommand::PutBack => sheet.editor.put_back(),
+            EditCommand::Undo => {
                 if !sheet.editor.undo() {
                     return self.say("There is nothing to take back.");
                 }
                 true
             }
-            Work::Redo => {
+            EditCommand::Redo => {
                 if !sheet.editor.redo() {
                     return self.say("There is nothing to do again.");
                 }
                 true
             }
-            Work::Reread => {
+            EditCommand::Reread => {
                 let Some(place) = &sheet.place else {
                     // what is shipped has not changed
                     let text = sheet.on_disk.clone();
@@ -227,7 +228,7 @@ impl App {
             (false, true) => format!("{} is not saved; E goes back to it.", sheet.title),
             (false, false) => return Vec::new(),
         };
-        self.notice = Some(Notice::info(told));
+        self.notice = Some(Notification::info(told));
         if stopped { vec![Effect::StopCheck] } else { Vec::new() }
     }
 
@@ -282,9 +283,9 @@ impl App {
     }
 
     /// A text was saved, or was not.
-    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), NotSaved>) {
+    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
         let Some(sheet) = self.workbench.top_mut() else { return };
-        sheet.overrule = outcome == Err(NotSaved::Changed);
+        sheet.overrule = outcome == Err(SaveError::Changed);
         self.notice = Some(match outcome {
             Ok((place, text)) => {
                 let shown = place.display().to_string();
@@ -301,19 +302,19 @@ impl App {
                 }
                 sheet.unlooked = sheet.state == State::Changed;
                 match (sheet.saved_as(), sheet.state) {
-                    (Some(told), State::Wrong) => Notice::error(told),
-                    (told, _) => Notice::info(told.unwrap_or_default()),
+                    (Some(told), State::Wrong) => Notification::error(told),
+                    (told, _) => Notification::info(told.unwrap_or_default()),
                 }
             }
-            Err(NotSaved::Changed) => Notice::error(format!(
+            Err(SaveError::Changed) => Notification::error(format!(
                 "{} was changed by another program: Ctrl-s again writes over it, Ctrl-o reads it.",
                 sheet.title
             )),
-            Err(NotSaved::Exists(place)) => {
+            Err(SaveError::Exists(place)) => {
                 sheet.asking = Some(Asking::Name(Input::new(place.display().to_string())));
-                Notice::error(format!("{} exists already; give another name.", place.display()))
+                Notification::error(format!("{} exists already; give another name.", place.display()))
             }
-            Err(NotSaved::Refused(why)) => Notice::error(why),
+            Err(SaveError::Refused(why)) => Notification::error(why),
         });
     }
 
@@ -325,7 +326,7 @@ impl App {
                     "{} was changed by another program; what stands here is not saved.",
                     sheet.title
                 );
-                self.notice = Some(Notice::error(told));
+                self.notice = Some(Notification::error(told));
             }
             return;
         }
@@ -343,9 +344,9 @@ impl App {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
         self.notice = Some(if there {
-            Notice::info(format!("{title} is there again."))
+            Notification::info(format!("{title} is there again."))
         } else {
-            Notice::error(format!("{title} is no longer there; what it held goes on."))
+            Notification::error(format!("{title} is no longer there; what it held goes on."))
         });
     }
 
@@ -360,7 +361,7 @@ impl App {
     /// The screen was drawn: the cursor is kept on it.
     pub(super) fn follow_cursor(&mut self) {
         let (rows, columns) = (self.drawn.rows.into(), self.drawn.columns.into());
-        if matches!(self.over, Some(Over::Workbench))
+        if matches!(self.over, Some(Overlay::Workbench))
             && let Some(sheet) = self.sheet()
         {
             sheet.scroll = sheet.follow(rows, columns);
@@ -381,10 +382,10 @@ impl App {
                     sheet.state = State::Runs(Some(took));
                 }
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
-                if !resumes && !matches!(self.over, Some(Over::Workbench)) {
+                if !resumes && !matches!(self.over, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
                     let told = format!("{title}: built anew in {time:.0} ms; the motion goes on.");
-                    self.notice = Some(Notice::info(told));
+                    self.notice = Some(Notification::info(told));
                 }
                 self.rebuilt(loaded)
             }
@@ -395,9 +396,9 @@ impl App {
                 let saved = sheet.saved_as().filter(|_| sheet.unlooked);
                 sheet.unlooked = false;
                 if let Some(told) = saved {
-                    self.notice = Some(Notice::error(told));
+                    self.notice = Some(Notification::error(told));
                 }
-                self.take_up()
+                self.restore()
             }
         }
     }
@@ -405,7 +406,7 @@ impl App {
 
 /// What can be done to the text beside typing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Work {
+pub enum EditCommand {
     /// Save it.
     Save,
     /// Look for words.
@@ -413,7 +414,7 @@ pub enum Work {
     /// Look for them again.
     FindNext,
     /// To the next mistake (+1) or the one before (−1).
-    Mistake(i8),
+    Diagnostic(i8),
     /// Cut what is selected, or the line.
     Cut,
     /// Keep it without cutting it.

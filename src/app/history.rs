@@ -89,7 +89,7 @@ pub(super) struct History {
     undone: Vec<Change>,
     since: Option<Duration>,
     /// How much was done when the mouse took hold of something.
-    grip: Option<usize>,
+    begin_group: Option<usize>,
 }
 
 impl History {
@@ -97,7 +97,7 @@ impl History {
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
         let last = self.done.len().saturating_sub(1);
-        let joining = match self.grip {
+        let joining = match self.begin_group {
             // All that is done while something is held is one change, however long it takes.
             Some(before) => self.done.get_mut(before..).unwrap_or_default(),
             None if self.since.is_some_and(|since| since < TOGETHER) => &mut self.done[last..],
@@ -110,17 +110,17 @@ impl History {
     }
 
     /// The mouse takes hold of something, or values begin to be carried elsewhere.
-    pub(super) fn grip(&mut self) {
-        self.grip = Some(self.done.len());
+    pub(super) fn begin_group(&mut self) {
+        self.begin_group = Some(self.done.len());
     }
 
     /// They are let go; all that was changed meanwhile is taken back as one.
     pub(super) fn release(&mut self) {
-        if let Some(before) = self.grip.filter(|before| self.done.len() > before + 1) {
+        if let Some(before) = self.begin_group.filter(|before| self.done.len() > before + 1) {
             let changes = self.done.split_off(before);
             self.done.push(Change::Together(changes));
         }
-        (self.grip, self.since) = (None, None);
+        (self.begin_group, self.since) = (None, None);
     }
 
     /// Time has passed.

@@ -4,7 +4,7 @@
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
 use super::action::{Action, Axes, Way};
-use super::{Code, Key, Page, Work};
+use super::{Code, Key, Page, EditCommand};
 
 /// Where a key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -205,7 +205,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('O')], Action::Record, "", "record what is shown into a cast in the current folder, or end the recording"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
-    row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
+    row(Place::Experiment, &[c('3')], Action::Show(Page::PendingSignals), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
     row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "fewer frames a second, for a slow line"),
     row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),
@@ -215,7 +215,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
-    row(Place::Lab, &[c('b')], Action::Strike, "strike", "strike a blow of the file that waits for a key"),
+    row(Place::Lab, &[c('b')], Action::ApplyImpulse, "strike", "strike an impulse of the file that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "look at the motion in space from the next frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
@@ -279,17 +279,17 @@ pub const KEYS: &[Binding] = &[
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 
-    row(Place::Workbench, &[Key::ctrl('s')], Action::Work(Work::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
-    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::Work(Work::Mistake(1)), "mistake", "go to the next mistake"),
-    row(Place::Workbench, &[Key::ctrl('p')], Action::Work(Work::Mistake(-1)), "", "go to the mistake before"),
-    row(Place::Workbench, &[Key::ctrl('f')], Action::Work(Work::Find), "find", "find words"),
-    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::Work(Work::FindNext), "", "find them again"),
-    row(Place::Workbench, &[Key::ctrl('u')], Action::Work(Work::Undo), "undo", "undo the last change of the text"),
-    row(Place::Workbench, &[Key::ctrl('r')], Action::Work(Work::Redo), "", "redo the change that was undone last"),
-    row(Place::Workbench, &[Key::ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
-    row(Place::Workbench, &[Key::ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
-    row(Place::Workbench, &[Key::ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
-    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
+    row(Place::Workbench, &[Key::ctrl('s')], Action::EditCommand(EditCommand::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
+    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::EditCommand(EditCommand::Diagnostic(1)), "mistake", "go to the next mistake"),
+    row(Place::Workbench, &[Key::ctrl('p')], Action::EditCommand(EditCommand::Diagnostic(-1)), "", "go to the mistake before"),
+    row(Place::Workbench, &[Key::ctrl('f')], Action::EditCommand(EditCommand::Find), "find", "find words"),
+    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::EditCommand(EditCommand::FindNext), "", "find them again"),
+    row(Place::Workbench, &[Key::ctrl('u')], Action::EditCommand(EditCommand::Undo), "undo", "undo the last change of the text"),
+    row(Place::Workbench, &[Key::ctrl('r')], Action::EditCommand(EditCommand::Redo), "", "redo the change that was undone last"),
+    row(Place::Workbench, &[Key::ctrl('x')], Action::EditCommand(EditCommand::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
+    row(Place::Workbench, &[Key::ctrl('y')], Action::EditCommand(EditCommand::Copy), "", "copy it"),
+    row(Place::Workbench, &[Key::ctrl('v')], Action::EditCommand(EditCommand::PutBack), "", "put in what was cut or copied last"),
+    row(Place::Workbench, &[Key::ctrl('o')], Action::EditCommand(EditCommand::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
     row(Place::Workbench, &[Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),

@@ -4,14 +4,14 @@
 //! Never here: how a line is searched, drawn or carried out.
 
 use super::keymap::{Binding, KEYS, Place};
-use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Over, Pane, Plot, Target};
+use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, Plot, ValueId};
 use crate::integrate::METHODS;
 use crate::system::System;
 
 impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         // What is chosen is done to the page, not to the help above it.
-        if let Some(Over::Help { scroll, .. }) = self.over {
+        if let Some(Overlay::Help { scroll, .. }) = self.over {
             self.scroll = scroll;
         }
         self.over = None;
@@ -32,7 +32,7 @@ impl App {
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
             often.map(line).partition(|item| item.refusal.is_none());
         if let Some(lab) = &self.lab {
-            items.extend(lab.blow_lines());
+            items.extend(lab.impulse_lines());
             items.extend(lab.value_lines());
         }
         items.extend(seldom.map(line));
@@ -45,7 +45,7 @@ impl App {
         items.extend(rows(|row| moves(row.action)).map(line));
         items.extend(refused);
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
-        self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
+        self.over = Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
 
@@ -66,13 +66,13 @@ impl App {
 
     /// Why an action can do nothing with the loaded system; most always can.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
-        if let (Action::Mark, Some(Over::Menu(menu))) = (action, &self.over) {
+        if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.over) {
             return (!menu.takes_several()).then_some("one line is taken here");
         }
         let lab = self.lab.as_ref()?;
         match action {
-            Action::Strike if lab.blows().is_empty() => {
-                Some("this system has no blow that waits for a key")
+            Action::ApplyImpulse if lab.impulses().is_empty() => {
+                Some("this system has no impulse that waits for a key")
             }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
@@ -109,7 +109,7 @@ impl App {
     }
 
     /// Shows the pane of a value and opens the field in which it is typed.
-    pub(super) fn type_into(&mut self, target: Target) -> Vec<Effect> {
+    pub(super) fn type_into(&mut self, target: ValueId) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
             lab.choose(target);
@@ -179,12 +179,12 @@ fn method_lines(system: &System) -> impl Iterator<Item = Item> {
 
 impl Lab {
     /// Selects a value.
-    pub(super) fn choose(&mut self, target: Target) {
+    pub(super) fn choose(&mut self, target: ValueId) {
         match target {
-            Target::Parameter(index) => {
+            ValueId::Parameter(index) => {
                 (self.focus, self.selection.parameter) = (Pane::Parameters, index);
             }
-            Target::Initial(index) => {
+            ValueId::Initial(index) => {
                 (self.focus, self.selection.initial) = (Pane::Initial, index);
             }
         }
@@ -192,18 +192,18 @@ impl Lab {
 
     /// A line for each value that can be typed.
     fn value_lines(&self) -> Vec<Item> {
-        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
-        let initial = (0..self.count(Target::Initial)).map(Target::Initial);
-        let line = |target: Target| {
+        let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
+        let initial = (0..self.count(ValueId::Initial)).map(ValueId::Initial);
+        let line = |target: ValueId| {
             let facts = self.facts(target)?;
             let what = match target {
-                Target::Parameter(_) => "type",
-                Target::Initial(_) => "type the initial",
+                ValueId::Parameter(_) => "type",
+                ValueId::Initial(_) => "type the initial",
             };
             let unit =
                 if facts.unit.is_empty() { String::new() } else { format!(" in {}", facts.unit) };
             let (meaning, about) = match target {
-                Target::Parameter(_) if !facts.about.is_empty() => {
+                ValueId::Parameter(_) if !facts.about.is_empty() => {
                     (format!(", {}", facts.about), format!("{}, a parameter{unit}", facts.name))
                 }
                 _ => (String::new(), format!("{}: {}", facts.name, facts.about)),

@@ -5,7 +5,7 @@
 use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
-use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
+use super::{Action, App, Effect, Lens, Notification, Overlay, Page, Pane, Plot, Purpose, Way};
 use crate::experiment::{Command, Status};
 use crate::integrate::{METHODS, Stepping};
 
@@ -40,12 +40,12 @@ impl App {
             Action::Open => self.open_selected(),
             Action::Accept => self.accept(),
             Action::Mark => {
-                if let Some(Over::Menu(menu)) = &mut self.over {
+                if let Some(Overlay::Menu(menu)) = &mut self.over {
                     menu.mark();
                 }
                 Vec::new()
             }
-            Action::Work(work) => self.work(work),
+            Action::EditCommand(work) => self.work(work),
             other => self.in_lab(other),
         }
     }
@@ -69,7 +69,7 @@ impl App {
                 vec![Effect::Tell(Command::Speed(speed))]
             }
             Action::Reset | Action::FullReset => {
-                // What was told of the motion before is no longer so.
+                // What was reported of the motion before is no longer so.
                 self.notice = None;
                 self.news.clear();
                 if action == Action::FullReset {
@@ -86,7 +86,7 @@ impl App {
                 Some((effects, told)) => self.told(told, effects),
                 None => self.say("There is nothing to do again."),
             },
-            Action::Strike => self.strike(),
+            Action::ApplyImpulse => self.strike(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
             Action::Edit => self.edit_file(),
@@ -142,13 +142,13 @@ impl App {
 
     /// Does something and tells what it was.
     fn told(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
-        self.notice = Some(Notice::info(sentence));
+        self.notice = Some(Notification::info(sentence));
         effects
     }
 
     /// Tells the user something.
     pub(super) fn say(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notice::error(text));
+        self.notice = Some(Notification::error(text));
         Vec::new()
     }
 
@@ -196,13 +196,13 @@ impl App {
             return self.say(format!("{} frames a second are the {end}.", self.meter.asked));
         };
         self.meter.asked = rate;
-        self.notice = Some(Notice::info(format!("At most {rate} frames a second.")));
+        self.notice = Some(Notification::info(format!("At most {rate} frames a second.")));
         vec![Effect::Frames(rate)]
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {
         self.mouse = !self.mouse;
-        self.notice = Some(Notice::info(if self.mouse {
+        self.notice = Some(Notification::info(if self.mouse {
             "The mouse is phaselab's now; M gives it back, to select text with."
         } else {
             "The mouse is the terminal's again."
@@ -212,10 +212,10 @@ impl App {
 
     fn help(&mut self) -> Vec<Effect> {
         match self.over {
-            Some(Over::Help { .. }) => return self.back(),
+            Some(Overlay::Help { .. }) => return self.back(),
             _ => {
-                let editing = matches!(self.over, Some(Over::Workbench));
-                self.over = Some(Over::Help { scroll: self.scroll, editing });
+                let editing = matches!(self.over, Some(Overlay::Workbench));
+                self.over = Some(Overlay::Help { scroll: self.scroll, editing });
             }
         }
         self.scroll = 0;
@@ -223,22 +223,22 @@ impl App {
     }
 
     fn back(&mut self) -> Vec<Effect> {
-        if matches!(self.over, Some(Over::Workbench)) {
+        if matches!(self.over, Some(Overlay::Workbench)) {
             return self.leave_sheet();
         }
         match self.over.take() {
-            Some(Over::Help { scroll, editing }) => {
+            Some(Overlay::Help { scroll, editing }) => {
                 self.scroll = scroll;
-                self.over = editing.then_some(Over::Workbench);
+                self.over = editing.then_some(Overlay::Workbench);
                 return Vec::new();
             }
-            Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
+            Some(Overlay::Message(_) | Overlay::Menu(_) | Overlay::Field(_) | Overlay::Prompt(_)) => {
                 return Vec::new();
             }
-            Some(Over::Workbench) | None => {}
+            Some(Overlay::Workbench) | None => {}
         }
         if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
-            self.notice = Some(Notice::info(format!("{name} is no longer being loaded.")));
+            self.notice = Some(Notification::info(format!("{name} is no longer being loaded.")));
             return vec![Effect::StopLoading];
         }
         match (self.page, &mut self.lab) {
@@ -250,7 +250,7 @@ impl App {
                 }
                 self.go(Page::Picker);
             }
-            (Page::Equations | Page::Notes | Page::Numbers | Page::Plain, Some(_)) => {
+            (Page::Equations | Page::PendingSignals | Page::Numbers | Page::Plain, Some(_)) => {
                 self.go(Page::Lab);
             }
         }
@@ -269,9 +269,9 @@ impl App {
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
     pub(super) fn jump(&mut self, by: isize) -> Vec<Effect> {
         match &mut self.over {
-            Some(Over::Menu(menu)) => menu.step(by),
-            Some(Over::Field(_) | Over::Prompt(_) | Over::Workbench) => {}
-            Some(Over::Help { .. } | Over::Message(_)) => self.roll(by),
+            Some(Overlay::Menu(menu)) => menu.step(by),
+            Some(Overlay::Field(_) | Overlay::Prompt(_) | Overlay::Workbench) => {}
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
                 (Page::Lab, Some(lab)) => {
@@ -281,7 +281,7 @@ impl App {
                     }
                     lab.select(|place| place.saturating_add_signed(by));
                 }
-                (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.roll(by),
+                (Page::Equations | Page::PendingSignals | Page::Numbers, Some(_)) => self.roll(by),
                 (Page::Plain, Some(_)) => {
                     let last = usize::from(self.drawn.beyond + self.drawn.rows).saturating_sub(1);
                     let line = self.reading.line.saturating_add_signed(by);
@@ -310,7 +310,7 @@ impl App {
         };
         if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
             self.scroll = 0;
-            self.over = Some(Over::Message(failure));
+            self.over = Some(Overlay::Message(failure));
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
@@ -340,7 +340,7 @@ impl App {
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
-        self.over = Some(Over::Field(Field::new(purpose, now.map_or_else(String::new, written))));
+        self.over = Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
     }
 }

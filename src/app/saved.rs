@@ -7,9 +7,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    App, Effect, Eye, Lab, Lens, Loaded, Over, Page, Pane, Plot, Selection, Sheet, SheetState,
+    App, Effect, Eye, Lab, Lens, Loaded, Overlay, Page, Pane, Plot, Selection, SourceBuffer, SheetState,
 };
-use crate::experiment::{Command, Moment};
+use crate::experiment::{Command, Checkpoint};
 
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +34,7 @@ pub struct Saved {
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
-    pub moment: Moment,
+    pub moment: Checkpoint,
 }
 
 /// A picture by the names of what it shows.
@@ -87,7 +87,7 @@ impl Saved {
         let Loaded { name, model, system, .. } = &lab.loaded;
         let moment = match &lab.awaited {
             Some(moment) => moment.clone(),
-            None => Moment::of(model, system, lab.seen()?),
+            None => Checkpoint::of(model, system, lab.seen()?),
         };
         Some(Self {
             version: Self::VERSION,
@@ -181,7 +181,7 @@ impl App {
             return self.left.clone();
         }
         let lab = self.lab.as_ref()?;
-        let runs = |sheet: &Sheet| sheet.is_modified() && sheet.state != SheetState::Left;
+        let runs = |sheet: &SourceBuffer| sheet.is_modified() && sheet.state != SheetState::Left;
         let edited = self.own_sheet().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
@@ -207,11 +207,11 @@ impl App {
         self.page = saved.page;
         self.remind();
         // the motion belongs to the text that is not saved, and waits until that is checked
-        if saved.edited && self.wake() { Vec::new() } else { self.take_up() }
+        if saved.edited && self.wake() { Vec::new() } else { self.restore() }
     }
 
     /// Has the experiment take up the motion that is waited for, if there is one.
-    pub(super) fn take_up(&mut self) -> Vec<Effect> {
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
         let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
         awaited.map(command).into_iter().collect()
@@ -239,7 +239,7 @@ impl App {
             lab.history = old.history;
         }
         // What is open speaks of the old system's places.
-        if matches!(self.over, Some(Over::Menu(_) | Over::Field(_))) {
+        if matches!(self.over, Some(Overlay::Menu(_) | Overlay::Field(_))) {
             self.over = None;
         }
         self.meter.forget();
@@ -250,6 +250,6 @@ impl App {
         lab.look_as(&saved);
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
-        self.take_up()
+        self.restore()
     }
 }

@@ -3,7 +3,7 @@
 //! In: nothing. Out: [`Spot`]s, which `view` finds, and [`Hold`], what the mouse holds on to. Never here: where anything
 //! stands on the screen, or what a click does.
 
-use super::{Action, Page, Pane, Target};
+use super::{Action, Page, Pane, ValueId};
 
 /// What is under the mouse. Places are parts of a picture's width from the left and of its height from below.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +25,11 @@ pub enum Spot {
     /// The frame or the name of a pane.
     Pane(Pane),
     /// A value in a list.
-    Value(Target),
+    Value(ValueId),
     /// The bar of a value.
     Bar {
         /// Whose.
-        target: Target,
+        target: ValueId,
         /// The value that has its knob in this column.
         value: f64,
     },
@@ -57,7 +57,7 @@ pub enum Spot {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
     /// The knob of a value's bar.
-    Bar(Target),
+    Bar(ValueId),
     /// A picture.
     Picture {
         /// Its place among the pictures.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::editor::beginning;
 use super::field::{edit, paste};
 use super::keymap::{self, Place};
-use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
+use super::{App, Code, Effect, Event, Key, Lab, LoadError, Loaded, Notification, Overlay, Page};
 use crate::experiment::Snapshot;
 
 /// The most that is taken of one paste, in bytes.
@@ -30,7 +30,7 @@ impl App {
             Event::Loaded(Err(failure)) => self.failed(failure),
             Event::Rebuilt(loaded) => self.rebuilt(loaded),
             Event::Written(Ok(sentence)) => {
-                self.notice = Some(Notice::info(sentence));
+                self.notice = Some(Notification::info(sentence));
                 Vec::new()
             }
             Event::Written(Err(sentence)) => self.say(sentence),
@@ -89,14 +89,14 @@ impl App {
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
         match &mut self.over {
-            Some(Over::Workbench) => self.type_on_sheet(key),
-            Some(Over::Field(field)) => field.press(key),
-            Some(Over::Prompt(prompt)) => prompt.press(key),
-            Some(Over::Menu(menu)) => {
+            Some(Overlay::Workbench) => self.type_on_sheet(key),
+            Some(Overlay::Field(field)) => field.press(key),
+            Some(Overlay::Prompt(prompt)) => prompt.press(key),
+            Some(Overlay::Menu(menu)) => {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
             }
-            Some(Over::Help { .. } | Over::Message(_)) => {}
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => {}
             None if searching => {
                 self.picker.search(|input| {
                     edit(input, key);
@@ -111,10 +111,10 @@ impl App {
         let all = text.len();
         let text = beginning(text, LONGEST_PASTE);
         let whole = match &mut self.over {
-            Some(Over::Workbench) => self.paste_on_sheet(text),
-            Some(Over::Field(field)) => field.paste(text),
-            Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
-            Some(Over::Menu(menu)) => {
+            Some(Overlay::Workbench) => self.paste_on_sheet(text),
+            Some(Overlay::Field(field)) => field.paste(text),
+            Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
+            Some(Overlay::Menu(menu)) => {
                 menu.selected = 0;
                 menu.filter.as_mut().is_none_or(|filter| paste(filter, text))
             }
@@ -126,8 +126,8 @@ impl App {
             _ => return Vec::new(),
         };
         if !whole || text.len() < all {
-            self.notice = Some(Notice::error(match self.over {
-                Some(Over::Workbench) => LONG_TEXT,
+            self.notice = Some(Notification::error(match self.over {
+                Some(Overlay::Workbench) => LONG_TEXT,
                 _ => "The pasted text was too long; its beginning was taken.",
             }));
         }
@@ -142,7 +142,7 @@ impl App {
             self.meter.count(steps);
             self.reading.see(snapshot);
             for sentence in news(&before, &snapshot.notices) {
-                self.news.tell(&mut self.notice, Notice::info(sentence.clone()));
+                self.news.tell(&mut self.notice, Notification::info(sentence.clone()));
             }
         }
         Vec::new()
@@ -153,7 +153,7 @@ impl App {
         self.drop_hold();
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
-        self.over.take_if(|over| matches!(over, Over::Workbench));
+        self.over.take_if(|over| matches!(over, Overlay::Workbench));
         self.lab = Some(Lab::new(loaded));
         // What went wrong is not less so because something else is there.
         self.notice.take_if(|notice| !notice.error);
@@ -171,7 +171,7 @@ impl App {
     /// The system whose file is told to be wrong.
     pub fn failed_system(&self) -> Option<&str> {
         match &self.over {
-            Some(Over::Message(failure)) => Some(&failure.name),
+            Some(Overlay::Message(failure)) => Some(&failure.name),
             _ => None,
         }
     }
@@ -182,10 +182,10 @@ impl App {
         name.map(|name| self.ask(name, true)).into_iter().collect()
     }
 
-    fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {
+    fn failed(&mut self, failure: LoadError) -> Vec<Effect> {
         if self.answered(&failure.name) == Some(true) {
             self.scroll = 0;
-            self.over = Some(Over::Message(failure.clone()));
+            self.over = Some(Overlay::Message(failure.clone()));
         }
         self.picker.failure = Some(failure);
         Vec::new()
@@ -201,7 +201,7 @@ impl App {
     pub(super) fn go(&mut self, page: Page) {
         if page == Page::Picker {
             self.left = self.saved();
-            // what was told of the motion that is left says nothing of another
+            // what was reported of the motion that is left says nothing of another
             self.notice = None;
             self.news.clear();
         }

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::sheet::{Sheet, State, Unsaved};
+use super::buffer::{SourceBuffer, State, Unsaved};
 use super::{Effect, Loaded};
 
 /// The sheets.
@@ -15,54 +15,54 @@ pub struct Workbench {
     /// Whether texts that are not saved are kept beyond the end of the program.
     pub keeps: bool,
     /// The last one lies on top.
-    sheets: Vec<Sheet>,
+    sheets: Vec<SourceBuffer>,
     /// Counts the checks of all sheets.
     checks: u64,
 }
 
 impl Workbench {
     /// The sheet on top.
-    pub fn top(&self) -> Option<&Sheet> {
+    pub fn top(&self) -> Option<&SourceBuffer> {
         self.sheets.last()
     }
 
     /// The same, to be changed.
-    pub fn top_mut(&mut self) -> Option<&mut Sheet> {
+    pub fn top_mut(&mut self) -> Option<&mut SourceBuffer> {
         self.sheets.last_mut()
     }
 
     /// The texts that are not saved, of all systems.
     pub fn unsaved(&self) -> Vec<Unsaved> {
-        self.sheets.iter().filter_map(Sheet::unsaved).collect()
+        self.sheets.iter().filter_map(SourceBuffer::unsaved).collect()
     }
 
     /// Takes texts that were kept; they wait below the others until their systems are open.
     pub fn put(&mut self, texts: Vec<Unsaved>) {
-        self.sheets.splice(0..0, texts.into_iter().map(Sheet::of_unsaved));
+        self.sheets.splice(0..0, texts.into_iter().map(SourceBuffer::of_unsaved));
     }
 
     /// A number that changes with every change of a text.
     pub fn revision(&self) -> u64 {
-        self.sheets.iter().map(Sheet::revision).sum()
+        self.sheets.iter().map(SourceBuffer::revision).sum()
     }
 
     /// The sheet of a system, if it has one.
-    pub(super) fn of(&self, name: &str, place: Option<&Path>) -> Option<&Sheet> {
+    pub(super) fn of(&self, name: &str, place: Option<&Path>) -> Option<&SourceBuffer> {
         self.sheets.iter().rfind(|sheet| sheet.is_of(name, place))
     }
 
     /// Puts the sheet of the system that runs on top, a fresh one where it has none.
-    pub(super) fn lay(&mut self, loaded: &Loaded, place: Option<PathBuf>) -> &mut Sheet {
+    pub(super) fn lay(&mut self, loaded: &Loaded, place: Option<PathBuf>) -> &mut SourceBuffer {
         let at = self.sheets.iter().rposition(|s| s.is_of(&loaded.name, place.as_deref()));
         let mut sheet = match at {
             Some(at) => self.sheets.remove(at),
-            None => Sheet::new(loaded, place),
+            None => SourceBuffer::new(loaded, place),
         };
         sheet.name.clone_from(&loaded.name);
         if sheet.state == State::Left {
             sheet.touch_at_once(false);
         }
-        self.sheets.retain(Sheet::is_modified);
+        self.sheets.retain(SourceBuffer::is_modified);
         let top = self.sheets.len();
         self.sheets.push(sheet);
         &mut self.sheets[top]
@@ -70,13 +70,13 @@ impl Workbench {
 
     /// A system was loaded: what is known of any text is no longer so, and no check is waited for.
     pub(super) fn clear(&mut self) {
-        self.sheets.retain(Sheet::is_modified);
-        self.sheets.iter_mut().for_each(Sheet::leave);
+        self.sheets.retain(SourceBuffer::is_modified);
+        self.sheets.iter_mut().for_each(SourceBuffer::leave);
     }
 
     /// No text is looked at: a check under way is put off; whether there was one.
     pub(super) fn put_off(&mut self) -> bool {
-        self.sheets.last_mut().is_some_and(Sheet::put_off)
+        self.sheets.last_mut().is_some_and(SourceBuffer::put_off)
     }
 
     /// Time has passed for the sheet on top: the text to be checked now, if there is one.

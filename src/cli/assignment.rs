@@ -2,13 +2,15 @@
 
 use std::str::FromStr;
 
-use crate::expr::{Expr, Number, Pool, nearest};
+use crate::expr::{Expr, Pool};
+use crate::num::Number;
+use crate::diagnostic::nearest;
 use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
-use crate::preset::{Mistake, report};
+use crate::diagnostic::{Diagnostic, report};
 use crate::system::Given;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::stderr;
 use crate::printable;
 
@@ -63,7 +65,7 @@ fn first_mistake(scope: &Scope) -> String {
 }
 
 /// The parameters: the file's values, or those set.
-pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, Failure> {
+pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, CommandError> {
     let mut values = model.parameter_values();
     refuse_twice("--set", set)?;
     for assignment in set {
@@ -78,21 +80,21 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
 }
 
 /// One of two values for the same name would be lost.
-fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), Failure> {
+fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), CommandError> {
     for (i, later) in set.iter().enumerate() {
         if let Some(first) = set[..i].iter().find(|first| first.name == later.name) {
             let [name, one, other] =
                 [&first.name, &first.value, &later.value].map(|text| printable::quoted(text));
             let message =
                 format!("{option} gives {name} twice, {one} and {other}: keep one of them");
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(())
 }
 
 /// The time of the initial values: `--init t=…`, else the file's.
-pub(super) fn start(model: &Model, parameters: &[f64], set: &[Assignment]) -> Result<f64, Failure> {
+pub(super) fn start(model: &Model, parameters: &[f64], set: &[Assignment]) -> Result<f64, CommandError> {
     match set.iter().rfind(|assignment| assignment.name == "t") {
         Some(assignment) => initial_value(model, parameters, assignment),
         None => Ok(model.run.start),
@@ -104,7 +106,7 @@ pub(super) fn initial(
     model: &Model,
     parameters: &[f64],
     set: &[Assignment],
-) -> Result<Vec<Given>, Failure> {
+) -> Result<Vec<Given>, CommandError> {
     let mut all: Vec<Given> = Vec::new();
     refuse_twice("--init", set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
@@ -117,7 +119,7 @@ pub(super) fn initial(
             let name = &c.name;
             let message =
                 format!("--init gives both {name}' and p_{name}; one follows from the other");
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(all)
@@ -137,7 +139,7 @@ fn initial_value(
     model: &Model,
     parameters: &[f64],
     assignment: &Assignment,
-) -> Result<f64, Failure> {
+) -> Result<f64, CommandError> {
     let mut pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "an initial value");
     let e = scope
@@ -154,7 +156,7 @@ fn initial_value(
 }
 
 /// Which initial value a name means.
-fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
+fn place(model: &Model, name: &str, value: f64) -> Result<Given, CommandError> {
     let coordinate = |name: &str| model.coordinate(name);
     let plain = coordinate(name).map(|i| Given::Position(i, value));
     // variables of brackets have neither velocities nor momenta at their start
@@ -183,14 +185,14 @@ fn label(model: &Model, given: &Given) -> String {
 }
 
 /// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the one the equations live in.
-pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, Failure> {
+pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, CommandError> {
     let (name, written) = match text.split_once('=') {
         Some((name, expression)) => (name.trim(), expression.trim()),
         None => (text.trim(), text.trim()),
     };
     if name.is_empty() {
         let text = printable::quoted(text);
-        return Err(Failure::WrongUse(format!("--observe {text}: a name stands before the =")));
+        return Err(CommandError::WrongUse(format!("--observe {text}: a name stands before the =")));
     }
     let expression = expression(model, pool, written, "--observe")?;
     Ok(Channel { written: name.to_owned(), expression })
@@ -203,35 +205,35 @@ pub(super) fn expression(
     pool: &mut Pool,
     written: &str,
     called: &str,
-) -> Result<Expr, Failure> {
+) -> Result<Expr, CommandError> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     if let Some(e) = scope.read(pool, written) {
         return Ok(e);
     }
-    let mistakes: Vec<Mistake> = scope
+    let mistakes: Vec<Diagnostic> = scope
         .mistakes
         .into_iter()
         .map(|mistake| {
             let place = mistake.span.start..mistake.span.end;
-            Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
+            Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
         })
         .collect();
     stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
     let written = printable::quoted(written);
-    Err(Failure::WrongUse(format!("{called}: `{written}` is no expression of this system")))
+    Err(CommandError::WrongUse(format!("{called}: `{written}` is no expression of this system")))
 }
 
-fn wrong(assignment: &Assignment, why: &str) -> Failure {
+fn wrong(assignment: &Assignment, why: &str) -> CommandError {
     let [name, value] = [&assignment.name, &assignment.value].map(|text| printable::quoted(text));
-    Failure::WrongUse(format!("{name}={value}: {why}"))
+    CommandError::WrongUse(format!("{name}={value}: {why}"))
 }
 
-fn unknown(kind: &str, name: &str, names: &[&str]) -> Failure {
+fn unknown(kind: &str, name: &str, names: &[&str]) -> CommandError {
     let shown = printable::quoted(name);
     let help = match nearest(name, names.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if names.is_empty() => "there are none".to_owned(),
         None => format!("there are {}", names.join(", ")),
     };
-    Failure::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
+    CommandError::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
 }

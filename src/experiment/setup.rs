@@ -1,12 +1,13 @@
 //! How an experiment begins: values, method, and the spacing of what it records.
 
-use crate::expr::{Symbol, nearest};
-use crate::integrate::{METHODS, Method, Refusal, Settings};
+use crate::expr::Symbol;
+use crate::diagnostic::nearest;
+use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;
 use crate::system::{Form, Given, System};
 
-/// Everything an experiment is told at its beginning.
+/// Everything an experiment is reported at its beginning.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Setup {
     /// The parameters, in the model's order.
@@ -74,7 +75,7 @@ pub fn with_given(system: &System, before: &[Given], index: usize, value: f64) -
 
 /// Why a method cannot be had.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum NoMethod {
+pub enum MethodNotFound {
     /// There is none of that name.
     #[error("there is no method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
     Unknown {
@@ -85,7 +86,7 @@ pub enum NoMethod {
     },
     /// It does not fit the system.
     #[error(transparent)]
-    Refused(#[from] Refusal),
+    Refused(#[from] MethodError),
 }
 
 fn help(near: Option<&str>) -> String {
@@ -93,7 +94,7 @@ fn help(near: Option<&str>) -> String {
 }
 
 /// The method of a name, if it fits the system; for `auto` the first in the table that does.
-pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, NoMethod> {
+pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, MethodNotFound> {
     if name == "auto" {
         let fits = |method: &&Method| (method.fits)(system).is_ok();
         return METHODS.iter().find(fits).ok_or_else(|| unknown(name));
@@ -103,7 +104,7 @@ pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, NoM
     Ok(method)
 }
 
-fn unknown(name: &str) -> NoMethod {
+fn unknown(name: &str) -> MethodNotFound {
     let near = nearest(name, METHODS.iter().map(|method| method.name));
-    NoMethod::Unknown { name: name.to_owned(), near }
+    MethodNotFound::Unknown { name: name.to_owned(), near }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Chronicle, Setup, Trail};
+use super::{EventLog, Setup, Trail};
 use crate::analysis::Verdict;
 use crate::system::{Form, State};
 
@@ -36,10 +36,10 @@ pub struct Snapshot {
     pub gauges: Arc<[Gauge]>,
     /// The method and its step.
     pub method: MethodFact,
-    /// What the user is told in passing: "energy reference taken anew: …". The newest last.
+    /// What the user is reported in passing: "energy reference taken anew: …". The newest last.
     pub notices: Arc<[String]>,
     /// What happened since the last restart, in time.
-    pub happenings: Chronicle,
+    pub happenings: EventLog,
     /// The constraints that were let go, by index.
     pub released: Vec<usize>,
     /// Whether a motion left elsewhere was taken up.
@@ -64,7 +64,7 @@ impl Snapshot {
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
-            happenings: Chronicle::default(),
+            happenings: EventLog::default(),
             released: Vec::new(),
             taken_up: false,
         }
@@ -112,7 +112,7 @@ pub struct Gauge {
     pub scale: f64,
     /// The greatest distance from the reference since it was taken.
     pub farthest: f64,
-    /// The value that drift is measured from: the initial one, and what blows have added to it.
+    /// The value that drift is measured from: the initial one, and what impulses have added to it.
     pub reference: f64,
     /// When that was taken.
     pub reference_time: f64,

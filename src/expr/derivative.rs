@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
 

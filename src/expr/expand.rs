@@ -5,7 +5,7 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 
 /// The most monomials a product is multiplied out to in a proof before it is left as it is.

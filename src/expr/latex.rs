@@ -1,7 +1,7 @@
 //! LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::print::{Level, Piece, Printer, Style};
 

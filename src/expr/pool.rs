@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::function::FunctionId;
 use super::notation::{latex_name, unicode_name};
-use super::number::Number;
+use crate::num::Number;
 use super::symbol::{Rank, Symbol, SymbolInfo};
 use crate::cancel::Cancel;
 

@@ -3,7 +3,7 @@
 //! [`Style`].
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Rank;
 

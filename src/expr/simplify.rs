@@ -3,7 +3,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 
 /// An expression heavier than this is only joined and factored, not multiplied out for trial.

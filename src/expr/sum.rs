@@ -1,6 +1,6 @@
 //! Sums in canonical form: like terms collected, nested sums opened, numbers gathered.
 
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 
 impl Pool {

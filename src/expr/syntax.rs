@@ -3,7 +3,7 @@
 //! knows the names.
 
 use super::function::{FUNCTIONS, FunctionId};
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Pool};
 
 /// A range of bytes in the source text of one expression.

@@ -1,7 +1,7 @@
 //! The file's own syntax: what is printed here parses back to the same expression.
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Pool};
 use super::print::{Level, Piece, Printer, Style};
 

@@ -1,6 +1,6 @@
 //! Words of an expression: numbers, names with primes, operators, each with its span.
 
-use super::number::Number;
+use crate::num::Number;
 use super::syntax::{Span, SyntaxError};
 
 /// One word.

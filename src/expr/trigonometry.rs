@@ -4,7 +4,7 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 
 /// The terms of a sum with their coefficients.

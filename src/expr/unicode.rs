@@ -2,7 +2,7 @@
 
 use super::function::FunctionId;
 use super::notation::superscript;
-use super::number::Number;
+use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::print::{Level, Piece, Printer, Style};
 

@@ -1,11 +1,11 @@
 //! What all methods of fixed step have in common: the clock, the direction, looks between steps,
 //! the step where none is asked for, and whether it is stable. A method itself is a [`Scheme`].
 
-use super::method::{Refusal, Settings};
-use super::pace;
+use super::method::{MethodError, Settings};
+use super::initial_step;
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
-use crate::expr::{Double, portable};
+use crate::num::{DoubleDouble, math};
 use crate::system::{Fault, FaultKind, Form, State, System};
 
 /// The step where none is asked for, as a part of the motion's [pace](pace::of).
@@ -55,9 +55,9 @@ pub(super) struct FixedStep<S> {
     parameters: Vec<f64>,
     asked: Option<f64>,
     /// The step; negative where the motion runs backwards.
-    step: Double,
+    step: DoubleDouble,
     /// When the steps began, and how many there were: the time is counted, not summed.
-    origin: Double,
+    origin: DoubleDouble,
     count: f64,
     /// How many steps there were since the start, and what was found on the way.
     taken: f64,
@@ -73,9 +73,9 @@ impl<S: Scheme> FixedStep<S> {
         system: &System,
         settings: &Settings,
         scheme: S,
-    ) -> Result<FixedStep<S>, Refusal> {
+    ) -> Result<FixedStep<S>, MethodError> {
         if let Some(step) = settings.step.filter(|&h| !(h > 0.0 && h.is_finite())) {
-            return Err(Refusal { method, reason: format!("the step {step} is not above zero") });
+            return Err(MethodError { method, reason: format!("the step {step} is not above zero") });
         }
         let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
         Ok(FixedStep {
@@ -84,8 +84,8 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
-            step: Double::ZERO,
-            origin: Double::ZERO,
+            step: DoubleDouble::ZERO,
+            origin: DoubleDouble::ZERO,
             count: 0.0,
             taken: 0.0,
             unstable: None,
@@ -96,7 +96,7 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// Counts on from the present time with another step.
-    fn count_from_here(&mut self, step: Double) {
+    fn count_from_here(&mut self, step: DoubleDouble) {
         self.step = step;
         self.origin = self.state.exact_time();
         self.count = 0.0;
@@ -107,7 +107,7 @@ impl<S: Scheme> FixedStep<S> {
     fn look(&mut self) {
         let n = self.taken;
         let due = if n < STEPS_PER_LOOK {
-            n == 0.0 || portable::log2(n).fract() == 0.0
+            n == 0.0 || math::log2(n).fract() == 0.0
         } else {
             n % STEPS_PER_LOOK == 0.0
         };
@@ -144,11 +144,11 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
         let step = match self.asked {
-            Some(step) => Double::written(step),
+            Some(step) => DoubleDouble::written(step),
             None => {
-                let pace = pace::of(&self.system, state, parameters) * PART_OF_PACE;
+                let pace = initial_step::of(&self.system, state, parameters) * PART_OF_PACE;
                 // two digits are enough, and times are then short decimals
-                Double::written(format!("{pace:.1e}").parse().unwrap_or(pace))
+                DoubleDouble::written(format!("{pace:.1e}").parse().unwrap_or(pace))
             }
         };
         self.count_from_here(step);
@@ -181,7 +181,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
-    fn settle(&mut self, state: &State) {
+    fn replace_state(&mut self, state: &State) {
         self.state.copy_from(state);
     }
 
@@ -204,7 +204,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         }
         self.aside.begin(&self.parameters);
         self.aside.go_on_from(&self.scheme);
-        let step = Double::written(time) - self.before.exact_time();
+        let step = DoubleDouble::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)
@@ -223,7 +223,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
 pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
     for (i, &rate) in rates.iter().enumerate() {
         if rate != 0.0 {
-            state.set(i, state.exact(i) + Double::from(factor * rate));
+            state.set(i, state.exact(i) + DoubleDouble::from(factor * rate));
         }
     }
 }

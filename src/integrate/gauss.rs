@@ -17,9 +17,9 @@ mod tableau;
 
 use self::tableau::Tableau;
 use super::fixed::{FixedStep, Scheme};
-use super::method::{Method, Preserves, Refusal, Stepping};
-use super::rounding;
-use crate::expr::Double;
+use super::method::{Method, Preserves, MethodError, Stepping};
+use super::roundoff;
+use crate::num::DoubleDouble;
 use crate::system::{Fault, FaultKind, Form, Rates, State, System};
 
 /// How often the iteration may be repeated.
@@ -72,10 +72,10 @@ pub(super) const SIXTH_ORDER: Method = Method {
 };
 
 /// Whether the method keeps what it is chosen for.
-fn fits(method: &Method, system: &System) -> Result<(), Refusal> {
+fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     if system.constraints() > 0 {
         let reason = "the motion is held to constraints, and would no longer be symplectic";
-        return Err(Refusal { method: method.name, reason: reason.to_owned() });
+        return Err(MethodError { method: method.name, reason: reason.to_owned() });
     }
     Ok(())
 }
@@ -179,14 +179,14 @@ impl Gauss {
     }
 
     /// Measures what rounding does to the rates at the first stage.
-    fn listen(&mut self, step: f64, state: &State) {
+    fn estimate_roundoff(&mut self, step: f64, state: &State) {
         let (stage, slope) = (&self.stages[0], &self.slopes[0]);
         for (i, size) in self.sizes.iter_mut().enumerate() {
             *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
         }
         let time = state.time + self.tableau.nodes[0].high * step;
-        let place = rounding::Place { time, numbers: stage, sizes: &self.sizes, step };
-        if rounding::measure(&mut self.rates, &place, &mut self.noise).is_err() {
+        let place = roundoff::Place { time, numbers: stage, sizes: &self.sizes, step };
+        if roundoff::measure(&mut self.rates, &place, &mut self.noise).is_err() {
             self.noise.fill(0.0);
         }
     }
@@ -208,7 +208,7 @@ impl Gauss {
                 Err(fault) => return Err(fault),
             }
             if count % PATIENCE == 0 {
-                self.listen(step, state);
+                self.estimate_roundoff(step, state);
             }
             if self.stages.iter().flatten().any(|x| !x.is_finite()) {
                 break;
@@ -265,7 +265,7 @@ impl Scheme for Gauss {
 }
 
 /// h Σ w f of one number, in all digits.
-fn change(weights: &[Double], slopes: &[Vec<f64>], i: usize, step: f64) -> Double {
+fn change(weights: &[DoubleDouble], slopes: &[Vec<f64>], i: usize, step: f64) -> DoubleDouble {
     let pairs = weights.iter().zip(slopes);
-    pairs.fold(Double::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
+    pairs.fold(DoubleDouble::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
 }

@@ -9,7 +9,7 @@
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
 use super::stability::Modes;
-use crate::expr::portable;
+use crate::num::math;
 use crate::system::{Fault, Form, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
@@ -94,5 +94,5 @@ fn growth([re, im]: [f64; 2]) -> f64 {
     for k in [4.0, 3.0, 2.0, 1.0] {
         (a, b) = (1.0 + (re * a - im * b) / k, (re * b + im * a) / k);
     }
-    portable::hypot(a, b)
+    math::hypot(a, b)
 }

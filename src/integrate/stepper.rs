@@ -1,7 +1,7 @@
 //! What every method can do.
 
 use super::Unstable;
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 use crate::system::{Fault, Form, State};
 
 /// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
@@ -12,13 +12,13 @@ pub trait Stepper: Send {
 
     /// Takes one step towards `limit`, which lies before or after the present time. A method of
     /// variable step never passes the limit and ends its last step exactly on it. A method of
-    /// fixed step keeps its step and so may pass it: states between are told by [`Stepper::at`].
+    /// fixed step keeps its step and so may pass it: states between are reported by [`Stepper::at`].
     /// Does nothing where the present time has reached the limit.
     fn step(&mut self, limit: f64) -> Result<(), Fault>;
 
     /// Goes on from a state that differs from the one at the end of the last step by rounding only,
     /// as one put back on its constraints does. The last step stays as it was.
-    fn settle(&mut self, state: &State);
+    fn replace_state(&mut self, state: &State);
 
     /// The state at the end of the last step, in the form the method works in.
     fn state(&self) -> &State;
@@ -37,7 +37,7 @@ pub trait Stepper: Send {
 
     /// The same at a time that is known beyond the last digit of an `f64`, as that of a crossing
     /// is. A method that cannot tell such times apart gives the state at the nearest.
-    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), Fault> {
         self.at(time.high, out)
     }
 

@@ -19,9 +19,9 @@ use bridge::Bridge;
 use kinks::Kinks;
 use rest::Rest;
 
-use super::method::{Method, Preserves, Refusal, Settings, Stepping};
+use super::method::{Method, Preserves, MethodError, Settings, Stepping};
 use super::stepper::Stepper;
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Fault, FaultKind, Form, Series, Side, State, System};
 
 /// The tolerance where none is asked for. It lies far below the last digit shown, so that what
@@ -70,9 +70,9 @@ struct Taylor {
     /// The present state is one from which no series leads on.
     landed: bool,
     /// The last step was a bridge from this state, with these rates there if it has none itself.
-    leapt: Option<(State, Option<Vec<Double>>)>,
+    leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
     /// The rates of a motion that has come to rest for good: zero but for what is carried along.
-    resting: Option<Vec<Double>>,
+    resting: Option<Vec<DoubleDouble>>,
     parameters: Vec<f64>,
     /// How many such steps there were, and when the last of a round of them was.
     leaps: (u32, f64),
@@ -107,11 +107,11 @@ const HALVINGS: u32 = 60;
 const ROUNDING: f64 = 1e-18;
 
 impl Taylor {
-    fn new(system: &System, settings: &Settings) -> Result<Taylor, Refusal> {
+    fn new(system: &System, settings: &Settings) -> Result<Taylor, MethodError> {
         let tolerance = settings.tolerance.unwrap_or(TOLERANCE);
         if !(1e-30..1.0).contains(&tolerance) {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
-            return Err(Refusal { method: METHOD.name, reason });
+            return Err(MethodError { method: METHOD.name, reason });
         }
         let order = step_size::order_for(tolerance);
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
@@ -260,13 +260,13 @@ impl Taylor {
     /// Evaluates the rates at the present state.
     fn look(&mut self) -> Result<(), Fault> {
         let state = &self.state;
-        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         self.rates.evaluate(state.exact_time(), &numbers)
     }
 
     /// Moves along the series and makes the step shorter until no root has left its branch there;
     /// gives the part of the time that is left.
-    fn advance(&mut self, after: Double) -> Result<f64, Fault> {
+    fn advance(&mut self, after: DoubleDouble) -> Result<f64, Fault> {
         let (mut part, scale) = (1.0, self.series.scale());
         if self.series.guards() == 0 {
             self.series.state_after(after, &mut self.state);
@@ -294,7 +294,7 @@ impl Taylor {
             let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
             let largest = terms.zip(powers).fold(0.0_f64, |m, (c, p)| m.max((c * p).abs()));
             if self.state.values[i].abs() <= ROUNDING * largest {
-                self.state.set(i, Double::ZERO);
+                self.state.set(i, DoubleDouble::ZERO);
             }
         }
     }
@@ -351,7 +351,7 @@ impl Units {
 
 impl Taylor {
     /// The state at a time within the last step.
-    fn tell(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn tell(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), Fault> {
         if let Some(rates) = &self.resting {
             let after = time - self.state.exact_time();
             for (i, &rate) in rates.iter().enumerate() {
@@ -397,10 +397,10 @@ impl Stepper for Taylor {
             return Ok(());
         }
         let time = self.state.exact_time();
-        let left = Double::written(limit) - time;
+        let left = DoubleDouble::written(limit) - time;
         if self.resting.is_some() {
             let mut state = self.state.clone();
-            self.tell(Double::written(limit), &mut state)?;
+            self.tell(DoubleDouble::written(limit), &mut state)?;
             self.begin = self.state.time;
             self.state = state;
             return Ok(());
@@ -429,7 +429,7 @@ impl Stepper for Taylor {
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         let mut last = step >= left.high.abs();
-        let mut after = if last { left } else { Double::from(step.copysign(left.high)) };
+        let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
         let vanishing = step < VANISHING * self.stride;
         // what makes steps vanish lies a little farther than they reach
@@ -445,8 +445,8 @@ impl Stepper for Taylor {
         self.begin = self.state.time;
         let mut landed = false;
         if vanishing && crossing.is_none() {
-            if let Some(x) = branches::foretold(&self.series, end) {
-                (last, landed, after) = (false, true, Double::from(x * scale));
+            if let Some(x) = branches::predicted(&self.series, end) {
+                (last, landed, after) = (false, true, DoubleDouble::from(x * scale));
             } else if (step < TOUCHING * self.stride || step < STALLED * time.high.abs())
                 && self.leap(left.high, BEYOND * step)?
             {
@@ -494,7 +494,7 @@ impl Stepper for Taylor {
         self.system.check_finite(&self.state)
     }
 
-    fn settle(&mut self, state: &State) {
+    fn replace_state(&mut self, state: &State) {
         self.state.copy_from(state);
     }
 
@@ -509,13 +509,13 @@ impl Stepper for Taylor {
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
         out.copy_from(&self.state);
         if time != self.state.time {
-            self.tell(Double::written(time), out)?;
+            self.tell(DoubleDouble::written(time), out)?;
             out.time = time;
         }
         Ok(())
     }
 
-    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), Fault> {
         out.copy_from(&self.state);
         if time != self.state.exact_time() {
             self.tell(time, out)?;

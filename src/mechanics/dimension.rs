@@ -8,7 +8,8 @@
 use std::collections::BTreeMap;
 
 use super::Equations;
-use crate::expr::{Expr, Node, Number, Symbol};
+use crate::expr::{Expr, Node, Symbol};
+use crate::num::Number;
 use crate::model::Model;
 
 /// Exponents of base units, in halves: the units of Gauss have them.

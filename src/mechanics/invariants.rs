@@ -68,16 +68,16 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         name_observable(equations, model, observable, released);
     }
     for i in 0..equations.conserved.len() {
-        if is_struck(equations, model, equations.conserved[i].expression) {
+        if is_changed_by_impulse(equations, model, equations.conserved[i].expression) {
             let reason = Box::new(equations.conserved[i].reason.clone());
-            equations.conserved[i].reason = Reason::BetweenBlows(reason);
+            equations.conserved[i].reason = Reason::BetweenImpulses(reason);
         }
     }
 }
 
-/// Whether a blow of the file may change a quantity.
-fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
-    let struck = |i: usize| model.impulses.iter().any(|blow| blow.change[i] != Expr::ZERO);
+/// Whether an impulse of the file may change a quantity.
+fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -> bool {
+    let after_impulse = |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
     let depends = |i: usize| {
         let c = &equations.coordinates[i];
         let moved = if model.is_poisson() {
@@ -87,7 +87,7 @@ fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
         };
         equations.pool.depends_on_any(quantity, &moved)
     };
-    (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
+    (0..equations.coordinates.len()).any(|i| after_impulse(i) && depends(i))
 }
 
 /// Whether nothing but the law acts: no forces, no dissipation, no constraints.

@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 
 use super::equations::{Conserved, Equations, Reason};
-use crate::expr::{Expr, Number, Zero};
+use crate::expr::{Expr, Zero};
+use crate::num::Number;
 use crate::model::{Coordinate, Model};
 
 /// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.

@@ -10,7 +10,8 @@ use std::path::Path;
 use rustix::fs::{Mode, OFlags};
 
 use crate::file;
-use crate::preset::{Catalog, Document, NotFound};
+use crate::preset::{Catalog, NotFound};
+use crate::diagnostic::Document;
 
 /// Opens a file to be locked, and makes it where there is none.
 ///

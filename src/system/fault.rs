@@ -53,7 +53,7 @@ pub enum FaultKind {
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
     StepUnderflow(f64),
-    /// The clock has no digits for the next step or blow; the distance of two times it can show.
+    /// The clock has no digits for the next step or impulse; the distance of two times it can show.
     ClockStands(f64),
     /// This impulse is to strike again after an interval that is none: zero, negative or not finite.
     NoInterval(String, f64),

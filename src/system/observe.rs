@@ -1,38 +1,38 @@
 //! Looking at a state: every channel's value.
 
 use super::legendre::Legendre;
-use super::value::Values;
+use super::value::Evaluator;
 use super::{Fault, Form, State, System};
-use crate::expr::{Double, Real};
+use crate::num::{DoubleDouble, Real};
 use std::sync::Arc;
 
 /// Looks at the states of one system at one set of parameters; holds its own registers.
 #[derive(Clone, Debug)]
 pub struct Observer {
     system: System,
-    precise: Values<Double>,
-    drawn: Values<f64>,
-    energy: Values<f64>,
+    precise: Evaluator<DoubleDouble>,
+    drawn: Evaluator<f64>,
+    energy: Evaluator<f64>,
     legendre: Legendre,
     /// The state looked at last, in the native form: kept where momenta alone do not tell it.
     near: Option<State>,
     parameters: Vec<f64>,
-    inputs: Vec<Double>,
+    inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
 }
 
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = system.driven() + 2;
+        let inputs = system.driven_len() + 2;
         let mut observer = Observer {
-            precise: Values::new(Arc::clone(&watch.precise)),
-            drawn: Values::new(Arc::clone(&watch.drawn)),
-            energy: Values::new(system.energy_program()),
+            precise: Evaluator::new(Arc::clone(&watch.precise)),
+            drawn: Evaluator::new(Arc::clone(&watch.drawn)),
+            energy: Evaluator::new(system.energy_program()),
             legendre: system.legendre(&system.inputs(parameters)),
             near: None,
             parameters: Vec::new(),
-            inputs: vec![Double::ZERO; inputs],
+            inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
             system,
         };
@@ -143,11 +143,11 @@ impl Observer {
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {
-        let mut state = [Double::from(position), Double::from(rate)];
+        let mut state = [DoubleDouble::from(position), DoubleDouble::from(rate)];
         if form != self.system.form() {
             let target = [Some(state[1])];
-            state[1] = Double::ZERO;
-            self.legendre.solve(Double::from(time), &mut state, &target).ok()?;
+            state[1] = DoubleDouble::ZERO;
+            self.legendre.solve(DoubleDouble::from(time), &mut state, &target).ok()?;
         }
         self.energy.evaluate(time, &[position, state[1].high]).ok()?;
         Some(self.energy.output(0))

@@ -10,7 +10,7 @@ use super::glyphs::Glyphs;
 use super::layout::split_rows;
 use super::number::{self, fitted, readable};
 use super::plot::{Marker, Scale};
-use super::strip::History;
+use super::sparkline::History;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::words;
@@ -193,18 +193,18 @@ fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
 }
 
-/// The word for the verdict; behind it the sign of what happens, where blows have changed the value.
+/// The word for the verdict; behind it the sign of what happens, where impulses have changed the value.
 fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let (text, role) = word(&gauge.verdict);
     let used = canvas.left(area, role, text);
-    if given_by_blows(gauge).is_some() && used + 2 <= area.width {
+    if given_by_impulses(gauge).is_some() && used + 2 <= area.width {
         let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
         canvas.left(columns(area, used + 1, 1), Role::Warn, &sign);
     }
 }
 
-/// By how much blows have changed the value since the reference was taken, if by more than rounding.
-fn given_by_blows(gauge: &Gauge) -> Option<f64> {
+/// By how much impulses have changed the value since the reference was taken, if by more than rounding.
+fn given_by_impulses(gauge: &Gauge) -> Option<f64> {
     let given = gauge.reference - gauge.initial;
     (given.abs() > ROUNDING * gauge.scale).then_some(given)
 }
@@ -215,10 +215,10 @@ const ROUNDING: f64 = 1e-12;
 /// What there is to say of a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     let sentence = sentence(&gauge.verdict);
-    match given_by_blows(gauge) {
+    match given_by_impulses(gauge) {
         None => sentence,
         Some(given) => {
-            format!("{sentence}; blows have changed it by {}", readable(given, 6, glyphs).trim())
+            format!("{sentence}; impulses have changed it by {}", readable(given, 6, glyphs).trim())
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Marks of what happened to a motion: one sign on a plot for each event and blow that has room.
+//! Marks of what happened to a motion: one sign on a plot for each event and impulse that has room.
 //!
 //! In: happenings and the trail. Out: points of a plot with names, a legend. Never here: what an event does.
 
@@ -12,7 +12,7 @@ use super::theme::Role;
 /// The newest happenings are marked; of very many the older ones are not.
 const MOST: usize = 256;
 
-/// More names than this are not told in a heading.
+/// More names than this are not reported in a heading.
 const NAMES: usize = 3;
 
 /// Cells between two marks.
@@ -30,7 +30,7 @@ impl<'a> Marks<'a> {
     }
 
     /// Where a plot's two quantities were, read from a row of the trail (time, then the channels), when something
-    /// happened; just after it, if it was a blow.
+    /// happened; just after it, if it was an impulse.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
         let mut points = Vec::new();
         let mut rows = q.snapshot.trail.rows().rev().peekable();

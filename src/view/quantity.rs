@@ -2,7 +2,7 @@
 //!
 //! In: a channel of the system and the snapshot. Out: text and scales. Never here: cells.
 
-use super::Look;
+use super::RenderStyle;
 use super::plot::ticks::nice_range;
 use super::plot::{Axis, Scale};
 use crate::app::{Lab, Lens};
@@ -15,17 +15,17 @@ use crate::model::Point;
 pub(super) struct Quantities<'a> {
     pub(super) lab: &'a Lab,
     pub(super) snapshot: &'a Snapshot,
-    pub(super) look: &'a Look,
+    pub(super) look: &'a RenderStyle,
 }
 
 impl<'a> Quantities<'a> {
     /// The quantities of a lab that has been seen in motion.
-    pub(super) fn of(lab: &'a Lab, look: &'a Look) -> Option<Self> {
+    pub(super) fn of(lab: &'a Lab, look: &'a RenderStyle) -> Option<Self> {
         Some(Self { lab, snapshot: lab.seen()?, look })
     }
 
     /// The quantities as a snapshot has them, if it fits the system.
-    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a Look) -> Option<Self> {
+    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a RenderStyle) -> Option<Self> {
         lab.fits(snapshot).then_some(Self { lab, snapshot, look })
     }
 

@@ -4,7 +4,7 @@
 
 mod body;
 mod scene;
-mod seat;
+mod reference_frame;
 
 use ratatui::layout::Rect;
 
@@ -13,12 +13,12 @@ use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::app::{Eye, Lab};
-use crate::expr::portable;
+use crate::num::math;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use body::Outline;
 use scene::Scene;
-use seat::Seat;
+use reference_frame::ReferenceFrame;
 
 /// The layers of the picture, the lowest first.
 const GROUND: u8 = 0;
@@ -56,11 +56,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         return;
     }
     let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
-    let seat = Seat::of(q, eye.frame);
-    let scene = Scene::of(q, *eye, seat.as_ref());
+    let reference_frame = ReferenceFrame::of(q, eye.frame);
+    let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist = Artist { raster, frame, camera, q, seat, tracks: 0, bodies: 0 };
+    let mut artist = Artist { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
@@ -108,7 +108,7 @@ struct Artist<'a> {
     frame: Frame,
     camera: Camera,
     q: &'a Quantities<'a>,
-    seat: Option<Seat>,
+    reference_frame: Option<ReferenceFrame>,
     tracks: usize,
     bodies: usize,
 }
@@ -160,13 +160,13 @@ impl Artist<'_> {
     /// Where a point of a shape is now, as seen from the frame.
     fn point(&self, point: &Point) -> [f64; 3] {
         let r = self.q.point(point);
-        self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+        self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
     }
 
     /// A direction of a shape now, as seen from the frame.
     fn direction(&self, direction: &Point) -> [f64; 3] {
         let v = self.q.point(direction);
-        self.seat.as_ref().map_or(v, |seat| seat.direction(&self.q.snapshot.values, v))
+        self.reference_frame.as_ref().map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
     }
 
     /// Draws the apparent forces on the particles of the frame, and says which of them there are.
@@ -221,7 +221,7 @@ impl Artist<'_> {
     fn spring(&mut self, from: [f64; 3], to: [f64; 3], pen: &Pen) {
         let (a, b) = (self.flat(from), self.flat(to));
         let along = [b[0] - a[0], b[1] - a[1]];
-        let length = portable::hypot(along[0], along[1]);
+        let length = math::hypot(along[0], along[1]);
         let width =
             0.025 * (self.frame.x.hi - self.frame.x.lo).min(self.frame.y.hi - self.frame.y.lo);
         let across = [-along[1] / length * width, along[0] / length * width];
@@ -262,7 +262,7 @@ impl Artist<'_> {
         let at = self.q.point(at);
         let place = |own: [f64; 3]| {
             let r = [0, 1, 2].map(|k| at[k] + own[k]);
-            self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+            self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
         };
         let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
             lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
@@ -288,7 +288,7 @@ impl Artist<'_> {
         // Each past point is seen from the frame as it stood then: the row is that of its own time.
         let past = rows.map(|row| {
             let r = sources.map(|source| source.read(row));
-            self.flat(self.seat.as_ref().map_or(r, |seat| seat.point(row, r)))
+            self.flat(self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(row, r)))
         });
         let mut points: Vec<[f64; 2]> = past.collect();
         points.push(self.flat(self.point(point)));

@@ -225,12 +225,12 @@ y = { initial = 0.5, velocity = 0.7 }
 L = "1/2*((1 + y^2)*x'^2 + y'^2) - 1/4*x^2"
 "#;
     let mut both = crate::experiment::build(ROSENBERG, |_| ());
-    let mut twin = crate::experiment::build(short, |_| ());
+    let mut vakonomic = crate::experiment::build(short, |_| ());
     for time in [0.5, 3.0, 12.0] {
         run(&mut both, time);
-        run(&mut twin, time);
-        assert!((value(&both, "twin x") - value(&twin, "x")).abs() < 2e-14, "x at {time}");
-        assert!((value(&both, "twin y") - value(&twin, "y")).abs() < 2e-14, "y at {time}");
+        run(&mut vakonomic, time);
+        assert!((value(&both, "twin x") - value(&vakonomic, "x")).abs() < 2e-14, "x at {time}");
+        assert!((value(&both, "twin y") - value(&vakonomic, "y")).abs() < 2e-14, "y at {time}");
         assert!(value(&both, "twin z'").abs() < 1e-14, "the twin keeps the constraint, too");
     }
     // and it is wrong: the right motion has y'' = 0
@@ -263,7 +263,7 @@ expression = "other_x"
 }
 
 #[test]
-fn what_is_said_twice_is_told_and_shared_evenly() {
+fn what_is_said_twice_is_reported_and_shared_evenly() {
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");
     constrain(&mut model, &[("rod", "x^2 + y^2 - 1"), ("twin", "2*x^2 + 2*y^2 - 2")]);
     start(&mut model, &[("sin(2)", Some("0")), ("-cos(2)", None)]);

@@ -4,7 +4,7 @@ mod cancel;
 mod commands;
 mod export;
 mod gauges;
-mod moment;
+mod checkpoint;
 mod record;
 mod verdicts;
 

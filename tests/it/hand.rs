@@ -7,7 +7,8 @@ use std::time::Duration;
 use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::{Catalog, Document};
+use phaselab::preset::Catalog;
+use phaselab::diagnostic::Document;
 use phaselab::system::{ChannelKind, Given, System};
 use phaselab::view::theme::PALETTES;
 
@@ -173,8 +174,8 @@ pub(crate) fn key(word: &str) -> Key {
         "Space" => Code::Char(' '),
         "F1" => Code::F(1),
         word => {
-            let mut letters = word.chars();
-            let (Some(letter), None) = (letters.next(), letters.next()) else {
+            let mut messages = word.chars();
+            let (Some(letter), None) = (messages.next(), messages.next()) else {
                 panic!("no key is called {word}")
             };
             Code::Char(letter)

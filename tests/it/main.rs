@@ -13,7 +13,7 @@ mod experiment;
 mod expr;
 mod expr_parse;
 mod hand;
-mod happenings;
+mod occurrences;
 mod layers;
 mod mechanics;
 mod methods;

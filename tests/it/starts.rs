@@ -99,7 +99,7 @@ fn parallelogram(law: &str) -> String {
 }
 
 #[test]
-fn a_singular_configuration_that_is_passed_is_told_each_time() {
+fn a_singular_configuration_that_is_passed_is_reported_each_time() {
     let free = "1/2*(a'^2 + b'^2 + p'^2)";
     for method in ["taylor", "dop853", "rk4"] {
         let mut bars = build(&parallelogram(free), by(method));

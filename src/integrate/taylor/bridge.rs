@@ -9,7 +9,7 @@
 //! where the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential
 //! Equations II, IV.5.
 
-use crate::expr::{Double, Real};
+use crate::num::{DoubleDouble, Real};
 use crate::system::{ExactRates, Fault, FaultKind, State};
 
 /// The part of the wanted step that is tried first, and the part that is left after each failure.
@@ -35,15 +35,15 @@ const PART: f64 = 0.125;
 
 /// The three stages: their places, weights, and what each takes of each.
 struct Scheme {
-    at: [Double; 3],
-    weight: [Double; 3],
-    from: [[Double; 3]; 3],
+    at: [DoubleDouble; 3],
+    weight: [DoubleDouble; 3],
+    from: [[DoubleDouble; 3]; 3],
 }
 
 impl Scheme {
     fn new() -> Scheme {
-        let part = |n: f64, d: f64| Double::from(n) / d;
-        let root = Real::sqrt(Double::from(15.0));
+        let part = |n: f64, d: f64| DoubleDouble::from(n) / d;
+        let root = Real::sqrt(DoubleDouble::from(15.0));
         let half = part(1.0, 2.0);
         Scheme {
             at: [half - root / 10.0, half, half + root / 10.0],
@@ -60,10 +60,10 @@ impl Scheme {
 /// Takes such steps.
 pub(super) struct Bridge {
     scheme: Scheme,
-    stages: [Vec<Double>; 3],
-    numbers: Vec<Double>,
-    end: Vec<Double>,
-    two: Vec<Double>,
+    stages: [Vec<DoubleDouble>; 3],
+    numbers: Vec<DoubleDouble>,
+    end: Vec<DoubleDouble>,
+    two: Vec<DoubleDouble>,
 }
 
 impl std::fmt::Debug for Bridge {
@@ -74,7 +74,7 @@ impl std::fmt::Debug for Bridge {
 
 impl Bridge {
     pub(super) fn new(len: usize) -> Bridge {
-        let blank = || vec![Double::ZERO; len];
+        let blank = || vec![DoubleDouble::ZERO; len];
         Bridge {
             scheme: Scheme::new(),
             stages: [blank(), blank(), blank()],
@@ -91,7 +91,7 @@ impl Bridge {
         rates: &mut ExactRates,
         from: &State,
         (wanted, least): (f64, f64),
-        toward: Option<&[Double]>,
+        toward: Option<&[DoubleDouble]>,
         out: &mut State,
     ) -> Result<Option<f64>, Fault> {
         let (mut step, mut wanted) = (wanted * FIRST, wanted);
@@ -104,7 +104,7 @@ impl Bridge {
                 step *= AGAIN;
                 continue;
             }
-            self.put(from, Double::from(step), out);
+            self.put(from, DoubleDouble::from(step), out);
             found = Some(step);
             if step.abs() >= SHORT * wanted.abs() {
                 break;
@@ -119,8 +119,8 @@ impl Bridge {
         &mut self,
         rates: &mut ExactRates,
         from: &State,
-        after: Double,
-        toward: Option<&[Double]>,
+        after: DoubleDouble,
+        toward: Option<&[DoubleDouble]>,
         out: &mut State,
     ) -> Result<(), Fault> {
         self.take_two(rates, from, after, toward)?;
@@ -128,7 +128,7 @@ impl Bridge {
         Ok(())
     }
 
-    fn put(&self, from: &State, after: Double, out: &mut State) {
+    fn put(&self, from: &State, after: DoubleDouble, out: &mut State) {
         out.copy_from(from);
         for (i, &x) in self.two.iter().enumerate() {
             out.set(i, x);
@@ -144,14 +144,14 @@ impl Bridge {
         from: &State,
         step: f64,
         wanted: f64,
-        toward: Option<&[Double]>,
+        toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, Fault> {
         let start = numbers_of(from);
-        if !self.take(rates, from.exact_time(), &start, Double::from(step), toward)? {
+        if !self.take(rates, from.exact_time(), &start, DoubleDouble::from(step), toward)? {
             return Ok(false);
         }
         let whole = self.end.clone();
-        if !self.take_two(rates, from, Double::from(step), toward)? {
+        if !self.take_two(rates, from, DoubleDouble::from(step), toward)? {
             return Ok(false);
         }
         Ok((0..whole.len()).all(|i| {
@@ -165,8 +165,8 @@ impl Bridge {
         &mut self,
         rates: &mut ExactRates,
         from: &State,
-        step: Double,
-        toward: Option<&[Double]>,
+        step: DoubleDouble,
+        toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, Fault> {
         let (time, first) = (from.exact_time(), step * PART);
         if !self.take(rates, time, &numbers_of(from), first, toward)? {
@@ -182,17 +182,17 @@ impl Bridge {
     fn take(
         &mut self,
         rates: &mut ExactRates,
-        time: Double,
-        start: &[Double],
-        step: Double,
-        toward: Option<&[Double]>,
+        time: DoubleDouble,
+        start: &[DoubleDouble],
+        step: DoubleDouble,
+        toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, Fault> {
         let outcome = rates.evaluate(time, start);
         let known = outcome.is_ok();
         for i in 0..start.len() {
-            let rate = if known { rates.rate(i) } else { Double::ZERO };
+            let rate = if known { rates.rate(i) } else { DoubleDouble::ZERO };
             let rate = toward.map_or(rate, |toward| toward[i]);
-            let rate = if rate.is_finite() { rate } else { Double::ZERO };
+            let rate = if rate.is_finite() { rate } else { DoubleDouble::ZERO };
             for stage in &mut self.stages {
                 stage[i] = rate;
             }
@@ -204,7 +204,7 @@ impl Bridge {
             for s in 0..3 {
                 for (i, &x) in start.iter().enumerate() {
                     let sum =
-                        (0..3).fold(Double::ZERO, |sum, j| sum + from[s][j] * self.stages[j][i]);
+                        (0..3).fold(DoubleDouble::ZERO, |sum, j| sum + from[s][j] * self.stages[j][i]);
                     self.numbers[i] = x + step * sum;
                 }
                 match rates.evaluate(time + step * at[s], &self.numbers) {
@@ -233,13 +233,13 @@ impl Bridge {
         }
         for (i, &x) in start.iter().enumerate() {
             let sum =
-                (0..3).fold(Double::ZERO, |sum, s| sum + self.scheme.weight[s] * self.stages[s][i]);
+                (0..3).fold(DoubleDouble::ZERO, |sum, s| sum + self.scheme.weight[s] * self.stages[s][i]);
             self.end[i] = x + step * sum;
         }
         Ok(settled && self.end.iter().all(|x| x.is_finite()))
     }
 }
 
-fn numbers_of(state: &State) -> Vec<Double> {
+fn numbers_of(state: &State) -> Vec<DoubleDouble> {
     (0..state.values.len()).map(|i| state.exact(i)).collect()
 }

@@ -5,7 +5,7 @@
 //! rates with which it sets out. It stays where a small velocity in whatever direction loses
 //! energy; that is asked of many directions, and of the one in which everything else pulls.
 
-use crate::expr::{Double, Real};
+use crate::num::{DoubleDouble, Real};
 use crate::system::{ExactRates, Fault, FaultKind, Form, State, System};
 
 /// Velocities below this part of what a typical step changes them by count as zero where friction
@@ -33,9 +33,9 @@ const ROUNDS: usize = 200;
 /// What comes of rest.
 pub(super) enum Rest {
     /// It stays so, in this state; with the rates of what is carried along.
-    Stays(State, Vec<Double>),
+    Stays(State, Vec<DoubleDouble>),
     /// It sets out from this state, with these rates.
-    SetsOut(State, Vec<Double>),
+    SetsOut(State, Vec<DoubleDouble>),
     /// Not at rest, or not to be said.
     Unknown,
 }
@@ -54,7 +54,7 @@ pub(super) fn of(
     }
     let mut still = state.clone();
     for i in n..2 * n {
-        still.set(i, Double::ZERO);
+        still.set(i, DoubleDouble::ZERO);
     }
     let mut asked = Asked { system, rates, parameters, still, n, size: 1.0 };
     // the strength of what acts there, asked at some direction
@@ -101,7 +101,7 @@ pub(super) fn of(
         direction = next;
     }
     let Some(accelerations) = asked.accelerations(&direction)? else { return Ok(Rest::Unknown) };
-    let mut toward = vec![Double::ZERO; state.values.len()];
+    let mut toward = vec![DoubleDouble::ZERO; state.values.len()];
     toward[n..2 * n].copy_from_slice(&accelerations);
     Ok(Rest::SetsOut(asked.still, toward))
 }
@@ -119,25 +119,25 @@ impl Asked<'_> {
     /// The still state with a small velocity in a direction.
     fn moving(&self, direction: &[f64]) -> State {
         let length =
-            direction.iter().map(|x| Double::product(*x, *x)).fold(Double::ZERO, |a, b| a + b);
+            direction.iter().map(|x| DoubleDouble::product(*x, *x)).fold(DoubleDouble::ZERO, |a, b| a + b);
         let length = Real::sqrt(length);
         let mut state = self.still.clone();
         for (i, &x) in direction.iter().enumerate() {
-            state.set(self.n + i, Double::from(x) / length * self.size);
+            state.set(self.n + i, DoubleDouble::from(x) / length * self.size);
         }
         state
     }
 
     /// The accelerations there, if they are finite.
-    fn accelerations(&mut self, direction: &[f64]) -> Result<Option<Vec<Double>>, Fault> {
+    fn accelerations(&mut self, direction: &[f64]) -> Result<Option<Vec<DoubleDouble>>, Fault> {
         let state = self.moving(direction);
-        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         match self.rates.evaluate(state.exact_time(), &numbers) {
             Ok(()) => {}
             Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
             Err(_) => return Ok(None),
         }
-        let found: Vec<Double> = (self.n..2 * self.n).map(|i| self.rates.rate(i)).collect();
+        let found: Vec<DoubleDouble> = (self.n..2 * self.n).map(|i| self.rates.rate(i)).collect();
         Ok(found.iter().all(|x| x.is_finite()).then_some(found))
     }
 
@@ -146,8 +146,8 @@ impl Asked<'_> {
     fn carried(mut self, some: &[f64]) -> Result<Rest, Fault> {
         let moving = self.system.moving();
         let len = self.still.values.len();
-        let mut rates = vec![Double::ZERO; len];
-        let mut looks = [vec![Double::ZERO; len], vec![Double::ZERO; len]];
+        let mut rates = vec![DoubleDouble::ZERO; len];
+        let mut looks = [vec![DoubleDouble::ZERO; len], vec![DoubleDouble::ZERO; len]];
         for look in &mut looks {
             if self.accelerations(some)?.is_none() {
                 return Ok(Rest::Unknown);
@@ -161,7 +161,7 @@ impl Asked<'_> {
             let (before, after) = (looks[0][i], looks[1][i]);
             // what goes to zero with the velocity is zero
             let falls = after.high.abs() <= 2.0 * SMALLER * before.high.abs();
-            rates[i] = if falls { Double::ZERO } else { after };
+            rates[i] = if falls { DoubleDouble::ZERO } else { after };
         }
         let known = rates.iter().all(|x| x.is_finite());
         Ok(if known { Rest::Stays(self.still, rates) } else { Rest::Unknown })
@@ -173,7 +173,7 @@ impl Asked<'_> {
         let moving = self.moving(direction);
         let momenta = self.system.convert(&moving, Form::Momentum, self.parameters)?;
         let still = self.system.convert(&self.still, Form::Momentum, self.parameters)?;
-        let gain = (0..self.n).fold(Double::ZERO, |sum, i| {
+        let gain = (0..self.n).fold(DoubleDouble::ZERO, |sum, i| {
             sum + (momenta.exact(self.n + i) - still.exact(self.n + i)) * accelerations[i]
         });
         Ok(Some(gain.high))
@@ -192,7 +192,7 @@ fn all_directions(n: usize) -> Vec<Vec<f64>> {
         for j in 0..i {
             for k in 0..BETWEEN {
                 let angle = std::f64::consts::TAU * (k as f64 + 0.5) / BETWEEN as f64;
-                let (sine, cosine) = crate::expr::portable::sin_cos(angle);
+                let (sine, cosine) = crate::num::math::sin_cos(angle);
                 let mut two = vec![0.0; n];
                 (two[i], two[j]) = (sine, cosine);
                 all.push(two);

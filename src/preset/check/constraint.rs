@@ -10,7 +10,7 @@ use super::names::tell_twice;
 use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
 use crate::model::{Allowed, Constraint, Scope, multiplier_name};
 use crate::preset::draft::{Draft, DraftConstraint, Formula};
-use crate::preset::mistake::Mistake;
+use crate::diagnostic::Diagnostic;
 
 /// How many nodes may be walked to prove all constraints of a file linear: each of a constraint
 /// once for each velocity in it.
@@ -31,7 +31,7 @@ impl Check<'_> {
             } else if let Some(first) = first {
                 let message =
                     format!("a constraint before this one has the multiplier `{multiplier}` too");
-                let mistake = Mistake::error(name.span(), message).with_help("rename one of them");
+                let mistake = Diagnostic::error(name.span(), message).with_help("rename one of them");
                 self.mistakes.push(mistake.with_also(first.span(), "the first one"));
             }
             taken.push((multiplier, written));
@@ -56,7 +56,7 @@ impl Check<'_> {
             let law = if self.model.is_poisson() { "[poisson]" } else { "[hamiltonian]" };
             let message = format!("constraints hold a Lagrangian; beside {law} there are none");
             let help = "give the law in [lagrangian], or leave the constrained coordinate out";
-            self.mistakes.push(Mistake::error(first.place.clone(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(first.place.clone(), message).with_help(help));
             return;
         }
         let mut scope = Scope::new(&self.model, Allowed::Lagrangian, "a constraint");
@@ -140,7 +140,7 @@ impl Check<'_> {
         };
         if !binds {
             let mistake =
-                Mistake::error(formula.span(), format!("{called} binds no coordinate or velocity"));
+                Diagnostic::error(formula.span(), format!("{called} binds no coordinate or velocity"));
             self.mistakes.push(mistake.with_help("what is to vanish depends on where things are"));
             return None;
         }
@@ -170,7 +170,7 @@ impl Check<'_> {
         let message = format!("{called} is not linear {culprit}");
         let help = "a constraint is a sum of velocities, each times a function of q and t, and of \
                     such a function";
-        self.mistakes.push(Mistake::error(formula.span(), message).with_help(help));
+        self.mistakes.push(Diagnostic::error(formula.span(), message).with_help(help));
     }
 }
 

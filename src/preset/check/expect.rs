@@ -3,15 +3,14 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Expr, nearest};
-use crate::model::{
-    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics,
-    Place, Scope,
-};
+use crate::expr::Expr;
+use crate::diagnostic::nearest;
+use crate::model::{Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope};
+use crate::diagnostic::SourceRange;
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };
-use crate::preset::mistake::Mistake;
+use crate::diagnostic::Diagnostic;
 use crate::printable::number;
 
 /// The absolute tolerance of a claimed number where the file gives none.
@@ -116,7 +115,7 @@ impl Check<'_> {
             None => format!("what may happen is {}", known.join(", ")),
         };
         let message = format!("there is no event or impulse `{}`", name.get_ref());
-        self.mistakes.push(Mistake::error(name.span(), message).with_help(help));
+        self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }
 
@@ -182,14 +181,14 @@ impl Check<'_> {
                     }
                     None => "name `energy`, a momentum p_..., or an observable".to_owned(),
                 };
-                self.mistakes.push(Mistake::error(claim.span(), message).with_help(help));
+                self.mistakes.push(Diagnostic::error(claim.span(), message).with_help(help));
             }
         }
         None
     }
 
     /// The Casimirs of the file.
-    fn casimirs_by_name(&self) -> &[(String, Expr, Place)] {
+    fn casimirs_by_name(&self) -> &[(String, Expr, SourceRange)] {
         match &self.model.mechanics {
             Mechanics::Poisson { casimirs, .. } => casimirs,
             _ => &[],

@@ -4,10 +4,11 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::tell_twice;
-use crate::expr::{Expr, nearest};
+use crate::expr::Expr;
+use crate::diagnostic::nearest;
 use crate::model::{Allowed, Frame, Point, Scope};
 use crate::preset::draft::{DraftFrame, Formulas};
-use crate::preset::mistake::Mistake;
+use crate::diagnostic::Diagnostic;
 
 impl Check<'_> {
     /// The frames of the file.
@@ -25,7 +26,7 @@ impl Check<'_> {
             if let (Some(place), None) = (&frame.attitude, &self.model.attitude) {
                 let message = "there is no [attitude] for this frame to turn with";
                 let help = "say how the body stands in [attitude]";
-                self.mistakes.push(Mistake::error(place.clone(), message).with_help(help));
+                self.mistakes.push(Diagnostic::error(place.clone(), message).with_help(help));
             }
             let axis = frame.axis.as_ref().map(|f| self.axis(f, &mut fixed));
             let angle = frame.angle.as_ref().map(|f| self.formula(&mut scope, "a frame", f));
@@ -76,7 +77,7 @@ impl Check<'_> {
                 None => format!("the frames are {}", known.join(", ")),
             };
             let message = format!("there is no frame `{}`", name.get_ref());
-            self.mistakes.push(Mistake::error(name.span(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found
     }

@@ -5,7 +5,7 @@
 //! Never here: axes, or what the curves mean.
 
 mod cloud;
-mod hand;
+mod polyline;
 mod letter;
 
 use ratatui::buffer::Buffer;
@@ -14,10 +14,10 @@ use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
 use super::scale::{Frame, Scale};
-use crate::expr::portable;
+use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
-use hand::Hand;
+use polyline::Polyline;
 use letter::letter;
 
 /// More cells than this in a row or column are not drawn; no terminal has them.
@@ -180,7 +180,7 @@ impl Raster {
         points: impl IntoIterator<Item = [f64; 2]>,
         pen: &Pen,
     ) {
-        let mut hand = Hand::new(self, frame);
+        let mut hand = Polyline::new(self, frame);
         for point in points {
             hand.to(point, pen);
         }
@@ -194,7 +194,7 @@ impl Raster {
         }
         let pens: Vec<Pen> =
             ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
-        let mut hand = Hand::new(self, frame);
+        let mut hand = Polyline::new(self, frame);
         for (index, point) in points.iter().enumerate() {
             let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
             hand.fade(age, ramp.len());
@@ -219,7 +219,7 @@ impl Raster {
         let sides = 128;
         let corner = |side: i32| {
             let (sin, cos) =
-                portable::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
+                math::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
             [x + radius * cos, y + radius * sin]
         };
         self.polyline(frame, (0..=sides).map(corner), pen);

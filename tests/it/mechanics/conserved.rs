@@ -3,7 +3,7 @@
 
 use phaselab::mechanics::{self, Class, Equations, Reason};
 use phaselab::model::Model;
-use phaselab::preset::Document;
+use phaselab::diagnostic::Document;
 
 fn derived(text: &str) -> (Model, Equations) {
     let document = Document::new("system.toml", text);

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
+use phaselab::app::{Act, App, Event, Hold, Overlay, Page, Pane, Plot, Spot, ValueId};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::{spot, spots};
+use phaselab::view::{hit_test, spots};
 use ratatui::layout::Rect;
 
 use super::{find, rich, rows, screen};
@@ -33,7 +33,7 @@ fn places(app: &App, size: (u16, u16), is: impl Fn(&Spot) -> bool) -> Vec<(u16, 
 fn act(real: &mut Real, size: (u16, u16), act: Act, place: (u16, u16)) {
     let Some(spot) = at(&real.app, size, place) else { return };
     let effects = real.app.update(Event::Mouse(act, spot));
-    real.obey(effects);
+    real.execute(effects);
     real.look();
 }
 
@@ -99,9 +99,9 @@ fn every_pane_answers_in_its_own_frame() {
             let belongs = |spot: &Spot| match *spot {
                 Spot::Pane(pane) => pane == focus,
                 Spot::Plot { index, .. } | Spot::Space { index, .. } => focus == Pane::Plot(index),
-                Spot::Value(Target::Parameter(_)) => focus == Pane::Parameters,
-                Spot::Bar { target: Target::Parameter(_), .. } => focus == Pane::Parameters,
-                Spot::Value(Target::Initial(_)) => focus == Pane::Initial,
+                Spot::Value(ValueId::Parameter(_)) => focus == Pane::Parameters,
+                Spot::Bar { target: ValueId::Parameter(_), .. } => focus == Pane::Parameters,
+                Spot::Value(ValueId::Initial(_)) => focus == Pane::Initial,
                 Spot::Gauge(_) => focus == Pane::Gauges,
                 _ => false,
             };
@@ -192,11 +192,11 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let mut real = Real::of("pendulum");
     let before = real.seen().parameters.clone();
     let bar = places(&real.app, size, |spot| {
-        matches!(spot, Spot::Bar { target: Target::Parameter(1), .. })
+        matches!(spot, Spot::Bar { target: ValueId::Parameter(1), .. })
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Act::Press, bar[2]);
-    assert_eq!(real.app.hold, Some(Hold::Bar(Target::Parameter(1))));
+    assert_eq!(real.app.hold, Some(Hold::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Act::Drag, *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
@@ -205,7 +205,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     }
     // Beside the bar the knob stops at its end.
     act(&mut real, size, Act::Drag, (119, 0));
-    let (_, max, _) = real.lab().facts(Target::Parameter(1)).unwrap().range.unwrap();
+    let (_, max, _) = real.lab().facts(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Act::Release, (119, 0));
     assert_eq!(real.app.hold, None);
@@ -310,7 +310,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.lab().focus, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
-    assert!(matches!(real.app.over, Some(Over::Help { .. })));
+    assert!(matches!(real.app.over, Some(Overlay::Help { .. })));
     act(&mut real, size, Act::WheelDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");
@@ -329,13 +329,13 @@ fn clicks_do_what_stands_there() {
 fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
-    let value = Spot::Value(Target::Parameter(2));
+    let value = Spot::Value(ValueId::Parameter(2));
     let place = places(&real.app, size, |spot| *spot == value)[0];
     click(&mut real, size, place);
-    assert_eq!(real.lab().selected(), Some(Target::Parameter(2)));
+    assert_eq!(real.lab().selected(), Some(ValueId::Parameter(2)));
     assert!(real.app.over.is_none());
     click(&mut real, size, place);
-    assert!(matches!(&real.app.over, Some(Over::Field(_))));
+    assert!(matches!(&real.app.over, Some(Overlay::Field(_))));
 }
 
 #[test]
@@ -369,7 +369,7 @@ fn the_wheel_scrolls_text_and_lists() {
     let spot = at(&app, (80, 24), (20, 8)).unwrap();
     assert!(matches!(spot, Spot::Line(_)), "{spot:?}");
     app.update(Event::Mouse(Act::WheelDown, spot));
-    let Some(Over::Menu(menu)) = &app.over else { panic!("the palette is gone") };
+    let Some(Overlay::Menu(menu)) = &app.over else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
 
@@ -383,11 +383,11 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A knob that is held but not shown any more, and a command that cannot be meant.
-    app.hold = Some(Hold::Bar(Target::Parameter(99)));
+    app.hold = Some(Hold::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Act::Drag, Spot::Text));
     assert!(effects.is_empty());
-    let spot = Spot::Bar { target: Target::Parameter(99), value: f64::NAN };
+    let spot = Spot::Bar { target: ValueId::Parameter(99), value: f64::NAN };
     for act in [Act::Press, Act::Drag, Act::Release, Act::WheelDown] {
         let effects = app.update(Event::Mouse(act, spot));
         let harmless = |e: &phaselab::app::Effect| {

@@ -118,7 +118,7 @@ fn a_jump_of_a_parameter_keeps_momenta() {
 }
 
 #[test]
-fn a_singular_mass_matrix_is_told_with_its_place() {
+fn a_singular_mass_matrix_is_reported_with_its_place() {
     let (model, system) = compile(
         r#"
 title = "Spherical pendulum at its pole"

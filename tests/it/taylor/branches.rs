@@ -163,7 +163,7 @@ fn sides_are_chosen_before_a_series_is_judged() {
 }
 
 #[test]
-fn an_edge_without_a_limit_is_told_with_its_place() {
+fn an_edge_without_a_limit_is_reported_with_its_place() {
     let mut run = potential("1.0", "0.0", "sqrt(abs(x))");
     let fault = run.try_to(10.0).expect_err("the force grows beyond all bounds");
     assert!(matches!(fault.kind, FaultKind::Rough | FaultKind::StepUnderflow(_)), "{fault}");

@@ -162,7 +162,7 @@ fn what_is_felt_only_from_nearby_is_not_jumped_over() {
     );
     let state = run.to(100.0);
     assert!(state[0] < -40.0 && (state[1] + 1.0).abs() < 1e-15, "it is thrown back: {state:?}");
-    // and so with a blow that comes late
+    // and so with an impulse that comes late
     let mut run = Run::new(
         "title = \"A late push\"\n[coordinates]\nx = { initial = 0.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"exp(-(t - 100)^2)\" }\n",
     );

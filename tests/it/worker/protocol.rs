@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use phaselab::experiment::{Command, Progress, Snapshot, Status};
-use phaselab::worker::{Subject, Worker};
+use phaselab::worker::{Runnable, Worker};
 
 /// A subject that only counts.
 #[derive(Default)]
@@ -26,12 +26,12 @@ impl Counter {
     }
 }
 
-impl Subject for Counter {
+impl Runnable for Counter {
     fn set_epoch(&mut self, epoch: u64) {
         self.epoch = epoch;
     }
 
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::Play => self.running = true,
             Command::Pause => self.running = false,
@@ -185,7 +185,7 @@ fn a_panic_becomes_a_fault_and_the_worker_goes_on() {
 }
 
 #[test]
-fn a_command_that_panics_is_told_as_well() {
+fn a_command_that_panics_is_reported_as_well() {
     let mut worker = Worker::spawn(Counter::default()).expect("a thread");
     worker.tell(Command::Reference);
     let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Faulted(_)));
