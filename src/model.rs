@@ -17,7 +17,7 @@ use crate::expr::{Expr, Pool, Symbol};
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
 pub use claim::{
-    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, SourceRange,
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable
 };
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;

@@ -13,7 +13,7 @@ use super::editor::{Caret, Editor};
 use super::field::edit;
 use super::{Key, Loaded};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::preset::TEXT_LIMIT;
+use crate::diagnostic::TEXT_LIMIT;
 
 /// For how long typing rests before the text is checked.
 const REST: Duration = Duration::from_millis(150);
