@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use color_eyre::eyre::Result;
 use phaselab::app::{Code, Key, Mouse};
-use phaselab::shell::{Ending, Input, Pace, Screen, LabError, ScreenRequest, perform, report_panics};
+use phaselab::shell::{
+    Ending, Input, LabError, Pace, Screen, ScreenRequest, perform, report_panics,
+};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};

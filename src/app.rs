@@ -6,6 +6,7 @@
 //! A key goes through [`keymap::KEYS`] to an [`Action`]; `perform` carries it out.
 
 mod action;
+mod buffer;
 mod change;
 mod choose;
 mod edit;
@@ -14,12 +15,12 @@ mod event;
 mod field;
 mod fuzzy;
 mod history;
+mod impulse;
 mod key;
 pub mod keymap;
 mod lab;
 mod landscape;
 mod menu;
-mod rate;
 mod mouse;
 mod notification;
 mod palette;
@@ -29,18 +30,18 @@ mod plot;
 mod pointer;
 mod potential;
 mod prompt;
+mod rate;
 mod reading;
 mod saved;
-mod buffer;
 mod speed;
 mod spot;
-mod impulse;
 mod update;
 mod value;
 mod workbench;
 
 pub use action::{Action, Axes, Way};
-pub use edit::{Checked, SaveError, EditCommand};
+pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
+pub use edit::{Checked, EditCommand, SaveError};
 pub use editor::{Caret, Editor};
 pub use event::{Drawn, Effect, Event, LoadError, Loaded};
 pub use field::{Field, Purpose};
@@ -48,19 +49,18 @@ pub use fuzzy::Fit;
 pub use key::{Code, Key};
 pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
-pub use rate::RateMeter;
 pub use mouse::{Act, Mouse};
 pub use notification::Notification;
 pub use picker::Picker;
 pub use plot::{Eye, Lens, Plot};
 pub use potential::Potential;
 pub use prompt::Prompt;
+pub use rate::RateMeter;
 pub use reading::Reading;
 pub use saved::{Quantity, Saved, SavedPlot};
-pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
 pub use spot::{Hold, Spot};
 pub use update::LONGEST_PASTE;
-pub use value::{ValueInfo, ValueId};
+pub use value::{ValueId, ValueInfo};
 pub use workbench::Workbench;
 
 use serde::{Deserialize, Serialize};
@@ -224,7 +224,9 @@ impl App {
     /// Where keys hold now, the innermost place first.
     pub fn places(&self) -> &'static [Place] {
         match &self.over {
-            Some(Overlay::Help { .. } | Overlay::Message(_)) => chain([Place::Text, Place::Anywhere]),
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => {
+                chain([Place::Text, Place::Anywhere])
+            }
             Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),

@@ -4,15 +4,15 @@
 //! Never here: threads, clocks, terminals.
 
 mod attitude;
-mod event_log;
+mod checkpoint;
 mod command;
 mod deviation;
+mod event_log;
+mod execute;
 mod export;
 mod gauges;
 mod law;
-mod checkpoint;
 mod observed_motion;
-mod execute;
 mod prepared;
 mod recorder;
 mod residual;
@@ -23,26 +23,26 @@ mod trail;
 use std::sync::Arc;
 
 use crate::cancel::Cancel;
-use crate::num::math;
 use crate::integrate::Stepping;
 use crate::mechanics::Equations;
 use crate::model::Model;
+use crate::num::math;
 use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
-pub use event_log::{EventLog, EventCount};
+pub use checkpoint::{Changed, Checkpoint, MotionState, Named, Past, Reference};
 pub use command::Command;
+pub use event_log::{EventCount, EventLog};
 pub use export::Export;
-pub use checkpoint::{Changed, Checkpoint, Named, Past, Reference, MotionState};
-pub use prepared::{Prepared, PrepareError};
+pub use prepared::{PrepareError, Prepared};
 pub use setup::{MethodNotFound, Setup, choose_method, with_given};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
+use execute::short;
 use gauges::{Gauges, Present};
 use observed_motion::ObservedMotion;
-use execute::short;
 use recorder::Recorder;
 
 /// A system in motion, with its gauges and its recorded past.

@@ -6,7 +6,6 @@
 mod attitude;
 mod bracket;
 mod conservation;
-mod vakonomic;
 mod constrain;
 mod dimension;
 mod equations;
@@ -17,12 +16,13 @@ mod lagrange;
 mod legendre;
 mod linear;
 mod modulo;
-mod sampling;
 mod observe;
 mod poisson;
-mod rigid_body;
 mod poisson_structure;
+mod rigid_body;
+mod sampling;
 mod symmetry;
+mod vakonomic;
 
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
@@ -32,16 +32,16 @@ pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use equations::{
     Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
-    Reason, Separable, Vakonomic, NoClosedForm,
+    NoClosedForm, Reason, Separable, Vakonomic,
 };
 pub use frames::Apparent;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
-pub use sampling::{POINTS, Point, TRIES};
+pub use poisson_structure::{StructureError, flaws};
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
-pub use poisson_structure::{StructureError, flaws};
+pub use sampling::{POINTS, Point, TRIES};
 
 /// The most pieces a solved or transformed expression may have and still be worth writing down.
 pub const CLOSED_FORM_LIMIT: u64 = 10_000;

@@ -5,22 +5,22 @@
 //! by frames, so the same script gives the same bytes on every machine. Never here: a clock, a terminal, a thread,
 //! a file, the environment.
 
-pub mod transcript;
 pub mod cast_writer;
 pub mod data;
-pub mod script;
 pub mod screenshot;
+pub mod script;
+pub mod transcript;
 
 mod assertion;
+mod cast_reader;
 mod clock;
 mod headless_lab;
-mod script_runner;
 mod plain;
 mod recording;
-mod cast_reader;
+mod script_runner;
 
-pub use script_runner::ScriptRunner;
+pub use cast_reader::{CastError, CastEvent, RecordedCast};
 pub use plain::plain;
 pub use recording::{Entry, Event, Marker, Recording, play};
 pub use script::Script;
-pub use cast_reader::{RecordedCast, CastError, CastEvent};
+pub use script_runner::ScriptRunner;

@@ -10,11 +10,14 @@
 //! environment says what there is to know.
 
 mod bandwidth;
+mod cast_player;
 mod checker;
 pub mod config;
 mod demo;
 mod diagnosis;
+mod file_writer;
 mod files;
+mod frame_loop;
 mod fresh;
 mod governor;
 mod input;
@@ -25,37 +28,34 @@ pub mod options;
 mod panic;
 mod partial;
 mod product;
-mod cast_player;
 mod queue;
 mod recorder;
 mod regular;
 mod request;
-mod file_writer;
 mod session;
 mod signals;
-mod frame_loop;
 mod store;
 mod terminal;
 pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, BandwidthError};
+pub use cast_player::CastPlayer;
 pub use diagnosis::{Finding, diagnosis};
+pub use frame_loop::{Ending, Pace, Screen, ScreenRequest, perform};
 pub use input::{Input, PASTE_LIMIT};
-pub use log::{LogFile, LogError};
+pub use log::{LogError, LogFile};
 pub use options::Options;
 pub use panic::report_panics;
-pub use cast_player::CastPlayer;
-pub use request::{MOST_FRAMES, LabError, Request};
-pub use frame_loop::{Ending, Pace, Screen, ScreenRequest, perform};
+pub use request::{LabError, MOST_FRAMES, Request};
 pub use store::SessionError;
 pub use terminal::TerminalError;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-use crate::preset::Catalog;
 use crate::diagnostic::Diagnostic;
-use crate::record::{ScriptRunner, RecordedCast, screenshot};
+use crate::preset::Catalog;
+use crate::record::{RecordedCast, ScriptRunner, screenshot};
 use demo::Demo;
 use log::Log;
 pub(crate) use partial::remove_all as remove_partial_files;
@@ -141,6 +141,6 @@ pub fn perform_demo(
     let palette = look.theme.palette();
     let mut demo = Demo::new(performance, look);
     let ending = perform(&mut demo, request.pace(&variable))?;
-    let text = |picture| still::write(&picture, palette, still::Form::Ansi, "");
+    let text = |picture| screenshot::write(&picture, palette, screenshot::Form::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
 }

@@ -8,40 +8,42 @@
 //! symbols after compiling.
 
 mod attitude;
-mod consistent_initial;
 mod channel;
 mod compiled;
 mod conditions;
+mod consistent_initial;
 mod constrained;
+mod discontinuities;
 mod exact;
 mod fault;
-mod kkt;
+mod inertia;
 mod jet;
-mod projection;
+mod kkt;
 mod legendre;
 mod lower;
-mod inertia;
-mod rhs;
+mod observables;
 mod observe;
-mod discontinuities;
 mod program;
+mod projection;
 mod rates;
 mod resolution;
+mod rhs;
 mod series;
 mod solve;
 mod state;
 mod terms;
 mod value;
-mod observables;
 
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
-pub use constrained::{Directions, ConstraintProjector};
+pub use constrained::{ConstraintProjector, Directions};
+pub use discontinuities::{
+    CompiledEvent, CompiledImpulse, Discontinuities, EventFunctions, ImpulseOutcome, Schedule,
+};
 pub use exact::ExactRates;
 pub use fault::{Fault, FaultKind, Passage};
 pub use jet::{Jet, Side};
 pub use observe::Observer;
-pub use discontinuities::{CompiledImpulse, Discontinuities, Schedule, ImpulseOutcome, CompiledEvent, EventFunctions};
 pub use program::{Program, Singular};
 pub use rates::Rates;
 pub use series::Series;

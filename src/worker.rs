@@ -7,8 +7,8 @@
 //! stopped within its step, by its token. Never here: terminals, physics, drawing.
 
 mod pace;
-mod slice;
 mod runnable;
+mod slice;
 mod thread;
 
 use std::io;

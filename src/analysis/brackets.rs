@@ -3,10 +3,10 @@
 //! In: a model and what follows from it. Out: a mistake for each claim that is neither proved nor
 //! holds to 1e-10 at twenty points near the start. Never here: how claims are written.
 
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{self, ChainRule, Equations, POINTS, Point, TRIES};
 use crate::model::{ExpectedBracket, Model};
-use crate::diagnostic::Diagnostic;
 
 /// How far a bracket may be from what it is said to be, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
@@ -53,7 +53,11 @@ fn compare(
 const LONGEST: u64 = 60;
 
 /// The left side by the chain rule, where velocities are not known in terms of momenta.
-fn at_points(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Diagnostic> {
+fn at_points(
+    model: &Model,
+    equations: &mut Equations,
+    claim: &ExpectedBracket,
+) -> Option<Diagnostic> {
     let rule = match ChainRule::of(equations, claim.f, claim.g) {
         Ok(rule) => rule,
         Err(why) => return Some(unchecked(claim, &why)),

@@ -6,12 +6,12 @@
 
 use super::brackets::false_brackets;
 use super::start;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
 use crate::model::{ExpectedValue, Model};
-use crate::diagnostic::SourceRange;
-use crate::diagnostic::Diagnostic;
 use crate::system::{ChannelKind, Fault, FaultKind, Observer, State, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.

@@ -3,10 +3,10 @@
 //! In: a typed text, a model and what follows from it. Out: an [`Inquiry`] with its answer, or a mistake at its place.
 //! Never here: where it is typed or shown; the motion, but for the values one hands in.
 
-use crate::expr::{Expr, Symbol, SyntaxError, Zero};
-use crate::mechanics::{self, ChainRule, Class, Equations, Recognised, NoClosedForm};
-use crate::model::{Allowed, Model, Observable, Scope};
 use crate::diagnostic::SourceRange;
+use crate::expr::{Expr, Symbol, SyntaxError, Zero};
+use crate::mechanics::{self, ChainRule, Class, Equations, NoClosedForm, Recognised};
+use crate::model::{Allowed, Model, Observable, Scope};
 
 /// A question that was understood, and its answer.
 #[derive(Clone, Debug)]
@@ -165,7 +165,8 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Answer
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
     // asked as if the file declared it
     let name = "what is asked".to_owned();
-    let observable = Observable { name, expression: of, conserved: None, place: SourceRange::default() };
+    let observable =
+        Observable { name, expression: of, conserved: None, place: SourceRange::default() };
     let mut asked = model.clone();
     asked.observables = vec![observable];
     let classed = mechanics::classes(&asked, equations).pop();

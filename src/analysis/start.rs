@@ -3,11 +3,11 @@
 //! In: what stopped it, and the values at the start. Out: a mistake at its place, with the
 //! coordinate and the reason. Never here: constraints at the start, which `system` judges.
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
-use crate::diagnostic::SourceRange;
-use crate::diagnostic::Diagnostic;
 use crate::system::{Fault, FaultKind};
 
 /// A part of the law longer than this is not reported.

@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Action`]. Never here: which key it is, or how it is done.
 
-use super::{Page, EditCommand};
+use super::{EditCommand, Page};
 
 /// Something a person wants done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

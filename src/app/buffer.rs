@@ -12,8 +12,8 @@ use tui_input::Input;
 use super::editor::{Caret, Editor};
 use super::field::edit;
 use super::{Key, Loaded};
-use crate::diagnostic::{Diagnostic, Severity};
 use crate::diagnostic::TEXT_LIMIT;
+use crate::diagnostic::{Diagnostic, Severity};
 
 /// For how long typing rests before the text is checked.
 const REST: Duration = Duration::from_millis(150);

@@ -11,8 +11,8 @@ use std::time::Duration;
 
 use tui_input::Input;
 
-use super::field::paste;
 use super::buffer::{Asking, Found, SourceBuffer, State, Unsaved};
+use super::field::paste;
 use super::{App, Effect, Key, Lab, Loaded, Notification, Overlay, Page};
 use crate::diagnostic::Diagnostic;
 use crate::preset::{Origin, is_path};
@@ -312,7 +312,10 @@ impl App {
             )),
             Err(SaveError::Exists(place)) => {
                 sheet.asking = Some(Asking::Name(Input::new(place.display().to_string())));
-                Notification::error(format!("{} exists already; give another name.", place.display()))
+                Notification::error(format!(
+                    "{} exists already; give another name.",
+                    place.display()
+                ))
             }
             Err(SaveError::Refused(why)) => Notification::error(why),
         });

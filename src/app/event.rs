@@ -8,10 +8,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Act, Checked, Key, SaveError, Spot};
+use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::diagnostic::Document;
 use crate::system::System;
 
 /// Something that happened.

@@ -113,7 +113,8 @@ impl Word {
     fn said(&self, text: &str) -> Option<u32> {
         let messages = folded(text);
         let inside = (self.0.len() >= LEAST).then_some(SAID_INSIDE);
-        let worth = |place| if self.worth(&messages, place).is_some() { Some(SAID) } else { inside };
+        let worth =
+            |place| if self.worth(&messages, place).is_some() { Some(SAID) } else { inside };
         self.whole(&messages).filter(|_| self.0.len() >= 2).filter_map(worth).max()
     }
 

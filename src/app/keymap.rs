@@ -4,7 +4,7 @@
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
 use super::action::{Action, Axes, Way};
-use super::{Code, Key, Page, EditCommand};
+use super::{Code, EditCommand, Key, Page};
 
 /// Where a key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -144,7 +144,8 @@ impl Lab {
         self.snapshot = Some(snapshot);
         self.survey();
         let pending = std::mem::take(&mut self.pending);
-        self.pending = pending.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
+        self.pending =
+            pending.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true
     }
 

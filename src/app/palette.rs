@@ -45,7 +45,8 @@ impl App {
         items.extend(rows(|row| moves(row.action)).map(line));
         items.extend(refused);
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
-        self.over = Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
+        self.over =
+            Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
 

@@ -232,7 +232,9 @@ impl App {
                 self.over = editing.then_some(Overlay::Workbench);
                 return Vec::new();
             }
-            Some(Overlay::Message(_) | Overlay::Menu(_) | Overlay::Field(_) | Overlay::Prompt(_)) => {
+            Some(
+                Overlay::Message(_) | Overlay::Menu(_) | Overlay::Field(_) | Overlay::Prompt(_),
+            ) => {
                 return Vec::new();
             }
             Some(Overlay::Workbench) | None => {}
@@ -340,7 +342,8 @@ impl App {
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
-        self.over = Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
+        self.over =
+            Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
     }
 }

@@ -43,7 +43,8 @@ impl App {
                 return self.perform(Action::Accept);
             }
             // Beside a list it closes; a text being typed is not given up by a slip of the hand.
-            (Some(Overlay::Menu(_)), Spot::Menu) | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
+            (Some(Overlay::Menu(_)), Spot::Menu)
+            | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
             (Some(Overlay::Menu(_)), _) => return self.perform(Action::Back),
             (_, Spot::Page(page)) if self.lab.is_some() => self.go(page),
             (None, Spot::System(place)) => {

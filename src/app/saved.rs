@@ -7,9 +7,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    App, Effect, Eye, Lab, Lens, Loaded, Overlay, Page, Pane, Plot, Selection, SourceBuffer, SheetState,
+    App, Effect, Eye, Lab, Lens, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
+    SourceBuffer,
 };
-use crate::experiment::{Command, Checkpoint};
+use crate::experiment::{Checkpoint, Command};
 
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,8 +4,8 @@
 //! Never here: the list on the screen, or the command that sets it.
 
 use super::Lab;
-use crate::num::math;
 use crate::model::Scale;
+use crate::num::math;
 use crate::system::ChannelKind;
 
 /// One value that can be changed.

@@ -2,12 +2,12 @@
 
 use std::str::FromStr;
 
-use crate::expr::{Expr, Pool};
-use crate::num::Number;
 use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, report};
+use crate::expr::{Expr, Pool};
 use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
-use crate::diagnostic::{Diagnostic, report};
+use crate::num::Number;
 use crate::system::Given;
 
 use super::failure::CommandError;
@@ -94,7 +94,11 @@ fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), CommandError> {
 }
 
 /// The time of the initial values: `--init t=…`, else the file's.
-pub(super) fn start(model: &Model, parameters: &[f64], set: &[Assignment]) -> Result<f64, CommandError> {
+pub(super) fn start(
+    model: &Model,
+    parameters: &[f64],
+    set: &[Assignment],
+) -> Result<f64, CommandError> {
     match set.iter().rfind(|assignment| assignment.name == "t") {
         Some(assignment) => initial_value(model, parameters, assignment),
         None => Ok(model.run.start),
@@ -192,7 +196,9 @@ pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Chann
     };
     if name.is_empty() {
         let text = printable::quoted(text);
-        return Err(CommandError::WrongUse(format!("--observe {text}: a name stands before the =")));
+        return Err(CommandError::WrongUse(format!(
+            "--observe {text}: a name stands before the ="
+        )));
     }
     let expression = expression(model, pool, written, "--observe")?;
     Ok(Channel { written: name.to_owned(), expression })

@@ -12,7 +12,7 @@ use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::mechanics::{self, ChainRule, Equations, Recognised, NoClosedForm};
+use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, Given, System};
 

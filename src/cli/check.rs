@@ -9,8 +9,8 @@ use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::analysis::false_claims;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::mechanics;
-use crate::diagnostic::{Document, Diagnostic, Severity};
 use crate::printable;
 use crate::system::System;
 
@@ -60,7 +60,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     match (errors, arguments.files.as_slice()) {
         (0, _) => Ok(()),
         (n, [file]) => Err(CommandError::WrongFile(open::count(n, &printable::path(file)))),
-        (n, files) => Err(CommandError::WrongFile(open::count(n, &format!("{} files", files.len())))),
+        (n, files) => {
+            Err(CommandError::WrongFile(open::count(n, &format!("{} files", files.len()))))
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use super::{config, play, record};
 use crate::preset::{Catalog, Origin, is_path};
 use crate::record::ScriptRunner;
 use crate::shell::options::{Choice, Kind, OPTIONS};
-use crate::shell::{self, Ending, SessionError, Options, LabError, Request};
+use crate::shell::{self, Ending, LabError, Options, Request, SessionError};
 
 /// What to open and how to show it: a name, and an argument for each row of [`OPTIONS`].
 #[derive(Debug)]
@@ -183,9 +183,9 @@ pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), Comman
         Err(refusal @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {
             Err(CommandError::CouldNotWrite(refusal.to_string()))
         }
-        Err(LabError::SessionError(why @ (SessionError::Newer { .. } | SessionError::Malformed { .. }))) => {
-            Err(CommandError::WrongFile(why.to_string()))
-        }
+        Err(LabError::SessionError(
+            why @ (SessionError::Newer { .. } | SessionError::Malformed { .. }),
+        )) => Err(CommandError::WrongFile(why.to_string())),
         Err(refusal) => Err(CommandError::WrongUse(refusal.to_string())),
     }
 }

@@ -3,14 +3,14 @@
 use std::ffi::OsStr;
 
 use crate::analysis::flaws;
-use crate::experiment::choose_method;
+use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Document};
+use crate::experiment::choose_method;
 use crate::integrate::{METHODS, Settings, method_named};
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
-use crate::diagnostic::SourceRange;
 use crate::preset::Catalog;
-use crate::diagnostic::{Document, Diagnostic};
 use crate::system::System;
 
 use super::failure::CommandError;

@@ -7,7 +7,7 @@ use super::interrupt::Interrupt;
 use super::{lab, open, record};
 use crate::diagnostic::Document;
 use crate::preset::{demo, is_path};
-use crate::record::{Script, RecordedCast};
+use crate::record::{RecordedCast, Script};
 use crate::shell::{self, Options};
 use crate::{file, printable};
 
@@ -53,7 +53,8 @@ fn tape(path: &Path) -> Result<RecordedCast, CommandError> {
     }
     if bytes.trim_ascii_start().starts_with(b"{") {
         let text = String::from_utf8_lossy(&bytes);
-        return RecordedCast::read(&text).map_err(|why| CommandError::WrongFile(format!("{shown}: {why}")));
+        return RecordedCast::read(&text)
+            .map_err(|why| CommandError::WrongFile(format!("{shown}: {why}")));
     }
     recorded(&Document::from_bytes(shown, &bytes))
 }

@@ -10,12 +10,12 @@ use super::failure::CommandError;
 use super::open;
 use super::output::{Form, Output};
 use crate::diagnostic::nearest;
-use crate::diagnostic::{Document, Diagnostic};
+use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{demo, demos};
 use crate::printable;
 use crate::record::cast_writer::{self, Version};
 use crate::record::script::read_size;
-use crate::record::{Recording, Script, transcript, play, screenshot};
+use crate::record::{Recording, Script, play, screenshot, transcript};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
@@ -91,9 +91,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     let written = match arguments.format {
-        Format::V3 => cast::write(&recording, Version::Three, &mut out).map(|_| ()),
-        Format::V2 => cast::write(&recording, Version::Two, &mut out).map(|_| ()),
-        Format::Account => out.write_all(account::write(&recording).as_bytes()),
+        Format::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
+        Format::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
+        Format::Account => out.write_all(transcript::write(&recording).as_bytes()),
     };
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;
@@ -102,10 +102,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 
 /// Writes a still of the end, or of the beginning of a chapter.
 fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), CommandError> {
-    let form = path
-        .to_string_lossy()
-        .parse()
-        .map_err(|why| CommandError::WrongUse(format!("--still {}: {why}", printable::path(path))))?;
+    let form = path.to_string_lossy().parse().map_err(|why| {
+        CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)))
+    })?;
     let screen = match at {
         None => &recording.last,
         Some(name) => {
@@ -123,8 +122,8 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
         }
     };
     let palette = recording.look.theme.palette();
-    let text = still::write(screen, palette, form, &recording.title);
-    let written = if form == still::Form::Ansi { Form::Coloured } else { Form::Text };
+    let text = screenshot::write(screen, palette, form, &recording.title);
+    let written = if form == screenshot::Form::Ansi { Form::Coloured } else { Form::Text };
     let mut out = Output::open(Some(path), written)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()

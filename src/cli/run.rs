@@ -132,7 +132,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(open::refuse(&document, &[mistake]));
     }
     let name = arguments.method.as_deref().unwrap_or(&model.run.method);
-    let method = choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
+    let method =
+        choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
     cautions::before(&system, method);

@@ -144,13 +144,18 @@ impl Diagnostics {
         self.list
     }
 
+    /// All of them where none makes the file unusable, in the order of their places.
+    pub fn into_warnings(mut self) -> Vec<Diagnostic> {
+        self.sort();
+        self.list
+    }
+
     /// Whether there is a mistake that makes the file unusable.
     pub fn any_error(&self) -> bool {
         self.list.iter().any(|m| m.severity == Severity::Error)
     }
 
-    /// Puts them in the order of their places.
-    pub fn sort(&mut self) {
+    fn sort(&mut self) {
         self.list.sort_by_key(|m| (m.place.start, m.place.end));
     }
 }

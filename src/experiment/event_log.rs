@@ -126,7 +126,11 @@ mod tests {
 
     fn ticks(count: usize) -> impl Iterator<Item = Occurrence> {
         let name = |k: usize| ["tick", "tock"][k % 2].to_owned();
-        (0..count).map(move |k| Occurrence { name: name(k), time: k as f64, kind: OccurrenceKind::Mark })
+        (0..count).map(move |k| Occurrence {
+            name: name(k),
+            time: k as f64,
+            kind: OccurrenceKind::Mark,
+        })
     }
 
     #[test]
@@ -150,7 +154,10 @@ mod tests {
         let wide = |k: usize| Occurrence {
             name: "kick".to_owned(),
             time: k as f64,
-            kind: OccurrenceKind::CompiledImpulse { jump: vec![1.0; 2000], reaction: vec![1.0; 2000] },
+            kind: OccurrenceKind::CompiledImpulse {
+                jump: vec![1.0; 2000],
+                reaction: vec![1.0; 2000],
+            },
         };
         let each = size(&[wide(0)]);
         let fits = BYTES / (CHUNK * each) * CHUNK;

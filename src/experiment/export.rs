@@ -4,10 +4,10 @@
 
 use super::{Checkpoint, Prepared, Snapshot};
 use crate::analysis::false_claims;
-use crate::num::math;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::{AttitudeSource, Model};
+use crate::num::math;
 use crate::preset::{Beginning, Rewrite};
-use crate::diagnostic::{Document, Diagnostic, Severity};
 use crate::system::{ChannelKind, System};
 
 /// What was made of the present.

@@ -239,7 +239,8 @@ impl Gauges {
     /// What they show.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
-        let show = |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
+        let show =
+            |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));

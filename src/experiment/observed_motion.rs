@@ -5,7 +5,9 @@
 
 use super::gauges::{Gauges, Present};
 use crate::expr::Symbol;
-use crate::integrate::{self, Occurrence, OccurrenceKind, Method, Reached, MethodError, Settings, Unstable};
+use crate::integrate::{
+    self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Unstable,
+};
 use crate::system::{Fault, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use super::{Experiment, Setup};
 use crate::analysis::flaws;
 use crate::cancel::Cancel;
+use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations};
 use crate::model::Model;
-use crate::diagnostic::{Document, Diagnostic};
 use crate::system::System;
 
 /// A system on all its stages.
@@ -66,7 +66,8 @@ impl Prepared {
     }
 
     fn made_of(document: &Document, cancel: &Cancel) -> Result<Prepared, PrepareError> {
-        let stop = || if cancel.is_cancelled() { Err(PrepareError::stopped(document)) } else { Ok(()) };
+        let stop =
+            || if cancel.is_cancelled() { Err(PrepareError::stopped(document)) } else { Ok(()) };
         let read = document.read_with(cancel);
         let report = |mistakes: Vec<Diagnostic>| PrepareError {
             report: document.report(&mistakes, false),

@@ -1,7 +1,7 @@
 //! How an experiment begins: values, method, and the spacing of what it records.
 
-use crate::expr::Symbol;
 use crate::diagnostic::nearest;
+use crate::expr::Symbol;
 use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;

@@ -4,9 +4,9 @@
 use rustc_hash::FxHashMap;
 
 use super::evaluate::real_power;
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
+use crate::num::Number;
 use crate::num::math;
 
 /// What one rounding does, in units of ε times the value.
@@ -44,11 +44,8 @@ impl Pool {
                     let value = math::powf(b, n);
                     let of_base =
                         if b_error == 0.0 { 0.0 } else { (n * value / b).abs() * b_error };
-                    let of_exponent = if n_error == 0.0 {
-                        0.0
-                    } else {
-                        (math::ln(b) * value).abs() * n_error
-                    };
+                    let of_exponent =
+                        if n_error == 0.0 { 0.0 } else { (math::ln(b) * value).abs() * n_error };
                     (value, HALF * value.abs() + of_base + of_exponent)
                 }
                 Node::Call(function, arguments) => {

@@ -4,9 +4,9 @@
 use rustc_hash::FxHashMap;
 
 use super::ball::Ball;
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
+use crate::num::Number;
 use crate::num::math;
 
 impl Pool {

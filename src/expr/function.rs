@@ -22,8 +22,8 @@ mod sqrt;
 mod tan;
 mod tanh;
 
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 use crate::num::Recurrence;
 
 /// Which function: the place of its row in [`FUNCTIONS`].

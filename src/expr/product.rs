@@ -3,8 +3,8 @@
 //! the original has one: `sqrt(x^2)` stays as it is.
 
 use super::function::FunctionId;
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 use crate::num::math;
 
 type Factor = (Expr, Number);

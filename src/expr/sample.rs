@@ -1,8 +1,8 @@
 //! Points at which identities are tried: the same each time, different for each symbol, first of
 //! ordinary size and then of ever more different magnitudes.
 
-use crate::num::math;
 use super::symbol::Symbol;
+use crate::num::math;
 
 /// So many points are of ordinary size.
 const ORDINARY: u64 = 24;

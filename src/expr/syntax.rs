@@ -3,8 +3,9 @@
 //! knows the names.
 
 use super::function::{FUNCTIONS, FunctionId};
-use crate::num::Number;
 use super::pool::{Expr, Pool};
+use crate::diagnostic::nearest;
+use crate::num::Number;
 
 /// A range of bytes in the source text of one expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -6,8 +6,8 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 impl Pool {
     /// The size of an expression's terms: |c| + Σ|cᵢ|·size of a sum, the product of the sizes of

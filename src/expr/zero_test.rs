@@ -6,10 +6,10 @@ use rustc_hash::FxHashMap;
 
 use super::expand::PROOF_TERMS;
 use super::function::{FunctionId, Rule};
-use crate::num::Number;
 use super::pool::{Expr, Node, Pool};
 use super::sample::sample;
 use super::symbol::Symbol;
+use crate::num::Number;
 
 /// How far an expression is known to vanish.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

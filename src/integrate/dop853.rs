@@ -12,7 +12,7 @@
 mod tableau;
 
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
-use super::method::{Method, Preserves, MethodError, Settings, Stepping};
+use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
@@ -276,7 +276,8 @@ impl Stepper for DormandPrince {
             let most = if failures > 0 { 1.0 } else { LONGER };
             let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
             if error <= 1.0 {
-                let end = if last { DoubleDouble::from(limit) } else { time + DoubleDouble::from(step) };
+                let end =
+                    if last { DoubleDouble::from(limit) } else { time + DoubleDouble::from(step) };
                 (self.next.time, self.next.time_carry) = (end.high, end.low);
                 let slope = &mut self.slopes[METHOD_STAGES];
                 self.rates.evaluate(end.high, &self.next.values, slope)?;

@@ -10,9 +10,9 @@
 
 use super::Stepper;
 use super::clock::spacing;
-use crate::num::{DoubleDouble, math};
 use crate::model::Direction;
-use crate::system::{Fault, FaultKind, State, EventFunctions};
+use crate::num::{DoubleDouble, math};
+use crate::system::{EventFunctions, Fault, FaultKind, State};
 
 /// Into how many pieces a stretch on which the functions are simple is cut at first.
 const PIECES: usize = 4;
@@ -86,7 +86,11 @@ struct Crossing {
 }
 
 impl EventLocator {
-    pub(super) fn new(event_functions: EventFunctions, directions: Vec<Direction>, blank: State) -> EventLocator {
+    pub(super) fn new(
+        event_functions: EventFunctions,
+        directions: Vec<Direction>,
+        blank: State,
+    ) -> EventLocator {
         let count = directions.len();
         EventLocator {
             event_functions,

@@ -1,8 +1,8 @@
 //! What all methods of fixed step have in common: the clock, the direction, looks between steps,
 //! the step where none is asked for, and whether it is stable. A method itself is a [`Scheme`].
 
-use super::method::{MethodError, Settings};
 use super::initial_step;
+use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
 use crate::num::{DoubleDouble, math};
@@ -75,7 +75,10 @@ impl<S: Scheme> FixedStep<S> {
         scheme: S,
     ) -> Result<FixedStep<S>, MethodError> {
         if let Some(step) = settings.step.filter(|&h| !(h > 0.0 && h.is_finite())) {
-            return Err(MethodError { method, reason: format!("the step {step} is not above zero") });
+            return Err(MethodError {
+                method,
+                reason: format!("the step {step} is not above zero"),
+            });
         }
         let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
         Ok(FixedStep {

@@ -17,7 +17,7 @@ mod tableau;
 
 use self::tableau::Tableau;
 use super::fixed::{FixedStep, Scheme};
-use super::method::{Method, Preserves, MethodError, Stepping};
+use super::method::{Method, MethodError, Preserves, Stepping};
 use super::roundoff;
 use crate::num::DoubleDouble;
 use crate::system::{Fault, FaultKind, Form, Rates, State, System};

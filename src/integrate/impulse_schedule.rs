@@ -46,8 +46,9 @@ impl ImpulseSchedule {
         let listed = schedule.times.iter().map(|time| time.high).filter(open);
         let periodic = schedule.interval.and_then(|interval| {
             let count = ((now - self.start) / interval.high).floor().max(1.0);
-            let time =
-                |k: i32| (DoubleDouble::written(self.start) + interval * (count + f64::from(k))).high;
+            let time = |k: i32| {
+                (DoubleDouble::written(self.start) + interval * (count + f64::from(k))).high
+            };
             (-1..=2).map(time).find(open)
         });
         listed.chain(periodic).min_by(f64::total_cmp)

@@ -4,17 +4,17 @@
 //! In: a system, a method, a state. Out: states at the times asked for, and [`Occurrence`]s. Never
 //! here: rows, gauges, what can be seen of a state.
 
-mod occurrence;
 mod constraint_watch;
+mod occurrence;
 
-use super::impulse_schedule::ImpulseSchedule;
 use super::event_location::{EventLocator, LocatedEvent};
+use super::impulse_schedule::ImpulseSchedule;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{Fault, FaultKind, Form, ConstraintProjector, State, System};
-pub use occurrence::{Occurrence, OccurrenceKind};
+use crate::system::{ConstraintProjector, Fault, FaultKind, Form, State, System};
 use constraint_watch::Watch;
+pub use occurrence::{Occurrence, OccurrenceKind};
 
 /// How far a motion came.
 #[derive(Clone, PartialEq, Debug)]
@@ -259,7 +259,8 @@ impl Propagator {
     }
 
     fn step(&mut self, limit: f64) -> Result<(), Fault> {
-        let limit = self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
+        let limit =
+            self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
         let before = self.stepper.state().exact_time();
         if self.impulse_schedule.stands_still(before.high) {
             return Err(stands_still(before.high));
@@ -287,7 +288,8 @@ impl Propagator {
     /// functions are simple.
     fn scan(&mut self) -> Result<(), Fault> {
         let end = self.stepper.time();
-        let mut end = self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
+        let mut end =
+            self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
         if let Some(crossings) = &mut self.crossings {
             end = crossings.stretch(self.stepper.as_mut(), self.clear, end)?;
             self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;

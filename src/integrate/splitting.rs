@@ -6,7 +6,7 @@
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
 use super::fixed::{FixedStep, Scheme, add};
-use super::method::{StepperResult, Method, MethodError, Settings};
+use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
 use crate::system::{Fault, Form, Rates, State, System};
 

@@ -19,7 +19,7 @@ use bridge::Bridge;
 use kinks::Kinks;
 use rest::Rest;
 
-use super::method::{Method, Preserves, MethodError, Settings, Stepping};
+use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Fault, FaultKind, Form, Series, Side, State, System};

@@ -22,7 +22,8 @@ pub(super) struct AccumulationDetector {
 
 impl AccumulationDetector {
     /// An event that has not come yet.
-    pub(super) const NONE: AccumulationDetector = AccumulationDetector { last: f64::NEG_INFINITY, gap: 0.0, count: 0 };
+    pub(super) const NONE: AccumulationDetector =
+        AccumulationDetector { last: f64::NEG_INFINITY, gap: 0.0, count: 0 };
 
     /// The event comes, in a motion that began at `start`; true where it piles up.
     pub(super) fn record(&mut self, time: f64, start: f64) -> bool {

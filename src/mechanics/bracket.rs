@@ -14,8 +14,8 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::{Equations, Flow, NoClosedForm};
 use super::lagrange::zero_if_proved;
 use crate::expr::{Expr, Rank, Symbol, Zero};
-use crate::num::{Number, math};
 use crate::model::{Mechanics, Model};
+use crate::num::{Number, math};
 
 /// \[f, g\] as a function of (q, p, t), or of a Poisson system's variables and t; simplified, and
 /// exactly 0 where that is proved. `f` and `g` are written as observables are, or are such
@@ -23,7 +23,12 @@ use crate::model::{Mechanics, Model};
 ///
 /// # Errors
 /// Where f or g is not known as such a function.
-pub fn bracket(model: &Model, equations: &mut Equations, f: Expr, g: Expr) -> Result<Expr, NoClosedForm> {
+pub fn bracket(
+    model: &Model,
+    equations: &mut Equations,
+    f: Expr,
+    g: Expr,
+) -> Result<Expr, NoClosedForm> {
     let f = in_phase_space(equations, f)?;
     let g = in_phase_space(equations, g)?;
     let seeds = flow_of(model, equations, g);
@@ -37,7 +42,11 @@ pub fn bracket(model: &Model, equations: &mut Equations, f: Expr, g: Expr) -> Re
 ///
 /// # Errors
 /// Where f or H is not known as a function of (q, p, t).
-pub fn rate_by_bracket(model: &Model, equations: &mut Equations, f: Expr) -> Result<Expr, NoClosedForm> {
+pub fn rate_by_bracket(
+    model: &Model,
+    equations: &mut Equations,
+    f: Expr,
+) -> Result<Expr, NoClosedForm> {
     let hamiltonian = equations.hamiltonian.clone()?;
     let carried = bracket(model, equations, f, hamiltonian)?;
     let f = in_phase_space(equations, f)?;
@@ -291,9 +300,8 @@ fn common_factor(
     candidate: Expr,
 ) -> Option<Expr> {
     let pool = &equations.pool;
-    let value = |symbol: Symbol, turn: f64| {
-        0.7 + 0.5 * math::sin(2.4 * symbol.index() as f64 + 1.7 * turn)
-    };
+    let value =
+        |symbol: Symbol, turn: f64| 0.7 + 0.5 * math::sin(2.4 * symbol.index() as f64 + 1.7 * turn);
     let quotient = |turn: f64, doubled: Option<Symbol>| {
         let at = |symbol: Symbol| {
             let fixed = constants.contains(&symbol);

@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::{Equations, Flow, NoClosedForm};
 use super::sampling::{POINTS, Point, TRIES};
 use crate::expr::{Expr, Symbol, Zero};
-use crate::num::{Number, math};
 use crate::model::Model;
+use crate::num::{Number, math};
 
 /// An observable and what the motion does to it.
 #[derive(Clone, Debug)]

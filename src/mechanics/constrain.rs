@@ -9,8 +9,8 @@ use super::equations::{ConstraintRow, CoordinateSymbols, NoClosedForm};
 use super::lagrange::tidy_derivative;
 use super::linear;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::num::Number;
 use crate::model::{Constraint, Model};
+use crate::num::Number;
 
 /// The rows of a model's constraints.
 pub(super) fn rows(pool: &mut Pool, model: &Model) -> Vec<ConstraintRow> {

@@ -1,12 +1,12 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{Beside, CoordinateSymbols, Equations, Flow, Separable, NoClosedForm};
+use super::equations::{Beside, CoordinateSymbols, Equations, Flow, NoClosedForm, Separable};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::num::Number;
 use crate::model::Model;
+use crate::num::Number;
 
 /// All that follows from H(q, p, t) and what is added to ṗ, but for the invariants. The pool
 /// field of the result is empty: the caller moves `pool` in.
@@ -78,7 +78,8 @@ pub(super) fn separate(
     hamiltonian: Result<&Expr, &NoClosedForm>,
     others: Option<&str>,
 ) -> Result<Separable, NoClosedForm> {
-    let h = *hamiltonian.map_err(|why| NoClosedForm(format!("there is no H in closed form: {why}")))?;
+    let h =
+        *hamiltonian.map_err(|why| NoClosedForm(format!("there is no H in closed form: {why}")))?;
     if let Some(why) = others {
         return Err(NoClosedForm(why.to_owned()));
     }

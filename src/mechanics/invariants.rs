@@ -77,7 +77,8 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
 
 /// Whether an impulse of the file may change a quantity.
 fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -> bool {
-    let after_impulse = |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
+    let after_impulse =
+        |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
     let depends = |i: usize| {
         let c = &equations.coordinates[i];
         let moved = if model.is_poisson() {

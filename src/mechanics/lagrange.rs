@@ -5,8 +5,8 @@
 use super::equations::{Beside, CoordinateSymbols, Equations, Flow};
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::num::Number;
 use crate::model::Model;
+use crate::num::Number;
 
 /// All that follows from L(q, q̇, t), Rayleigh's F(q, q̇, t) and the forces Q, but for the
 /// invariants. The pool field of the result is empty: the caller moves `pool` in.

@@ -68,8 +68,9 @@ fn transform(
     }
     for row in &mut hessian {
         for entry in row.iter_mut() {
-            *entry = constant_in(pool, *entry, from)
-                .ok_or_else(|| NoClosedForm(format!("{name} is not quadratic in the {variables}")))?;
+            *entry = constant_in(pool, *entry, from).ok_or_else(|| {
+                NoClosedForm(format!("{name} is not quadratic in the {variables}"))
+            })?;
         }
     }
     let zeros: HashMap<Symbol, Expr> = from.iter().map(|&s| (s, Expr::ZERO)).collect();
@@ -79,8 +80,9 @@ fn transform(
         let conjugate = pool.variable(conjugate);
         shifted.push(pool.sub(conjugate, offset));
     }
-    let solution = linear::solve(pool, &hessian, &shifted)
-        .map_err(|why| NoClosedForm(format!("{variables} cannot be eliminated with {matrix}: {why}")))?;
+    let solution = linear::solve(pool, &hessian, &shifted).map_err(|why| {
+        NoClosedForm(format!("{variables} cannot be eliminated with {matrix}: {why}"))
+    })?;
     let rest = pool.substitute(f, &zeros);
     let mut parts = vec![(Number::MINUS_ONE, rest)];
     match &solution.squares {
@@ -100,7 +102,9 @@ fn transform(
     let transformed = pool.linear(Number::ZERO, &parts);
     let transformed = pool.simplify_terms(transformed);
     if pool.weight(transformed) > CLOSED_FORM_LIMIT {
-        return Err(NoClosedForm(format!("the closed form has more than {CLOSED_FORM_LIMIT} nodes")));
+        return Err(NoClosedForm(format!(
+            "the closed form has more than {CLOSED_FORM_LIMIT} nodes"
+        )));
     }
     Ok((transformed, solution.x))
 }

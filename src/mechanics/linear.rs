@@ -20,7 +20,11 @@ pub(super) struct Solution {
 ///
 /// # Errors
 /// Where A is singular, or an entry grows beyond [`CLOSED_FORM_LIMIT`] nodes.
-pub(super) fn solve(pool: &mut Pool, a: &[Vec<Expr>], b: &[Expr]) -> Result<Solution, NoClosedForm> {
+pub(super) fn solve(
+    pool: &mut Pool,
+    a: &[Vec<Expr>],
+    b: &[Expr],
+) -> Result<Solution, NoClosedForm> {
     let n = b.len();
     let mut a = a.to_vec();
     let mut b = b.to_vec();
@@ -84,7 +88,9 @@ fn reduced(pool: &mut Pool, entry: Expr, factor: Expr, other: Expr) -> Result<Ex
 fn bounded(pool: &mut Pool, e: Expr) -> Result<Expr, NoClosedForm> {
     let simpler = if pool.weight(e) > CLOSED_FORM_LIMIT { e } else { pool.simplify(e) };
     if pool.weight(simpler) > CLOSED_FORM_LIMIT {
-        return Err(NoClosedForm(format!("the solved form has more than {CLOSED_FORM_LIMIT} nodes")));
+        return Err(NoClosedForm(format!(
+            "the solved form has more than {CLOSED_FORM_LIMIT} nodes"
+        )));
     }
     Ok(simpler)
 }

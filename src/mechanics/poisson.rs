@@ -33,7 +33,8 @@ pub(super) fn equations(
     }
     let energy_rate = pool.sum(&power);
     let energy_rate = zero_if_proved(pool, energy_rate);
-    let none = |what: &str| NoClosedForm(format!("variables given by their brackets have no {what}"));
+    let none =
+        |what: &str| NoClosedForm(format!("variables given by their brackets have no {what}"));
     Equations {
         pool: Pool::new(),
         coordinates,

@@ -7,11 +7,11 @@
 //! Integration*, § VII.2.
 
 use super::equations::Equations;
-use super::sampling::{POINTS, Point, TRIES};
 use super::rigid_body;
+use super::sampling::{POINTS, Point, TRIES};
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Zero};
 use crate::model::{Mechanics, Model};
-use crate::diagnostic::SourceRange;
 
 /// How far from zero counts as zero, relative to the size of the terms.
 const TOLERANCE: f64 = 1e-10;
@@ -83,7 +83,12 @@ impl Structure<'_> {
     }
 
     /// Σ B_ij ∂_j C = 0 for every x_i.
-    fn casimir(&mut self, name: &str, casimir: Expr, place: &SourceRange) -> Option<StructureError> {
+    fn casimir(
+        &mut self,
+        name: &str,
+        casimir: Expr,
+        place: &SourceRange,
+    ) -> Option<StructureError> {
         let coordinates = &self.model.coordinates;
         let slopes: Vec<Expr> = coordinates
             .iter()

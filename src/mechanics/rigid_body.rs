@@ -9,9 +9,9 @@
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::poisson_structure::StructureError;
-use crate::num::{DoubleDouble, Number};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
+use crate::num::{DoubleDouble, Number};
 
 /// A body as a whole.
 #[derive(Clone, Debug)]

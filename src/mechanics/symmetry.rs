@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use super::equations::{Conserved, Equations, Reason};
 use crate::expr::{Expr, Zero};
-use crate::num::Number;
 use crate::model::{Coordinate, Model};
+use crate::num::Number;
 
 /// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.
 pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {

@@ -15,14 +15,18 @@
 
 use std::collections::HashMap;
 
-use super::equations::{Carried, CarriedRates, Equations, Flow, Vakonomic, NoClosedForm};
+use super::equations::{Carried, CarriedRates, Equations, Flow, NoClosedForm, Vakonomic};
 use super::linear;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::num::Number;
 use crate::model::{Comparison, Model};
+use crate::num::Number;
 
 /// The twin of a constrained motion; its numbers are carried along.
-pub(super) fn vakonomic(equations: &mut Equations, model: &Model, comparison: &Comparison) -> Vakonomic {
+pub(super) fn vakonomic(
+    equations: &mut Equations,
+    model: &Model,
+    comparison: &Comparison,
+) -> Vakonomic {
     let Flow::Lagrange { mass, force, .. } = equations.flow.clone() else {
         return Vakonomic { lagrangian: Err(NoClosedForm("there is no Lagrangian".to_owned())) };
     };

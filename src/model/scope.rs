@@ -6,8 +6,8 @@ mod allowed;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
-use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse};
 use crate::diagnostic::nearest;
+use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse};
 
 pub use allowed::Allowed;
 

@@ -26,7 +26,8 @@ impl DoubleDouble {
     /// One.
     pub const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };
     /// The circle constant.
-    pub const PI: DoubleDouble = DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+    pub const PI: DoubleDouble =
+        DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
     /// `a + b` exactly.
     pub fn sum(a: f64, b: f64) -> DoubleDouble {
@@ -69,7 +70,8 @@ impl DoubleDouble {
         });
         match parts {
             Some((digits, exponent)) if exponent.abs() < 250 => {
-                let (mantissa, power) = (DoubleDouble::integer(digits), power_of_ten(exponent.abs()));
+                let (mantissa, power) =
+                    (DoubleDouble::integer(digits), power_of_ten(exponent.abs()));
                 if exponent < 0 { mantissa / power } else { mantissa * power }
             }
             _ => DoubleDouble::from(x),
@@ -134,7 +136,8 @@ impl From<f64> for DoubleDouble {
 impl Add for DoubleDouble {
     type Output = DoubleDouble;
     fn add(self, other: DoubleDouble) -> DoubleDouble {
-        let (s, t) = (DoubleDouble::sum(self.high, other.high), DoubleDouble::sum(self.low, other.low));
+        let (s, t) =
+            (DoubleDouble::sum(self.high, other.high), DoubleDouble::sum(self.low, other.low));
         let v = DoubleDouble::ordered_sum(s.high, s.low + t.high);
         DoubleDouble::ordered_sum(v.high, t.low + v.low)
     }

@@ -18,7 +18,8 @@ pub struct ExtendedRange {
 }
 
 /// ln 2.
-const LN_2: DoubleDouble = DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
+const LN_2: DoubleDouble =
+    DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
 /// Numbers whose exponents lie further apart do not add up to anything new.
 const DIGITS: i64 = 220;
@@ -56,14 +57,19 @@ impl ExtendedRange {
         }
         let field = (high.to_bits() >> 52 & 0x7FF) as i64;
         if field == 0 {
-            let raised =
-                DoubleDouble { high: high * power_of_two(200), low: mantissa.low * power_of_two(200) };
+            let raised = DoubleDouble {
+                high: high * power_of_two(200),
+                low: mantissa.low * power_of_two(200),
+            };
             return ExtendedRange::new(raised, exponent - 200);
         }
         let n = field - 1023;
         let exponent = exponent + n;
         if exponent > LARGEST {
-            return ExtendedRange { mantissa: DoubleDouble::from(f64::INFINITY.copysign(high)), exponent: 0 };
+            return ExtendedRange {
+                mantissa: DoubleDouble::from(f64::INFINITY.copysign(high)),
+                exponent: 0,
+            };
         }
         if exponent < -LARGEST {
             return ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };

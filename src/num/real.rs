@@ -5,7 +5,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::double_double::DoubleDouble;
-use super::wide::ExtendedRange;
+use super::extended_range::ExtendedRange;
 use crate::num::math;
 
 /// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the
@@ -139,9 +139,7 @@ impl Real for f64 {
         match (n.fract() == 0.0, (2.0 * n).fract() == 0.0) {
             _ if exponent.low != 0.0 || n.abs() > 1024.0 => math::powf(self, n),
             (true, _) => math::powi(self, n as i32),
-            (_, true) if n < 0.0 => {
-                1.0 / (f64::sqrt(self) * math::powi(self, -(n + 0.5) as i32))
-            }
+            (_, true) if n < 0.0 => 1.0 / (f64::sqrt(self) * math::powi(self, -(n + 0.5) as i32)),
             (_, true) => f64::sqrt(self) * math::powi(self, (n - 0.5) as i32),
             _ => math::powf(self, n),
         }

@@ -22,10 +22,10 @@ mod run;
 
 use std::collections::BTreeSet;
 
-use crate::diagnostic::Diagnostics;
 use super::draft::{Draft, Formula, Law};
-use crate::diagnostic::Diagnostic;
 use crate::cancel::Cancel;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
 use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};
 use names::Names;

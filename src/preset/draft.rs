@@ -21,10 +21,9 @@ mod vector;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::diagnostic::Diagnostics;
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
 use crate::model::Info;
-use crate::diagnostic::SourceRange;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
 pub(super) use claims::{

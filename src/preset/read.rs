@@ -43,7 +43,9 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
 /// The verdict on the file.
 fn conclude(mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
     match model {
-        Some(model) if !mistakes.any_error() => Ok(Checked { model, warnings: mistakes.into_list() }),
+        Some(model) if !mistakes.any_error() => {
+            Ok(Checked { model, warnings: mistakes.into_warnings() })
+        }
         _ => Err(mistakes.into_list()),
     }
 }
@@ -62,7 +64,7 @@ impl Document {
     /// # Errors
     /// All its mistakes, see [`read`](read).
     pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
-        match &self.unreadable {
+        match self.unreadable() {
             Some(mistake) => Err(vec![mistake.clone()]),
             None => read_with(&self.text, cancel),
         }

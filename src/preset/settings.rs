@@ -7,10 +7,10 @@
 use toml::de::DeValue;
 
 use super::draft::Table;
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::diagnostic::{Document};
-use super::{toml_errors};
+use super::toml_errors;
+use crate::diagnostic::Document;
 use crate::diagnostic::SourceRange;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// One key of the file and what stands at it.
 #[derive(Clone, PartialEq, Eq, Debug)]

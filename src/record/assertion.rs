@@ -4,10 +4,10 @@
 //! speaks of what is not there. Never here: when it is asked.
 
 use crate::app::{App, Lab};
-use crate::experiment::{Snapshot, Status};
-use crate::diagnostic::nearest;
-use crate::model::{Allowed, Scope};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::experiment::{Snapshot, Status};
+use crate::model::{Allowed, Scope};
 
 use super::script::{Assert, Measure, Relation, Text};
 

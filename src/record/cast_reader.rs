@@ -163,8 +163,10 @@ mod tests {
         let two = "{\"version\":2,\"width\":80,\"height\":24}\n[0.5, \"o\", \"a\"]\n[2.0, \"m\", \"x\"]\n";
         let three = "{\"version\":3,\"term\":{\"cols\":80,\"rows\":24}}\n# words\n[0.5, \"o\", \"a\"]\n\
                      [1.5, \"m\", \"x\"]\n";
-        let events =
-            [(500_000, CastEvent::Output("a".to_owned())), (2_000_000, CastEvent::Marker("x".to_owned()))];
+        let events = [
+            (500_000, CastEvent::Output("a".to_owned())),
+            (2_000_000, CastEvent::Marker("x".to_owned())),
+        ];
         for text in [two, three] {
             let tape = RecordedCast::read(text).expect("a cast");
             assert_eq!((tape.size, tape.end), ((80, 24), 2_000_000));

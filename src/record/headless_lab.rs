@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use super::clock::{Clock, Micros};
 use crate::app::{App, Effect, Event, LoadError, Loaded, ValueId};
-use crate::experiment::{Command, Experiment, Progress, Prepared, Status};
-use crate::preset::Catalog;
 use crate::diagnostic::Document;
+use crate::experiment::{Command, Experiment, Prepared, Progress, Status};
+use crate::preset::Catalog;
 
 /// The most steps and rows of a motion in one frame: as a rule, and where time runs as fast as it can. One too slow for
 /// its speed falls behind by the same amount on every machine.

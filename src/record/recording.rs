@@ -10,9 +10,9 @@ use ratatui::layout::Size;
 
 use super::clock::Micros;
 use super::headless_lab::Budget;
-use super::script_runner::{RunnerEvent, ScriptRunner};
 use super::script::{Script, Step};
-use crate::diagnostic::{Document, Diagnostic};
+use super::script_runner::{RunnerEvent, ScriptRunner};
+use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
 use crate::view::frame::Frames;
 

@@ -11,9 +11,9 @@ mod line;
 use std::collections::HashMap;
 
 use crate::app::Key;
-use crate::diagnostic::nearest;
 use crate::diagnostic::SourceRange;
-use crate::diagnostic::{Document, Diagnostic};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -73,7 +73,10 @@ impl Head {
     /// How the screen looks: by the script alone, whatever the environment.
     pub fn look(&self) -> RenderStyle {
         let theme = Theme::named(self.theme, self.colour);
-        RenderStyle { theme: theme.unwrap_or_else(|| Theme::dark(self.colour)), glyphs: self.glyphs }
+        RenderStyle {
+            theme: theme.unwrap_or_else(|| Theme::dark(self.colour)),
+            glyphs: self.glyphs,
+        }
     }
 }
 

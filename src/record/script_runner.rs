@@ -16,8 +16,8 @@ use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
 use super::script::{Assert, PACE, Script, Step, Text, Way};
 use crate::app::{Code, Drawn, Event, Key, ValueId};
+use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
-use crate::diagnostic::{Document, Diagnostic};
 use crate::view::caption::{self, Caption};
 use crate::view::{self, RenderStyle};
 

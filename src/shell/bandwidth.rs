@@ -47,7 +47,10 @@ impl FromStr for Bandwidth {
         let plain = digits.bytes().all(|b| b.is_ascii_digit());
         let number = digits.parse().ok().filter(|_| plain);
         let bytes = number.and_then(|number: u32| number.checked_mul(unit));
-        bytes.filter(|b| *b >= LEAST).map(Self::Bytes).ok_or_else(|| BandwidthError(text.to_owned()))
+        bytes
+            .filter(|b| *b >= LEAST)
+            .map(Self::Bytes)
+            .ok_or_else(|| BandwidthError(text.to_owned()))
     }
 }
 

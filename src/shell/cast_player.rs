@@ -10,10 +10,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 
-use super::input::Input;
 use super::frame_loop::{Screen, ScreenRequest};
+use super::input::Input;
 use crate::app::{Code, Key};
-use crate::record::{RecordedCast, CastEvent};
+use crate::record::{CastEvent, RecordedCast};
 use crate::view::RenderStyle;
 use crate::view::colour::{ColourDepth, Rgb};
 use crate::view::theme::Role;

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use super::loader::{STACK, defect};
 use crate::cancel::Cancel;
+use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Prepared;
-use crate::diagnostic::{Document, Diagnostic};
 
 /// Checks texts.
 #[derive(Debug)]

@@ -12,7 +12,7 @@ use etcetera::base_strategy::Xdg;
 
 use super::options::{Choice, Kind, NAMES, OPTIONS, Options};
 use super::regular;
-use crate::diagnostic::{Document, Diagnostic};
+use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{Plain, Setting};
 
 /// Where the configuration stands, whether it is there or not; `None` without a home.

@@ -8,8 +8,8 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
-use super::input::Input;
 use super::frame_loop::{Screen, ScreenRequest};
+use super::input::Input;
 use crate::app::{Code, Key};
 use crate::diagnostic::Diagnostic;
 use crate::record::ScriptRunner;

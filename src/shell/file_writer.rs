@@ -195,7 +195,9 @@ mod tests {
             let _ = slow.recv();
             Ok("late".to_owned())
         });
-        let [(_, Err(late))] = &file_writer.settle(Duration::ZERO)[..] else { panic!("it is not late") };
+        let [(_, Err(late))] = &file_writer.settle(Duration::ZERO)[..] else {
+            panic!("it is not late")
+        };
         assert_eq!(late.kind(), ErrorKind::TimedOut);
         go.send(()).expect("it waits");
         assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));

@@ -19,7 +19,7 @@ use super::panic;
 use super::queue::Queue;
 use super::request::LabError;
 use super::signals::Signals;
-use super::terminal::{Mode, TerminalError, Ready, Terminal};
+use super::terminal::{Mode, Ready, Terminal, TerminalError};
 use crate::app::Mouse;
 use crate::view::Detail;
 use crate::view::frame::Frames;

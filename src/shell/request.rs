@@ -9,9 +9,9 @@ use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
 use super::bandwidth::Bandwidth;
-use super::log::{LogFile, LogError};
-use super::options::Options;
 use super::frame_loop::Pace;
+use super::log::{LogError, LogFile};
+use super::options::Options;
 use super::store::SessionError;
 use super::terminal::TerminalError;
 

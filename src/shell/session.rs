@@ -13,6 +13,7 @@ use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
 use super::files::{self, News, Watch};
+use super::frame_loop::{Pace, Screen, ScreenRequest};
 use super::fresh;
 use super::input::Input;
 use super::job::{Job, Told};
@@ -21,14 +22,13 @@ use super::log::Log;
 use super::product;
 use super::recorder::Recorder;
 use super::request::Request;
-use super::frame_loop::{Pace, Page, ScreenRequest};
-use super::store::{StoreError, Store};
+use super::store::{Store, StoreError};
 use crate::app::{
     Act, App, Checked, Effect, Event, LoadError, Loaded, Mouse, Notification, Saved, Unsaved,
 };
+use crate::diagnostic::Document;
 use crate::experiment::{Export, Prepared, Snapshot, Status};
 use crate::preset::{Catalog, Origin, is_path};
-use crate::diagnostic::Document;
 use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -448,14 +448,15 @@ impl Session {
     /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
     fn still(&mut self) {
         let palette = self.palette();
-        let look = RenderStyle { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
+        let look =
+            RenderStyle { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
         let area = Rect::from(self.size);
         let mut screen = Buffer::empty(area);
         view::draw(&self.app, &look, area, &mut screen);
         plain(&mut screen);
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
-            let drawing = still::write(&screen, palette, still::Form::Svg, &title);
+            let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
             put(product::stem(&stem), "svg", drawing.as_bytes())
         });
     }
@@ -581,7 +582,7 @@ fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
     }
 }
 
-impl Page for Session {
+impl Screen for Session {
     fn input(&mut self, input: Input) -> ScreenRequest {
         if let Input::Mouse(Mouse { act: Act::Press, .. }) = input {
             // Not every terminal says that the button came up.
@@ -592,7 +593,7 @@ impl Page for Session {
             Input::Paste(text) => Event::Paste(text),
             Input::Mouse(Mouse { column, row, act }) => {
                 let area = Rect::from((Position::ORIGIN, self.size));
-                match view::spot(&self.app, &self.look, area, column, row) {
+                match view::hit_test(&self.app, &self.look, area, column, row) {
                     Some(spot) => Event::Mouse(act, spot),
                     None => return ScreenRequest::Nothing,
                 }

@@ -118,7 +118,10 @@ impl Signals {
     pub(super) fn stop(&self) -> io::Result<()> {
         // Not SIGTSTP: that is caught here, and by default it does nothing in a group that has no shell.
         kill_current_process_group(Signal::STOP)?;
-        while !matches!(self.take(), PendingSignals { resumed: true, .. } | PendingSignals { fatal: Some(_), .. }) {
+        while !matches!(
+            self.take(),
+            PendingSignals { resumed: true, .. } | PendingSignals { fatal: Some(_), .. }
+        ) {
             let mut fds = [PollFd::new(&self.wake, PollFlags::IN)];
             match poll(&mut fds, None) {
                 Ok(_) | Err(rustix::io::Errno::INTR) => {}

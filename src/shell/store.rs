@@ -18,8 +18,8 @@ use etcetera::base_strategy::Xdg;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::regular;
 use super::file_writer::{self, FileWriter};
+use super::regular;
 use crate::app::{Saved, Unsaved};
 
 /// The place where sessions are kept, held for as long as this lives.
@@ -380,8 +380,10 @@ fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, Sessio
     if let Some(found) = number.filter(|found| *found > i64::from(version)) {
         return Err(SessionError::Newer { path: path.to_owned(), found });
     }
-    toml::from_str(&text)
-        .map_err(|error| SessionError::Malformed { path: path.to_owned(), reason: error.to_string() })
+    toml::from_str(&text).map_err(|error| SessionError::Malformed {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })
 }
 
 impl SessionError {
@@ -423,7 +425,11 @@ mod tests {
             selection: Selection::default(),
             edited: true,
             plots: Vec::new(),
-            moment: Checkpoint { parameters: vec![g], speed: Some(f64::INFINITY), ..Checkpoint::default() },
+            moment: Checkpoint {
+                parameters: vec![g],
+                speed: Some(f64::INFINITY),
+                ..Checkpoint::default()
+            },
         }
     }
 

@@ -18,7 +18,8 @@ impl System {
         let mut turned = [[DoubleDouble::ZERO; 3]; 3];
         for (i, row) in turned.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let carried = (0..3).fold(DoubleDouble::ZERO, |sum, k| sum + a(i, k) * product(k, j));
+                let carried =
+                    (0..3).fold(DoubleDouble::ZERO, |sum, k| sum + a(i, k) * product(k, j));
                 *entry = (a(i, j) * 3.0 - carried) * 0.5;
             }
         }

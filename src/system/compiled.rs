@@ -3,22 +3,22 @@
 use std::sync::Arc;
 
 use super::consistent_initial::Known;
-use super::constrained::{Constrained, ActiveSet};
+use super::constrained::{ActiveSet, Constrained};
 use super::fault::{Fault, FaultKind};
+use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::legendre::{self, Legendre, LegendreError};
-use super::inertia::Inertia;
-use super::rhs::{Quadratures, Split, ProgramBuilder};
+use super::observables::{ObservableList, Observables};
 use super::program::{Program, Singular};
+use super::rhs::{ProgramBuilder, Quadratures, Split};
 use super::terms::{Quantities, TermWatch, Terms};
 use super::value::Evaluator;
-use super::observables::{ObservableList, Observables};
-use super::{Channel, Form, Given, Observer, Discontinuities, State};
+use super::{Channel, Discontinuities, Form, Given, Observer, State};
 use crate::cancel::Cancel;
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{self, Model};
+use crate::num::DoubleDouble;
 
 /// A model lowered to numbers. Immutable and cheap to clone: steppers and observers share it and
 /// hold their own registers.
@@ -107,7 +107,8 @@ impl System {
             |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
         let inertia = Inertia::of(model, &mut builder).map_err(unknown)?;
         builder.parameters.extend(inertia.iter().flat_map(|m| m.names().to_vec()));
-        let constraints = Constrained::of(model, &mut builder, inertia.as_ref()).map_err(unknown)?;
+        let constraints =
+            Constrained::of(model, &mut builder, inertia.as_ref()).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
         let shared =
             Self::write(model, &mut builder, (list, quantities), constraints).map_err(unknown)?;
@@ -137,8 +138,11 @@ impl System {
                 _ => String::new(),
             }),
         };
-        let motion =
-            MotionPrograms { native: builder.native_rates()?, canonical: builder.canonical_rates()?, split };
+        let motion = MotionPrograms {
+            native: builder.native_rates()?,
+            canonical: builder.canonical_rates()?,
+            split,
+        };
         let mut lowering = builder.lowering();
         let coordinates = &model.coordinates;
         let mut outputs: Vec<_> = coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
@@ -428,7 +432,9 @@ impl System {
         }
         let quadratures = self.quadratures();
         let mut next = driven_len;
-        for (carried, place) in [(quadratures.action, driven_len), (quadratures.work, driven_len + 1)] {
+        for (carried, place) in
+            [(quadratures.action, driven_len), (quadratures.work, driven_len + 1)]
+        {
             out[place] = DoubleDouble::ZERO;
             if carried {
                 out[place] = state.exact(next);
@@ -455,7 +461,11 @@ impl System {
     }
 
     /// The energy of a state in the system's own form.
-    pub(super) fn energy_of(&self, state: &State, parameters: &[f64]) -> Result<DoubleDouble, Fault> {
+    pub(super) fn energy_of(
+        &self,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<DoubleDouble, Fault> {
         let program = self.energy_program();
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&program));
         values.set_parameters(&self.inputs(parameters));
@@ -506,7 +516,8 @@ impl System {
     /// What programs are given for parameters: their values as the decimals they are written as,
     /// and what follows from them.
     pub fn inputs(&self, parameters: &[f64]) -> Vec<DoubleDouble> {
-        let mut inputs: Vec<DoubleDouble> = parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+        let mut inputs: Vec<DoubleDouble> =
+            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
         if let Some(inertia) = &self.shared.inertia {
             inputs.extend(inertia.values(&inputs));
         }
@@ -520,7 +531,8 @@ impl System {
     /// body.
     pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
         let Some(inertia) = &self.shared.inertia else { return Vec::new() };
-        let written: Vec<DoubleDouble> = parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+        let written: Vec<DoubleDouble> =
+            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
         let values = inertia.values(&written).into_iter().map(|x| x.high);
         inertia.names().iter().copied().zip(values).collect()
     }
@@ -616,7 +628,12 @@ impl System {
 
     /// The fault of given momenta (or velocities) that do not say with which rates the motion
     /// starts.
-    fn several(&self, time: f64, solutions: &[Vec<DoubleDouble>], targets: &[Option<DoubleDouble>]) -> Fault {
+    fn several(
+        &self,
+        time: f64,
+        solutions: &[Vec<DoubleDouble>],
+        targets: &[Option<DoubleDouble>],
+    ) -> Fault {
         let n = self.degrees();
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         let first = if self.form() == Form::Momentum { 2 * n } else { n };
@@ -631,7 +648,12 @@ impl System {
     }
 
     /// The fault of a relation between velocities and momenta that was not solved.
-    pub(super) fn unsolved(&self, why: LegendreError, time: f64, numbers: &[DoubleDouble]) -> Fault {
+    pub(super) fn unsolved(
+        &self,
+        why: LegendreError,
+        time: f64,
+        numbers: &[DoubleDouble],
+    ) -> Fault {
         let kind = match why {
             LegendreError::Singular => FaultKind::SingularMass,
             LegendreError::NotConverging => FaultKind::NoVelocities,

@@ -5,12 +5,12 @@
 
 use std::sync::Arc;
 
-use super::rhs::ProgramBuilder;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::value::Evaluator;
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
+use crate::num::DoubleDouble;
 
 /// A row whose part independent of the rows before it is smaller than this, measured by the row,
 /// says nothing new.
@@ -199,7 +199,9 @@ impl Conditions {
             let terms = (0..self.degrees).map(|i| self.entry(a, i) * self.entry(b, i));
             terms.fold(DoubleDouble::ZERO, |sum, x| sum + x)
         };
-        let sum = |terms: &mut dyn Iterator<Item = DoubleDouble>| terms.fold(DoubleDouble::ZERO, |s, x| s + x);
+        let sum = |terms: &mut dyn Iterator<Item = DoubleDouble>| {
+            terms.fold(DoubleDouble::ZERO, |s, x| s + x)
+        };
         let b: Vec<Vec<DoubleDouble>> =
             all.iter().map(|&k| independent.iter().map(|&j| product(k, j)).collect()).collect();
         let force =

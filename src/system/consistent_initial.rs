@@ -123,7 +123,10 @@ impl Problem<'_> {
     }
 
     /// What each equation misses, constraints first, and the largest measured by its terms.
-    fn missing(&mut self, state: &[DoubleDouble]) -> Result<(Vec<DoubleDouble>, f64), InconsistentStart> {
+    fn missing(
+        &mut self,
+        state: &[DoubleDouble],
+    ) -> Result<(Vec<DoubleDouble>, f64), InconsistentStart> {
         let n = self.known.len();
         let evaluated = self.momenta.evaluate(self.time, state);
         let targets = self.targets();

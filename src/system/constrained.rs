@@ -4,18 +4,18 @@
 //! residuals. Never here: the forces of constraint along the motion; these are outputs of the
 //! programs.
 
-use super::consistent_initial::{self, Known, InconsistentStart};
 use super::conditions::{Conditions, Programs, Span};
+use super::consistent_initial::{self, InconsistentStart, Known};
 use super::fault::{Fault, FaultKind};
-use super::kkt::ConstraintSystem;
-use super::projection::{ProjectionError, Projection};
 use super::inertia::Inertia;
+use super::kkt::ConstraintSystem;
+use super::projection::{Projection, ProjectionError};
 use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
 use super::{Form, State, System};
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Model};
+use crate::num::DoubleDouble;
 
 /// What is known of the constraints before any state.
 #[derive(Clone, Debug)]
@@ -98,7 +98,8 @@ fn independent_at_start(
     }
     let mut values: Evaluator<DoubleDouble> = Evaluator::new(start);
     values.set_parameters(&parameters);
-    let positions: Vec<DoubleDouble> = (0..model.coordinates.len()).map(|i| values.output(i)).collect();
+    let positions: Vec<DoubleDouble> =
+        (0..model.coordinates.len()).map(|i| values.output(i)).collect();
     let mut conditions = Conditions::new(programs, count);
     conditions.set_parameters(&parameters);
     conditions.look(DoubleDouble::written(model.run.start), &positions);
@@ -289,10 +290,14 @@ impl System {
         target: &[DoubleDouble],
         parameters: &[f64],
     ) -> Result<(State, Vec<f64>), Fault> {
-        let Some(mut projector) = self.projector(parameters) else { return Ok((state.clone(), vec![])) };
+        let Some(mut projector) = self.projector(parameters) else {
+            return Ok((state.clone(), vec![]));
+        };
         projector.load(state);
-        let outcome = projector.kept.impulse_outcome(state.exact_time(), &mut projector.numbers, target);
-        let reactions = outcome.map_err(|why| self.unsolved(why, state.time, &projector.numbers))?;
+        let outcome =
+            projector.kept.impulse_outcome(state.exact_time(), &mut projector.numbers, target);
+        let reactions =
+            outcome.map_err(|why| self.unsolved(why, state.time, &projector.numbers))?;
         let ActiveSet { active, held } = self.holding();
         let reactions = projector.kept.conditions().least(active, held, reactions);
         let mut after = state.clone();
@@ -338,7 +343,8 @@ impl System {
                 other => other,
             })
             .collect();
-        let found = consistent_initial::begin(&conditions, &mut momenta, time, &mut numbers, &known);
+        let found =
+            consistent_initial::begin(&conditions, &mut momenta, time, &mut numbers, &known);
         found.map_err(|why| match why {
             InconsistentStart::Missed(k, part) => missed(k, part),
             InconsistentStart::Free(free) => {
@@ -364,7 +370,9 @@ impl System {
     fn lost(&self, why: ProjectionError, state: &State) -> Fault {
         let kind = match (why, self.constrained()) {
             (ProjectionError::Lost(k), Some(c)) => FaultKind::ConstraintLost(c.names[k].clone()),
-            (ProjectionError::Parted(k), Some(c)) => FaultKind::ConstraintParted(c.names[k].clone()),
+            (ProjectionError::Parted(k), Some(c)) => {
+                FaultKind::ConstraintParted(c.names[k].clone())
+            }
             (ProjectionError::Singular, _) | (_, None) => FaultKind::SingularConstraints(None),
         };
         self.fault(kind, state.time, &state.values)

@@ -7,15 +7,15 @@
 
 use std::sync::Arc;
 
-use super::rhs::ProgramBuilder;
+use super::observables;
 use super::program::Program;
 use super::resolution::{self, Resolution};
+use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
-use super::observables;
 use super::{Fault, FaultKind, Form, State, System};
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Direction, Model};
+use crate::num::DoubleDouble;
 
 /// What may happen to a motion.
 #[derive(Clone, Debug)]
@@ -98,7 +98,10 @@ pub struct ImpulseOutcome {
 }
 
 impl Discontinuities {
-    pub(super) fn of(model: &Model, builder: &mut ProgramBuilder<'_>) -> Result<Discontinuities, Symbol> {
+    pub(super) fn of(
+        model: &Model,
+        builder: &mut ProgramBuilder<'_>,
+    ) -> Result<Discontinuities, Symbol> {
         let mut lowering = builder.lowering();
         let mut outputs = Vec::new();
         for impulse in &model.impulses {
@@ -113,7 +116,11 @@ impl Discontinuities {
             events: model
                 .events
                 .iter()
-                .map(|e| CompiledEvent { name: e.name.clone(), direction: e.direction, action: e.action })
+                .map(|e| CompiledEvent {
+                    name: e.name.clone(),
+                    direction: e.direction,
+                    action: e.action,
+                })
                 .collect(),
             impulses: model
                 .impulses
@@ -246,7 +253,8 @@ impl System {
     /// When each impulse falls, at these parameters.
     pub fn schedule(&self, parameters: &[f64]) -> Vec<Schedule> {
         let discontinuities = self.discontinuities();
-        let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&discontinuities.schedule));
+        let mut values: Evaluator<DoubleDouble> =
+            Evaluator::new(Arc::clone(&discontinuities.schedule));
         values.set_parameters(&self.inputs(parameters));
         let mut next = 0;
         let mut take = |count: usize| {
@@ -305,7 +313,8 @@ impl System {
             Form::Momentum => add(&mut after, n, &impulse),
             Form::Velocity => {
                 let before = self.convert(state, Form::Momentum, parameters)?;
-                let target: Vec<DoubleDouble> = (0..n).map(|i| before.exact(n + i) + impulse[i]).collect();
+                let target: Vec<DoubleDouble> =
+                    (0..n).map(|i| before.exact(n + i) + impulse[i]).collect();
                 if self.constraints() > 0 {
                     (after, reaction) = self.impulse_outcome(state, &target, parameters)?;
                     let after_impulse = self.convert(&after, Form::Momentum, parameters)?;

@@ -5,13 +5,13 @@
 
 use std::sync::Arc;
 
-use super::rhs::ProgramBuilder;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
-use crate::num::DoubleDouble;
 use crate::expr::Symbol;
 use crate::mechanics::principal;
 use crate::model::Model;
+use crate::num::DoubleDouble;
 
 /// The numbers of one body.
 #[derive(Clone, Debug)]
@@ -24,7 +24,10 @@ pub(super) struct Inertia {
 impl Inertia {
     /// Those of a model's body, if it has one. To be called while the writer knows the parameters
     /// only.
-    pub(super) fn of(model: &Model, builder: &mut ProgramBuilder<'_>) -> Result<Option<Inertia>, Symbol> {
+    pub(super) fn of(
+        model: &Model,
+        builder: &mut ProgramBuilder<'_>,
+    ) -> Result<Option<Inertia>, Symbol> {
         let (Some(body), Some(whole)) = (&model.body, &builder.equations.beside.body) else {
             return Ok(None);
         };

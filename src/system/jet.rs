@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use super::program::{LIVE_POWER_BITS, Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::num::{DoubleDouble, Real};
 use crate::expr::{FunctionId, Rule};
+use crate::num::{DoubleDouble, Real};
 
 /// Which branch the functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -321,7 +321,13 @@ fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
 /// `y = a^n` with `n` known at run time. An integer is taken by repeated squares, which is good
 /// at the zeros of `a` too: behind `y` stand, bit by bit of the exponent, the square and the
 /// product of those wanted so far.
-fn live_power<R: Real>(a: &[R], exponent: DoubleDouble, own: &mut [R], k: usize, stride: usize) -> R {
+fn live_power<R: Real>(
+    a: &[R],
+    exponent: DoubleDouble,
+    own: &mut [R],
+    k: usize,
+    stride: usize,
+) -> R {
     let n = exponent.high;
     if exponent.low != 0.0 || n.fract() != 0.0 || n.abs() >= f64::from(1 << LIVE_POWER_BITS) {
         return power(a, exponent, own, k);

@@ -8,8 +8,8 @@
 use super::lower::Lowering;
 use super::program::Register;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::num::Number;
 use crate::mechanics::{ConstraintRow, Equations, Flow};
+use crate::num::Number;
 
 /// The matrices of M q̈ − Aᵀν = f, A q̈ = γ, for the constraints that are held.
 #[derive(Clone, Debug, Default)]

@@ -7,14 +7,14 @@
 
 use std::sync::Arc;
 
-use super::rhs::ProgramBuilder;
 use super::program::{Program, Singular};
+use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::state::Form;
 use super::value::Evaluator;
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Flow;
+use crate::num::DoubleDouble;
 
 /// How often a step may be halved, and how many steps there may be.
 const HALVINGS: u32 = 60;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::channel::{Channel, ChannelKind};
 use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
-use super::rhs::ProgramBuilder;
 use super::program::{Program, Register};
+use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{self, Mechanics, Model, Shape};
@@ -39,7 +39,11 @@ pub(super) struct ObservableList {
 
 impl ObservableList {
     /// Lists the channels of a model.
-    pub(super) fn of(model: &Model, equations: &mut Equations, extra: &[model::Channel]) -> ObservableList {
+    pub(super) fn of(
+        model: &Model,
+        equations: &mut Equations,
+        extra: &[model::Channel],
+    ) -> ObservableList {
         let mut list = ObservableList::default();
         list.add_state(model, equations);
         for (i, o) in model.observables.iter().enumerate() {

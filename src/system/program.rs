@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use super::lower::Lowering;
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use crate::num::DoubleDouble;
 
 /// The place of a number in a program: the operation that writes it.
 pub(super) type Register = u32;
@@ -180,9 +180,10 @@ impl Program {
                     [first as usize..(first + count) as usize]
                     .iter()
                     .any(|term| timed[term.register as usize]),
-                Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
-                    on(&[a, b])
-                }
+                Op::Scale(a, b)
+                | Op::Multiply(a, b)
+                | Op::Divide(a, b)
+                | Op::ParametricPower(a, b) => on(&[a, b]),
                 Op::Square(a) | Op::Root(a) | Op::Power(a, _) => on(&[a]),
                 Op::Call(_, arguments) => on(&arguments),
                 Op::Select { switch, positive, negative, .. } => on(&[switch, positive, negative]),

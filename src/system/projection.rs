@@ -42,7 +42,11 @@ pub(super) enum ProjectionError {
 }
 
 impl Projection {
-    pub(super) fn new(conditions: Conditions, momenta: Evaluator<DoubleDouble>, held: &[bool]) -> Projection {
+    pub(super) fn new(
+        conditions: Conditions,
+        momenta: Evaluator<DoubleDouble>,
+        held: &[bool],
+    ) -> Projection {
         Projection { degrees: conditions.degrees(), conditions, momenta, held: held.to_vec() }
     }
 
@@ -63,11 +67,16 @@ impl Projection {
     /// Moves a state (q, q̇) by the least amount, measured by the mass matrix, until positions and
     /// velocities keep the constraints to rounding: δq = M⁻¹Aᵀμ (not Baumgarte's pull, which
     /// changes the motion).
-    pub(super) fn project(&mut self, time: DoubleDouble, state: &mut [DoubleDouble]) -> Result<(), ProjectionError> {
+    pub(super) fn project(
+        &mut self,
+        time: DoubleDouble,
+        state: &mut [DoubleDouble],
+    ) -> Result<(), ProjectionError> {
         let n = self.degrees;
         self.correct(time, state, |kept, k, _| kept.conditions.position(k), 0)?;
-        let velocity =
-            |kept: &Projection, k: usize, state: &[DoubleDouble]| kept.conditions.velocity(k, &state[n..2 * n]);
+        let velocity = |kept: &Projection, k: usize, state: &[DoubleDouble]| {
+            kept.conditions.velocity(k, &state[n..2 * n])
+        };
         self.correct(time, state, velocity, n)
     }
 

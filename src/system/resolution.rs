@@ -10,13 +10,13 @@
 use std::sync::Arc;
 
 use super::jet::{Jet, Side};
-use super::rhs::ProgramBuilder;
-use super::program::Program;
-use super::series::Series;
 use super::observables;
+use super::program::Program;
+use super::rhs::ProgramBuilder;
+use super::series::Series;
 use super::{State, System};
-use crate::num::{DoubleDouble, math};
 use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::num::{DoubleDouble, math};
 
 /// The order of the series.
 const ORDER: usize = 12;

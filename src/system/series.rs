@@ -14,8 +14,8 @@ use super::program::{Program, Singular};
 use super::solve::Factored;
 use super::state::State;
 use crate::cancel::Cancel;
-use crate::num::{DoubleDouble, Real, ExtendedRange, math};
 use crate::expr::FunctionId;
+use crate::num::{DoubleDouble, ExtendedRange, Real, math};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -324,7 +324,14 @@ struct SeriesBuilder<R> {
 impl<R: Real> SeriesBuilder<R> {
     fn new(program: Arc<Program>, inputs: usize, len: usize, order: usize) -> SeriesBuilder<R> {
         let state = vec![R::ZERO; len * (order + 1)];
-        SeriesBuilder { jet: Jet::new(program, order), order, inputs, state, kept: Vec::new(), depth: 1 }
+        SeriesBuilder {
+            jet: Jet::new(program, order),
+            order,
+            inputs,
+            state,
+            kept: Vec::new(),
+            depth: 1,
+        }
     }
 
     fn series(&self, i: usize) -> &[R] {

@@ -8,13 +8,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::legendre::Legendre;
-use super::rhs::ProgramBuilder;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
 use super::{Form, State, System};
-use crate::num::DoubleDouble;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
+use crate::num::DoubleDouble;
 
 /// What a term of a quantity is at rest.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::num::{DoubleDouble, Real, ExtendedRange};
 use crate::expr::Rule;
+use crate::num::{DoubleDouble, ExtendedRange, Real};
 
 /// The registers of one program as numbers, in one precision.
 #[derive(Clone, Debug)]
@@ -77,7 +77,8 @@ impl<R: Real> Evaluator<R> {
             wide.set_parameters(&self.parameters);
             wide
         });
-        let inputs: Vec<ExtendedRange> = inputs.iter().map(|x| ExtendedRange::of(x.double())).collect();
+        let inputs: Vec<ExtendedRange> =
+            inputs.iter().map(|x| ExtendedRange::of(x.double())).collect();
         wide.evaluate(ExtendedRange::of(time.double()), &inputs)?;
         for (x, wide) in self.registers.iter_mut().zip(&wide.registers) {
             *x = R::of(wide.double());

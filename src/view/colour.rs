@@ -218,11 +218,8 @@ impl Rgb {
         let m = math::powi(lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b, 3);
         let s = math::powi(lightness - 0.089_484_177_5 * a - 1.291_485_548_0 * b, 3);
         let channel = |v: f64| {
-            let v = if v <= 0.003_130_8 {
-                12.92 * v
-            } else {
-                1.055 * math::powf(v, 1.0 / 2.4) - 0.055
-            };
+            let v =
+                if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * math::powf(v, 1.0 / 2.4) - 0.055 };
             (255.0 * v).round().clamp(0.0, 255.0) as u8
         };
         Self(

@@ -3,8 +3,8 @@
 //! In: the model. Out: a page of text. Never here: whether the expectations hold; `phaselab check` tests that.
 
 use super::RenderStyle;
-use super::text_page::TextPage;
 use super::number::brief;
+use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 

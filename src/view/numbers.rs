@@ -2,10 +2,10 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
-use super::text_page::TextPage;
 use super::gauges::word;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
+use super::text_page::TextPage;
 use super::theme::Role;
 use crate::experiment::EventCount;
 use crate::system::{Channel, ChannelKind};

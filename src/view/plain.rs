@@ -2,13 +2,13 @@
 //!
 //! In: the lab and the snapshot that is read. Out: a page of text. Never here: anything that changes by itself.
 
-use super::header_footer::status_words;
-use super::text_page::TextPage;
 use super::gauges::{finding, word};
+use super::header_footer::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
+use super::text_page::TextPage;
 use crate::app::keymap::{KEYS, Place};
-use crate::app::{ValueInfo, Lab, Pane, ValueId};
+use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;
 
 /// Places whose keys are reported of.

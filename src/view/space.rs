@@ -3,8 +3,8 @@
 //! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
 
 mod body;
-mod scene;
 mod reference_frame;
+mod scene;
 
 use ratatui::layout::Rect;
 
@@ -13,12 +13,12 @@ use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::app::{Eye, Lab};
-use crate::num::math;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
+use crate::num::math;
 use body::Outline;
-use scene::Scene;
 use reference_frame::ReferenceFrame;
+use scene::Scene;
 
 /// The layers of the picture, the lowest first.
 const GROUND: u8 = 0;
@@ -160,13 +160,17 @@ impl Artist<'_> {
     /// Where a point of a shape is now, as seen from the frame.
     fn point(&self, point: &Point) -> [f64; 3] {
         let r = self.q.point(point);
-        self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
+        self.reference_frame
+            .as_ref()
+            .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
     }
 
     /// A direction of a shape now, as seen from the frame.
     fn direction(&self, direction: &Point) -> [f64; 3] {
         let v = self.q.point(direction);
-        self.reference_frame.as_ref().map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
+        self.reference_frame
+            .as_ref()
+            .map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
     }
 
     /// Draws the apparent forces on the particles of the frame, and says which of them there are.
@@ -262,7 +266,9 @@ impl Artist<'_> {
         let at = self.q.point(at);
         let place = |own: [f64; 3]| {
             let r = [0, 1, 2].map(|k| at[k] + own[k]);
-            self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
+            self.reference_frame
+                .as_ref()
+                .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
         };
         let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
             lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
@@ -288,7 +294,11 @@ impl Artist<'_> {
         // Each past point is seen from the frame as it stood then: the row is that of its own time.
         let past = rows.map(|row| {
             let r = sources.map(|source| source.read(row));
-            self.flat(self.reference_frame.as_ref().map_or(r, |reference_frame| reference_frame.point(row, r)))
+            self.flat(
+                self.reference_frame
+                    .as_ref()
+                    .map_or(r, |reference_frame| reference_frame.point(row, r)),
+            )
         });
         let mut points: Vec<[f64; 2]> = past.collect();
         points.push(self.flat(self.point(point)));

@@ -7,13 +7,13 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
+use super::hit_test::Region;
 use super::number::brief;
 use super::plot::Scale;
-use super::hit_test::Region;
 use super::sparkline::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};
-use crate::app::{ValueInfo, Field, Lab, Purpose, Spot, ValueId};
+use crate::app::{Field, Lab, Purpose, Spot, ValueId, ValueInfo};
 use crate::model;
 
 /// Columns of a number.
@@ -79,7 +79,8 @@ impl Values<'_> {
 
     fn columns(&self, canvas: &Canvas<'_>, count: usize) -> Columns {
         let glyphs = canvas.look.glyphs;
-        let facts: Vec<ValueInfo> = (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
+        let facts: Vec<ValueInfo> =
+            (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
         let widest = |text: &dyn Fn(&ValueInfo) -> String, most: u16| {
             let wide = facts.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
             wide.unwrap_or(0).min(most)

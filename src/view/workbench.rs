@@ -13,7 +13,9 @@ use super::lab_page;
 use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
-use crate::app::{App, Asking, Caret, Drawn, BufferDiagnostic, Lab, Notification, SourceBuffer, SheetState};
+use crate::app::{
+    App, Asking, BufferDiagnostic, Caret, Drawn, Lab, Notification, SheetState, SourceBuffer,
+};
 
 /// From this width on the motion has room beside the text.
 const WIDE: u16 = 112;
@@ -62,7 +64,8 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
     let glyphs = canvas.look.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
-        let flaws: Vec<&BufferDiagnostic> = sheet.flaws.iter().filter(|f| f.from.row == index).collect();
+        let flaws: Vec<&BufferDiagnostic> =
+            sheet.flaws.iter().filter(|f| f.from.row == index).collect();
         let here = sheet.editor.cursor().row == index;
         if let Some(flaw) = flaws.first() {
             let role = if flaw.warning { Role::Warn } else { Role::Bad };

@@ -127,5 +127,8 @@ fn what_is_written_is_meant() {
     let third = DoubleDouble::ONE / DoubleDouble::from(3.0);
     assert_eq!((third * 3.0 - DoubleDouble::ONE).high.abs().max(1e-31), 1e-31);
     let small = DoubleDouble::written(9.109_383_701_5e-31);
-    assert!((small * DoubleDouble::written(1e31) - DoubleDouble::written(9.109_383_701_5)).high.abs() < 1e-30);
+    assert!(
+        (small * DoubleDouble::written(1e31) - DoubleDouble::written(9.109_383_701_5)).high.abs()
+            < 1e-30
+    );
 }

@@ -5,10 +5,10 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
+use phaselab::diagnostic::Document;
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
 use phaselab::preset::Catalog;
-use phaselab::diagnostic::Document;
 use phaselab::system::{ChannelKind, Given, System};
 use phaselab::view::theme::PALETTES;
 

@@ -143,7 +143,9 @@ change = { p_x1 = '3', p_y1 = '1' }
         assert!((found - right).abs() < 1e-15, "{found} is not {right}");
     }
     // p_x2 = Λ ∂f/∂x2 = Λ · 2 (x2 − x1)
-    let OccurrenceKind::CompiledImpulse { jump, reaction } = &dumbbell.happenings().iter().next().unwrap().kind else {
+    let OccurrenceKind::CompiledImpulse { jump, reaction } =
+        &dumbbell.happenings().iter().next().unwrap().kind
+    else {
         panic!("no impulse")
     };
     assert!((reaction[0] - 1.5 / 4.0).abs() < 1e-15, "{reaction:?}");

@@ -13,12 +13,12 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use phaselab::diagnostic::Document;
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
 use phaselab::expr::Pool;
 use phaselab::integrate::{Occurrence, OccurrenceKind as happening};
 use phaselab::mechanics;
 use phaselab::model::{Channel, Coordinate, Model};
-use phaselab::diagnostic::Document;
 use phaselab::system::{ChannelKind, System};
 
 use serde::Deserialize;
@@ -182,7 +182,8 @@ fn happenings(
     let of_digits = |digits: &String| digits.parse::<f64>().map_or(0.0, f64::abs);
     let largest =
         events.iter().flat_map(|e| e.reaction.values()).map(of_digits).fold(0.0, f64::max);
-    let (kind, prefix) = if model.is_poisson() { (OccurrenceKind::X, "") } else { (OccurrenceKind::P, "p_") };
+    let (kind, prefix) =
+        if model.is_poisson() { (OccurrenceKind::X, "") } else { (OccurrenceKind::P, "p_") };
     for (known, found) in events.iter().zip(&mut found) {
         let Occurrence { name, time, kind: what } = found;
         if *name != known.name {

@@ -1,8 +1,8 @@
 //! The body of a file in numbers, at the file's parameters.
 
-use crate::num::DoubleDouble;
 use crate::mechanics::{Equations, RigidBody, body_values, matrix, principal};
 use crate::model::{BodyNames, Model};
+use crate::num::DoubleDouble;
 
 /// What a body is.
 pub(super) struct Numbers<'a> {

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 use super::super::script::Script;
 use super::body::Numbers;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Equations, Flow, Reason, NoClosedForm};
+use crate::mechanics::{Class, Classed, Equations, Flow, NoClosedForm, Reason};
 use crate::model::{Mechanics, Model};
 
 pub(super) fn write(
@@ -171,7 +171,8 @@ impl Page<'_> {
 
     /// The Lagrangian that has the constraints put into it, and what it is not.
     fn vakonomic(&mut self, model: &Model) {
-        let (Some(vakonomic), Some(comparison)) = (&self.equations.beside.vakonomic, &model.comparison)
+        let (Some(vakonomic), Some(comparison)) =
+            (&self.equations.beside.vakonomic, &model.comparison)
         else {
             return;
         };

@@ -2,8 +2,8 @@
 
 use super::asin::{advance, slope};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Real, Recurrence, ExtendedRange, math};
 use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {

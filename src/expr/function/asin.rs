@@ -2,8 +2,8 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Number, Real, Recurrence, ExtendedRange, math};
 use crate::expr::{Expr, Pool};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// `1/√(1 − u²)`.
 pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {

@@ -2,7 +2,7 @@
 
 use super::series::{chain, known, product};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Number, Real, Recurrence, ExtendedRange, math};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// θ = atan2(y, x), w = x² + y²: θ′ w = x y′ − y x′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {

@@ -2,8 +2,8 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Real, Recurrence, ExtendedRange, math};
 use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {

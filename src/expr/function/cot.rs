@@ -2,8 +2,8 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Number, Real, Recurrence, ExtendedRange, math};
 use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = cot u, w = 1 + y²: y′ = −w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {

@@ -2,8 +2,8 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Real, Recurrence, ExtendedRange, math};
 use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = exp u: y′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {

@@ -2,8 +2,8 @@
 
 use super::series::known;
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, Real, Recurrence, ExtendedRange, math};
 use crate::expr::{Expr, Node};
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = ln u: y′ u = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {

@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::num::{DoubleDouble, Real, Recurrence, ExtendedRange, math};
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = sin u, w = cos u: y′ = w u′, w′ = −y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {

@@ -50,7 +50,11 @@ fn half() -> DoubleDouble {
 }
 
 impl Tableau {
-    fn new(nodes: Vec<DoubleDouble>, weights: Vec<DoubleDouble>, matrix: Vec<Vec<DoubleDouble>>) -> Tableau {
+    fn new(
+        nodes: Vec<DoubleDouble>,
+        weights: Vec<DoubleDouble>,
+        matrix: Vec<Vec<DoubleDouble>>,
+    ) -> Tableau {
         let c: Vec<f64> = nodes.iter().map(|c| c.high).collect();
         let row = |x: f64| (0..c.len()).map(|j| lagrange(&c, j, 1.0 + x)).collect();
         let onward = c.iter().map(|&x| row(x)).collect();

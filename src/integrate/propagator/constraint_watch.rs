@@ -6,9 +6,9 @@
 //! reversed: that is how a passage is seen, however long the step. Never here: which constraints hold.
 
 use super::Propagator;
-use crate::num::math;
 use crate::integrate::{Settings, Stepper, Stepping, method_named};
-use crate::system::{Directions, Fault, FaultKind, Form, ConstraintProjector, Passage, State};
+use crate::num::math;
+use crate::system::{ConstraintProjector, Directions, Fault, FaultKind, Form, Passage, State};
 
 /// Between two looks whose directions are closer than this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;

@@ -59,7 +59,10 @@ impl Propagator {
             projector.project(&mut before)?;
         }
         let after_impulse = self.system.apply_impulse(impulse, &before, &self.parameters)?;
-        let kind = OccurrenceKind::CompiledImpulse { jump: after_impulse.jump, reaction: after_impulse.reaction };
+        let kind = OccurrenceKind::CompiledImpulse {
+            jump: after_impulse.jump,
+            reaction: after_impulse.reaction,
+        };
         if let Some(crossings) = &mut self.crossings {
             crossings.after_impulse(&before, &after_impulse.after, event)?;
         }

@@ -203,8 +203,8 @@ impl Bridge {
             let mut moved = 0.0_f64;
             for s in 0..3 {
                 for (i, &x) in start.iter().enumerate() {
-                    let sum =
-                        (0..3).fold(DoubleDouble::ZERO, |sum, j| sum + from[s][j] * self.stages[j][i]);
+                    let sum = (0..3)
+                        .fold(DoubleDouble::ZERO, |sum, j| sum + from[s][j] * self.stages[j][i]);
                     self.numbers[i] = x + step * sum;
                 }
                 match rates.evaluate(time + step * at[s], &self.numbers) {
@@ -232,8 +232,8 @@ impl Bridge {
             }
         }
         for (i, &x) in start.iter().enumerate() {
-            let sum =
-                (0..3).fold(DoubleDouble::ZERO, |sum, s| sum + self.scheme.weight[s] * self.stages[s][i]);
+            let sum = (0..3)
+                .fold(DoubleDouble::ZERO, |sum, s| sum + self.scheme.weight[s] * self.stages[s][i]);
             self.end[i] = x + step * sum;
         }
         Ok(settled && self.end.iter().all(|x| x.is_finite()))

@@ -118,8 +118,10 @@ struct Asked<'a> {
 impl Asked<'_> {
     /// The still state with a small velocity in a direction.
     fn moving(&self, direction: &[f64]) -> State {
-        let length =
-            direction.iter().map(|x| DoubleDouble::product(*x, *x)).fold(DoubleDouble::ZERO, |a, b| a + b);
+        let length = direction
+            .iter()
+            .map(|x| DoubleDouble::product(*x, *x))
+            .fold(DoubleDouble::ZERO, |a, b| a + b);
         let length = Real::sqrt(length);
         let mut state = self.still.clone();
         for (i, &x) in direction.iter().enumerate() {

@@ -6,7 +6,8 @@ use crate::num::math;
 use crate::num::real::{Real, Recurrence, RecurrenceStep};
 
 /// ln 2.
-const LN_2: DoubleDouble = DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
+const LN_2: DoubleDouble =
+    DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
 /// π/2 in three pieces.
 const HALF_PI: [f64; 3] =
@@ -42,7 +43,11 @@ impl DoubleDouble {
 
     /// `e^self − 1`.
     fn exp_minus_one(self) -> DoubleDouble {
-        if self.high.abs() < 0.35 { self.exp_minus_one_reduced() } else { self.exp() - DoubleDouble::ONE }
+        if self.high.abs() < 0.35 {
+            self.exp_minus_one_reduced()
+        } else {
+            self.exp() - DoubleDouble::ONE
+        }
     }
 
     /// Sine and cosine of an argument up to π/4, by their series.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::NotFound;
+use crate::diagnostic::{Diagnostic, Diagnostics, Document, Severity};
 use crate::model::Info;
-use crate::diagnostic::{Document, Diagnostic, Diagnostics, Severity};
 use crate::preset::{draft, toml_errors};
 use crate::printable;
 

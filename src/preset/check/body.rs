@@ -3,10 +3,12 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
-use crate::model::{Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn};
-use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 use crate::diagnostic::Diagnostic;
+use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
+use crate::model::{
+    Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn,
+};
+use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 
 impl Check<'_> {
     /// The names that follow from a body and its attitude, so that all expressions know them; what

@@ -4,11 +4,11 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Rank, latex_of_unicode};
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
+use crate::expr::{Rank, latex_of_unicode};
 use crate::model::Comparison;
 use crate::preset::draft::DraftComparison;
-use crate::diagnostic::Diagnostic;
 
 impl Check<'_> {
     /// The other motion: `other_x` and `other_x'` of every coordinate.

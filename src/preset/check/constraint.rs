@@ -7,10 +7,10 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::tell_twice;
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
 use crate::model::{Allowed, Constraint, Scope, multiplier_name};
 use crate::preset::draft::{Draft, DraftConstraint, Formula};
-use crate::diagnostic::Diagnostic;
 
 /// How many nodes may be walked to prove all constraints of a file linear: each of a constraint
 /// once for each velocity in it.
@@ -31,7 +31,8 @@ impl Check<'_> {
             } else if let Some(first) = first {
                 let message =
                     format!("a constraint before this one has the multiplier `{multiplier}` too");
-                let mistake = Diagnostic::error(name.span(), message).with_help("rename one of them");
+                let mistake =
+                    Diagnostic::error(name.span(), message).with_help("rename one of them");
                 self.mistakes.push(mistake.with_also(first.span(), "the first one"));
             }
             taken.push((multiplier, written));
@@ -139,8 +140,10 @@ impl Check<'_> {
             true
         };
         if !binds {
-            let mistake =
-                Diagnostic::error(formula.span(), format!("{called} binds no coordinate or velocity"));
+            let mistake = Diagnostic::error(
+                formula.span(),
+                format!("{called} binds no coordinate or velocity"),
+            );
             self.mistakes.push(mistake.with_help("what is to vanish depends on where things are"));
             return None;
         }

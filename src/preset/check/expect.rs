@@ -3,14 +3,16 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::Expr;
-use crate::diagnostic::nearest;
-use crate::model::{Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope};
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
+use crate::model::{
+    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope,
+};
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };
-use crate::diagnostic::Diagnostic;
 use crate::printable::number;
 
 /// The absolute tolerance of a claimed number where the file gives none.

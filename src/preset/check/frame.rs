@@ -4,11 +4,11 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::tell_twice;
-use crate::expr::Expr;
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{Allowed, Frame, Point, Scope};
 use crate::preset::draft::{DraftFrame, Formulas};
-use crate::diagnostic::Diagnostic;
 
 impl Check<'_> {
     /// The frames of the file.

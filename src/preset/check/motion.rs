@@ -2,11 +2,11 @@
 
 use super::Check;
 use super::names::Names;
-use crate::expr::Expr;
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{Allowed, Coordinate, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
-use crate::diagnostic::Diagnostic;
 
 impl Check<'_> {
     /// The coordinates or variables, and which kind of law they move by: what an expression may name

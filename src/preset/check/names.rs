@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use toml::Spanned;
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::SourceRange;
 use crate::expr::{FUNCTIONS, latex_of_unicode};
 use crate::model::{Attitude, BodyNames, multiplier_name};
-use crate::diagnostic::SourceRange;
-use crate::diagnostic::Diagnostics;
 use crate::preset::draft::{Draft, Law};
-use crate::diagnostic::Diagnostic;
 
 /// The names given so far, with what they name and where.
 pub(super) struct Names {

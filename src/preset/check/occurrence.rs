@@ -4,11 +4,11 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::tell_twice;
-use crate::expr::Expr;
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
-use crate::diagnostic::Diagnostic;
 use crate::printable::number;
 
 /// What an event can do, as messages list it.

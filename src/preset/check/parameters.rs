@@ -3,12 +3,12 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Rank, latex_of_unicode, unicode_name};
-use crate::diagnostic::nearest;
-use crate::num::math;
-use crate::model::{Parameter, Scale};
-use crate::preset::draft::DraftParameter;
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::expr::{Rank, latex_of_unicode, unicode_name};
+use crate::model::{Parameter, Scale};
+use crate::num::math;
+use crate::preset::draft::DraftParameter;
 
 impl Check<'_> {
     /// Adds a parameter to the model.

@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use super::Check;
+use crate::diagnostic::Diagnostic;
 use crate::expr::Expr;
 use crate::model::{Allowed, Channel, Point, Scope, Shape, View, ViewKind};
 use crate::preset::draft::{
     DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formula, Formulas,
 };
-use crate::diagnostic::Diagnostic;
 
 /// Into how many pieces a path is cut where the file does not say.
 const SAMPLES: usize = 96;

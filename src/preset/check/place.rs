@@ -1,8 +1,8 @@
 //! From a byte of an expression to a byte of the file: past the quotes, and past escapes, of which
 //! several bytes stand for one character.
 
-use crate::expr::Span;
 use crate::diagnostic::SourceRange;
+use crate::expr::Span;
 use crate::preset::draft::Formula;
 
 /// Where a part of an expression stands in the file.

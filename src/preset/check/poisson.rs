@@ -5,12 +5,12 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::Names;
-use crate::expr::Expr;
-use crate::diagnostic::nearest;
-use crate::model::{Allowed, Scope};
-use crate::diagnostic::SourceRange;
-use crate::preset::draft::{DraftBracket, NamedFormula};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
+use crate::model::{Allowed, Scope};
+use crate::preset::draft::{DraftBracket, NamedFormula};
 
 impl Check<'_> {
     /// {x_i, x_j} for all i and j; zero where the file gives none.

@@ -5,9 +5,9 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::vector::{self, Formulas};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
@@ -104,7 +104,10 @@ fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece>
             if !had {
                 let message = "this piece has no `solid`";
                 let help = "write solid = \"sphere\" or another one, or point = true";
-                table.lacks("solid", Diagnostic::error(table.place.clone(), message).with_help(help));
+                table.lacks(
+                    "solid",
+                    Diagnostic::error(table.place.clone(), message).with_help(help),
+                );
                 for key in ["mass", "at", "turned", "radius", "length", "height", "size"] {
                     table.take(key);
                 }
@@ -209,7 +212,10 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Optio
     Some(DraftAttitude { place, euler, omega, start })
 }
 
-pub(super) fn comparison(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftComparison> {
+pub(super) fn comparison(
+    top: &mut Table<'_>,
+    mistakes: &mut Diagnostics,
+) -> Option<DraftComparison> {
     let mut table = top.table("comparison", mistakes)?;
     let help = "write eliminate = [\"x\"], one coordinate for each constraint";
     let found = table.require("eliminate", help);

@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::table::Table;
-use crate::diagnostic::{Diagnostics, SourceRange};
 use super::{Formula, value};
+use crate::diagnostic::{Diagnostics, SourceRange};
 
 /// An observable as written.
 pub(in crate::preset) struct DraftObservable {

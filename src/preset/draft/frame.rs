@@ -4,8 +4,8 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::vector::{self, Formulas};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A frame as written.
 pub(in crate::preset) struct DraftFrame {

@@ -5,8 +5,8 @@ use toml::de::DeValue;
 
 use super::system::formulas;
 use super::table::{Table, Value};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, NamedFormula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {

@@ -5,8 +5,8 @@ use toml::de::DeValue;
 
 use super::system::formulas;
 use super::table::Table;
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, NamedFormula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// An impulse as written.
 pub(in crate::preset) struct DraftImpulse {

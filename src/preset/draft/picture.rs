@@ -5,9 +5,9 @@ use toml::de::DeValue;
 
 use super::table::{Table, Value};
 use super::vector::{Formulas, optional_point, point};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
@@ -164,7 +164,8 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Dr
     }
     if VIEWS_NOT_YET.contains(&name) {
         let message = format!("views of kind `{name}` are not supported yet by this version");
-        mistakes.push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
+        mistakes
+            .push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
         return Some(DraftViewKind::NotYet);
     }
     let known = VIEWS.iter().map(|(name, _)| *name).chain(VIEWS_NOT_YET);

@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
-use crate::diagnostic::Diagnostics;
 use super::table::Table;
+use crate::diagnostic::Diagnostics;
 
 /// `[run]` as written.
 #[derive(Default)]

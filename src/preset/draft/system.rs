@@ -4,8 +4,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, Value};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A name with its expression, if there is one that can be read.
 pub(in crate::preset) type NamedFormula = (Spanned<String>, Option<Formula>);

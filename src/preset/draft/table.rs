@@ -4,9 +4,9 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use super::{Formula, TOP_LEVEL, value};
 use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A value of TOML with its span.
 pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
@@ -59,7 +59,10 @@ impl<'d> Table<'d> {
     }
 
     /// A key's place and value.
-    pub(in crate::preset) fn take(&mut self, key: &'static str) -> Option<(SourceRange, &'d Value<'d>)> {
+    pub(in crate::preset) fn take(
+        &mut self,
+        key: &'static str,
+    ) -> Option<(SourceRange, &'d Value<'d>)> {
         self.asked.push(key);
         let (written, value) = self.entries.get_key_value(key)?;
         Some((written.span(), value))
@@ -148,7 +151,11 @@ impl<'d> Table<'d> {
     }
 
     /// The items of a list, none where the key is left out.
-    pub(super) fn list(&mut self, key: &'static str, mistakes: &mut Diagnostics) -> &'d [Value<'d>] {
+    pub(super) fn list(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Diagnostics,
+    ) -> &'d [Value<'d>] {
         match self.take(key) {
             None => &[],
             Some((_, found)) => {

@@ -3,9 +3,9 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
+use super::Formula;
 use super::table::Value;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use super::{Formula};
 use crate::model::{Allowed, Model, Scope};
 use crate::printable::is_steering;
 
@@ -81,7 +81,8 @@ pub(super) fn number(
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
         DeValue::String(_) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            mistakes.push(Diagnostic::error(value.span(), message).with_help("leave the quotes away"));
+            mistakes
+                .push(Diagnostic::error(value.span(), message).with_help("leave the quotes away"));
             return None;
         }
         _ => {
@@ -116,7 +117,11 @@ pub(super) fn constant(
 }
 
 /// A number or an expression in quotes.
-pub(super) fn formula(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option<Formula> {
+pub(super) fn formula(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Diagnostics,
+) -> Option<Formula> {
     let written = match value.get_ref() {
         DeValue::String(text) => text.to_string(),
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,

@@ -4,8 +4,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, Value};
-use crate::diagnostic::{Diagnostic, Diagnostics};
 use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// Two or three expressions, with their common place.
 pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;

@@ -91,7 +91,10 @@ fn size(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 fn fps(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a number of frames")?;
     let fps = word.text.parse().ok().filter(|n| (1..=60).contains(n)).ok_or_else(|| {
-        Diagnostic::error(word.place, format!("`{}`: there are 1 to 60 frames in a second", word.text))
+        Diagnostic::error(
+            word.place,
+            format!("`{}`: there are 1 to 60 frames in a second", word.text),
+        )
     })?;
     Ok(head(move |head| head.fps = fps))
 }

@@ -2,8 +2,8 @@
 //!
 //! In: the line. Out: its pieces, or what was expected where something else stands. Never here: what they mean.
 
-use crate::diagnostic::nearest;
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
 
 use super::Text;
 use crate::record::clock::{Micros, SECOND};

@@ -5,8 +5,8 @@
 //! Never here: axes, or what the curves mean.
 
 mod cloud;
-mod polyline;
 mod letter;
+mod polyline;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -17,8 +17,8 @@ use super::scale::{Frame, Scale};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
-use polyline::Polyline;
 use letter::letter;
+use polyline::Polyline;
 
 /// More cells than this in a row or column are not drawn; no terminal has them.
 const MOST_CELLS: u16 = 1024;

@@ -108,8 +108,7 @@ impl Scale {
                 (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
             }
             Kind::Log if value > 0.0 => {
-                (math::ln(value) - math::ln(self.lo))
-                    / (math::ln(self.hi) - math::ln(self.lo))
+                (math::ln(value) - math::ln(self.lo)) / (math::ln(self.hi) - math::ln(self.lo))
             }
             Kind::Log => f64::NAN,
         }
@@ -119,9 +118,9 @@ impl Scale {
     pub fn value(&self, fraction: f64) -> f64 {
         match self.kind {
             Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
-            Kind::Log => math::exp(
-                math::ln(self.lo) * (1.0 - fraction) + math::ln(self.hi) * fraction,
-            ),
+            Kind::Log => {
+                math::exp(math::ln(self.lo) * (1.0 - fraction) + math::ln(self.hi) * fraction)
+            }
         }
     }
 

@@ -5,10 +5,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::num::{DoubleDouble, math};
 use crate::expr::Expr;
 use crate::mechanics::principal;
 use crate::model::{Model, Piece, Solid, Turn};
+use crate::num::{DoubleDouble, math};
 use crate::system::ChannelKind;
 use crate::view::quantity::Quantities;
 

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use super::body::Outline;
 use super::reference_frame::ReferenceFrame;
 use crate::app::Eye;
-use crate::num::math;
 use crate::model::{Point, Shape};
+use crate::num::math;
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};
 
@@ -26,7 +26,11 @@ impl Scene {
     ///
     /// A rod (a line that keeps its length) may swing round its one end: the box holds all its circle from the start, and the
     /// picture does not shrink while the first swing goes on.
-    pub(super) fn of(q: &Quantities<'_>, eye: Eye, reference_frame: Option<&ReferenceFrame>) -> Self {
+    pub(super) fn of(
+        q: &Quantities<'_>,
+        eye: Eye,
+        reference_frame: Option<&ReferenceFrame>,
+    ) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY };
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {

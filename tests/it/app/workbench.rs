@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, SaveError, Overlay, Page, Plot, SourceBuffer, SheetState,
+    App, Caret, Checked, Effect, Event, Loaded, Overlay, Page, Plot, SaveError, SheetState,
+    SourceBuffer,
 };
-use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 use phaselab::diagnostic::Document;
+use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 

@@ -6,9 +6,9 @@ use std::thread;
 use std::time::Duration;
 
 use phaselab::cancel::Cancel;
+use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
 use phaselab::expr::{Pool, Zero};
-use phaselab::diagnostic::Document;
 
 /// A chain of pendulums, which takes minutes to derive where it has many links.
 fn chain(links: usize) -> Document {

@@ -1,6 +1,6 @@
 //! Moments: a motion left here and taken up there is the same to the last bit; in a changed system, as far as names go.
 
-use phaselab::experiment::{Command, Experiment, Checkpoint, Status};
+use phaselab::experiment::{Checkpoint, Command, Experiment, Status};
 use phaselab::preset::Catalog;
 
 use super::{PLENTY, build, gauge, run, shipped, value};

@@ -1,8 +1,8 @@
 //! The present as a file: what is written begins where the motion is, and says what was changed.
 
+use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Experiment, Export, Prepared};
 use phaselab::preset::Catalog;
-use phaselab::diagnostic::Document;
 use phaselab::system::ChannelKind;
 
 use super::{PLENTY, run};

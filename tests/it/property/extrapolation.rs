@@ -2,7 +2,7 @@
 //! program's own methods are held against.
 
 use super::case::Case;
-use super::oracle::{rates, after_impulse};
+use super::oracle::{after_impulse, rates};
 use super::tree::Branches;
 
 /// Columns of the table: the last is of order 12.

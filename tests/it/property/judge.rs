@@ -8,9 +8,9 @@ use std::time::Duration;
 
 use phaselab::analysis::false_claims;
 use phaselab::cancel::Cancel;
+use phaselab::diagnostic::{Document, Severity};
 use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::diagnostic::{Document, Severity};
 use phaselab::system::{ChannelKind, System};
 
 use super::case::{Case, Law};

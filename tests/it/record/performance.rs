@@ -19,7 +19,11 @@ fn performance(text: &str) -> (ScriptRunner, RenderStyle) {
 }
 
 /// Goes on to a time in frames that come when they come; the screen then, if there is more to come.
-fn watched(it: &mut ScriptRunner, look: &RenderStyle, times: impl Iterator<Item = u64>) -> (Buffer, bool) {
+fn watched(
+    it: &mut ScriptRunner,
+    look: &RenderStyle,
+    times: impl Iterator<Item = u64>,
+) -> (Buffer, bool) {
     let mut screen = Buffer::empty(Rect::new(0, 0, 90, 28));
     let mut more = true;
     for time in times {

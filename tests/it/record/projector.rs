@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use phaselab::app::{Code, Key};
 use phaselab::record::RecordedCast;
-use phaselab::shell::{Input, Screen, CastPlayer, ScreenRequest};
+use phaselab::shell::{CastPlayer, Input, Screen, ScreenRequest};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;

@@ -1,9 +1,9 @@
 //! Scripts: what they say, and what is reported of mistakes.
 
+use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::preset::Catalog;
-use phaselab::diagnostic::{Document, Diagnostic};
 use phaselab::record::script::{COMMANDS, Step};
-use phaselab::record::{Script, transcript, play};
+use phaselab::record::{Script, play, transcript};
 
 use super::{played, script};
 
@@ -120,7 +120,10 @@ fn claims_are_held_against_the_moment() {
     check("Assert screen \"Fase\"", &["2:1 this is false: \"Fase\" is not on the screen"]);
     check("Assert t = 1", &["2:13 here how far it may be off is missing; add `within 1e-9`"]);
     check("Assert t", &["2:9 here one of `=` `<` `>` is missing, between blanks"]);
-    check("Assert count impulse = 1", &["2:14 pendulum has no event or impulse `impulse`; there are none"]);
+    check(
+        "Assert count impulse = 1",
+        &["2:14 pendulum has no event or impulse `impulse`; there are none"],
+    );
     check(
         "Assert thetta = 1 within 1",
         &["2:8 the name `thetta` is not known here; did you mean `theta`?"],
@@ -154,7 +157,7 @@ fn several_values_are_swept_at_once() {
     let recording = played("pendulum", text);
     assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
     assert_eq!(recording.frames, 20);
-    let account = account::write(&recording);
+    let account = transcript::write(&recording);
     assert!(account.contains("  sweep     l from 1 to 3, g from 9.81 to 19.62"), "{account}");
 }
 
@@ -180,7 +183,7 @@ fn what_a_script_sets_and_sweeps_is_taken_back_as_one() {
 fn the_account_tells_what_was_done_and_found() {
     let text = "Title \"Ein Pendel\"\nCaption \"It swings\"\nPress z\nWait 1s\nMarker \"One\"\n\
                 Assert t > 1\nAssert t > 9\nWait 1s";
-    let account = account::write(&played("pendulum", text));
+    let account = transcript::write(&played("pendulum", text));
     let lines: Vec<&str> = account.lines().collect();
     assert_eq!(lines[0], "Ein Pendel");
     assert_eq!(lines[1], "80x24 characters, 20 frames a second, 2.15 s");

@@ -239,7 +239,8 @@ fn the_equations_are_written_in_mathematics() {
 #[test]
 fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
-    let impulse = |time: f64| Occurrence { name: "push".to_owned(), time, kind: OccurrenceKind::Mark };
+    let impulse =
+        |time: f64| Occurrence { name: "push".to_owned(), time, kind: OccurrenceKind::Mark };
     seen.happenings = [0.5, 1.0, 1.0005].map(impulse).into_iter().collect();
     let mut app = in_lab();
     let look = rich();

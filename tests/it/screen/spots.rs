@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{Act, App, Event, Hold, Overlay, Page, Pane, Plot, Spot, ValueId};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::{hit_test, spots};
+use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
 
 use super::{find, rich, rows, screen};
@@ -15,12 +15,12 @@ use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
 const SIZES: [(u16, u16); 5] = [(40, 18), (66, 16), (80, 24), (120, 40), (200, 60)];
 
 fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<Spot> {
-    spot(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
+    hit_test(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
 }
 
 /// Every place with what lies there.
 fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), Spot)> {
-    let spots = spots(app, &rich(), Rect::new(0, 0, width, height));
+    let spots = hit_targets(app, &rich(), Rect::new(0, 0, width, height));
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
 }

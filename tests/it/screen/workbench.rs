@@ -1,6 +1,6 @@
 //! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
 
-use phaselab::app::{App, Caret, Event, BufferDiagnostic, Notification, SheetState};
+use phaselab::app::{App, BufferDiagnostic, Caret, Event, Notification, SheetState};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;

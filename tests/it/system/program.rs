@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use phaselab::num::DoubleDouble;
 use phaselab::expr::{Expr, Pool, Symbol};
-use phaselab::system::{Program, Evaluator};
+use phaselab::num::DoubleDouble;
+use phaselab::system::{Evaluator, Program};
 use proptest::prelude::*;
 
 use crate::build::{names, read, sample, try_read};

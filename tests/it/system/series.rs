@@ -4,9 +4,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use phaselab::num::{DoubleDouble, Number, Real};
 use phaselab::expr::{Expr, Node, Pool, Symbol};
 use phaselab::model::Model;
+use phaselab::num::{DoubleDouble, Number, Real};
 use phaselab::system::{Jet, Program};
 use proptest::prelude::*;
 

@@ -355,8 +355,8 @@ fn stills_data_and_recordings_are_written_by_keys() {
     let casts = written(folder.path(), ".cast");
     assert_eq!(casts.len(), 2);
     for (name, text) in casts {
-        let tape =
-            phaselab::record::RecordedCast::read(&text).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let tape = phaselab::record::RecordedCast::read(&text)
+            .unwrap_or_else(|why| panic!("{name}: {why}"));
         assert_eq!(tape.size, (120, 40));
         let mut terminal = avt::Vt::new(120, 40);
         for (_, turn) in &tape.events {
@@ -378,7 +378,10 @@ fn a_recording_survives_a_signal() {
     lab.signal(Signal::TERM);
     assert_eq!(lab.ends().0, 143);
     let casts = written(folder.path(), ".cast");
-    assert!(casts.len() == 1 && phaselab::record::RecordedCast::read(&casts[0].1).is_ok(), "{casts:?}");
+    assert!(
+        casts.len() == 1 && phaselab::record::RecordedCast::read(&casts[0].1).is_ok(),
+        "{casts:?}"
+    );
 }
 
 /// The only cast of a folder, which must be one to its last line.
