@@ -34,12 +34,12 @@ mod rate;
 mod reading;
 mod saved;
 mod speed;
-mod spot;
+mod hit_target;
 mod update;
 mod value;
 mod workbench;
 
-pub use action::{Action, Axes, Way};
+pub use action::{Action, Axes, Direction};
 pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
 pub use edit::{Checked, EditCommand, SaveError};
 pub use editor::{Caret, Editor};
@@ -52,13 +52,13 @@ pub use menu::{Choice, Choosing, Item, Menu};
 pub use mouse::{Act, Mouse};
 pub use notification::Notification;
 pub use picker::Picker;
-pub use plot::{Eye, Lens, Plot};
+pub use plot::{CameraPose, Viewport, Plot};
 pub use potential::Potential;
 pub use prompt::Prompt;
 pub use rate::RateMeter;
 pub use reading::Reading;
 pub use saved::{Quantity, Saved, SavedPlot};
-pub use spot::{Hold, Spot};
+pub use hit_target::{Drag, HitTarget};
 pub use update::LONGEST_PASTE;
 pub use value::{ValueId, ValueInfo};
 pub use workbench::Workbench;
@@ -75,7 +75,7 @@ pub struct App {
     /// What is shown.
     pub page: Page,
     /// What lies over it.
-    pub over: Option<Overlay>,
+    pub overlay: Option<Overlay>,
     /// The systems to choose from.
     pub picker: Picker,
     /// The loaded system, shown as a preview beside the picker.
@@ -101,9 +101,9 @@ pub struct App {
     /// What is read on the page of plain reading.
     pub reading: Reading,
     /// What is to be reported after that.
-    news: notification::NotificationQueue,
+    notifications: notification::NotificationQueue,
     /// What the mouse holds on to.
-    pub hold: Option<Hold>,
+    pub hold: Option<Drag>,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -158,7 +158,7 @@ impl App {
     pub fn new(catalog: &Catalog, open: Option<&str>) -> (Self, Vec<Effect>) {
         let mut app = Self {
             page: Page::Picker,
-            over: None,
+            overlay: None,
             picker: Picker::new(catalog.entries().to_vec()),
             lab: None,
             notice: None,
@@ -171,7 +171,7 @@ impl App {
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),
-            news: notification::NotificationQueue::default(),
+            notifications: notification::NotificationQueue::default(),
             hold: None,
             drawn: Drawn::default(),
             asked: None,
@@ -206,7 +206,7 @@ impl App {
 
     /// The theme to be shown: the one selected while they are chosen from, else the one chosen.
     pub fn theme_shown(&self) -> Option<&'static str> {
-        let previewed = match &self.over {
+        let previewed = match &self.overlay {
             Some(Overlay::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
                 Choice::Theme(index) => self.themes.get(index).map(|(name, _)| *name),
                 _ => None,
@@ -223,7 +223,7 @@ impl App {
 
     /// Where keys hold now, the innermost place first.
     pub fn places(&self) -> &'static [Place] {
-        match &self.over {
+        match &self.overlay {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => {
                 chain([Place::Text, Place::Anywhere])
             }
@@ -231,7 +231,7 @@ impl App {
             Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),
             Some(Overlay::Workbench) => {
-                let asks = self.workbench.top().is_some_and(|sheet| sheet.asking.is_some());
+                let asks = self.workbench.top().is_some_and(|buffer| buffer.asking.is_some());
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
             }
@@ -241,7 +241,7 @@ impl App {
 
     /// Where keys hold on the page, or in the editor, under the help that lies over it.
     pub fn places_below(&self) -> &'static [Place] {
-        match self.over {
+        match self.overlay {
             Some(Overlay::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
             _ => chain(self.places_of_page()),
         }

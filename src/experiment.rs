@@ -35,8 +35,8 @@ pub use command::Command;
 pub use event_log::{EventCount, EventLog};
 pub use export::Export;
 pub use prepared::{PrepareError, Prepared};
-pub use setup::{MethodNotFound, Setup, choose_method, with_given};
-pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
+pub use setup::{MethodNotFound, Setup, choose_method, with_override};
+pub use snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
@@ -56,11 +56,11 @@ pub struct Experiment {
     recorder: Recorder,
     gauges: Gauges,
     running: bool,
-    fault: Option<Fault>,
+    fault: Option<Failure>,
     epoch: u64,
     notices: Vec<String>,
     /// What happened since the last restart.
-    happenings: EventLog,
+    occurrences: EventLog,
     /// The names of those that were reported of.
     told: Vec<String>,
     /// The event that ended the motion.
@@ -106,7 +106,7 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
-            happenings: EventLog::default(),
+            occurrences: EventLog::default(),
             told: Vec::new(),
             ended: None,
             taken_up: false,
@@ -149,7 +149,7 @@ impl Experiment {
     /// Whether time runs, is held, or cannot go on.
     pub fn status(&self) -> Status {
         match (&self.fault, self.running) {
-            (Some(fault), _) => Status::Faulted(fault.clone()),
+            (Some(fault), _) => Status::Failed(fault.clone()),
             _ if self.ended.is_some() => Status::Ended(self.ended.clone().unwrap_or_default()),
             (None, true) => Status::Running,
             (None, false) => Status::Paused,
@@ -193,13 +193,13 @@ impl Experiment {
     }
 
     /// What happened since the last restart, in time.
-    pub fn happenings(&self) -> &EventLog {
-        &self.happenings
+    pub fn occurrences(&self) -> &EventLog {
+        &self.occurrences
     }
 
     /// From now on what happens is counted only, and not kept: for who does not list it.
-    pub fn only_count_happenings(&mut self) {
-        self.happenings.only_count();
+    pub fn only_count_occurrences(&mut self) {
+        self.occurrences.only_count();
     }
 
     /// A sentence on the singular configurations of the constraints that the motion has passed.
@@ -242,7 +242,7 @@ impl Experiment {
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
-            happenings: self.happenings.clone(),
+            occurrences: self.occurrences.clone(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -257,7 +257,7 @@ impl Experiment {
     fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
-        self.happenings.clear();
+        self.occurrences.clear();
         self.told.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -274,7 +274,7 @@ impl Experiment {
         }
     }
 
-    fn initial_state(&self) -> Result<State, system::Fault> {
+    fn initial_state(&self) -> Result<State, system::MotionError> {
         let Setup { start, parameters, given, .. } = &self.setup;
         self.motion.whole().initial(*start, parameters, given)
     }
@@ -296,10 +296,10 @@ impl Experiment {
         let reached = loop {
             let gauges = (&mut self.gauges, self.recorder.spacing());
             match self.motion.reach(time, limit, budget, gauges) {
-                Ok(Reached::Happened(happening)) => {
-                    let name = happening.name.clone();
-                    match self.note(happening) {
-                        Ok(sentence) => self.tell_once(name, sentence),
+                Ok(Reached::Happened(occurrence)) => {
+                    let name = occurrence.name.clone();
+                    match self.note(occurrence) {
+                        Ok(sentence) => self.report_once(name, sentence),
                         Err(fault) => break Err(fault),
                     }
                 }
@@ -307,10 +307,10 @@ impl Experiment {
             }
         };
         if let Some(sentence) = self.singular_passages() {
-            self.tell_once("singular configuration".to_owned(), sentence);
+            self.report_once("singular configuration".to_owned(), sentence);
         }
         if let Some(sentence) = self.unstable() {
-            self.tell_once(sentence.clone(), sentence);
+            self.report_once(sentence.clone(), sentence);
         }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
@@ -327,21 +327,21 @@ impl Experiment {
 
     /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
     /// from what an impulse left. Returns a sentence on it.
-    fn note(&mut self, happening: Occurrence) -> Result<String, system::Fault> {
-        let lead = format!("{} at t = {}", happening.name, short(happening.time));
-        let sentence = match &happening.kind {
+    fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
+        let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
+        let sentence = match &occurrence.kind {
             OccurrenceKind::Mark => lead,
             OccurrenceKind::Stop => {
-                self.ended = Some(happening.name.clone());
+                self.ended = Some(occurrence.name.clone());
                 format!("{lead}: the motion ends")
             }
             OccurrenceKind::Release(constraint) => {
                 let name = &self.model.constraints[*constraint].name;
                 format!("{lead}: the constraint {name} holds no longer")
             }
-            OccurrenceKind::CompiledImpulse { .. } => {
+            OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;
-                self.recorder.insert(happening.time, &before);
+                self.recorder.insert(occurrence.time, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
                 let given = self.energy_of(after) - self.energy_of(&before);
@@ -349,13 +349,13 @@ impl Experiment {
                 format!("{lead}: energy {sign}{}", short(given.abs()))
             }
         };
-        self.recorder.insert(happening.time, self.motion.values());
-        self.happenings.push(happening);
+        self.recorder.insert(occurrence.time, self.motion.values());
+        self.occurrences.push(occurrence);
         Ok(sentence)
     }
 
     /// Tells of what happens by itself: of what happens again and again only the first time.
-    fn tell_once(&mut self, name: String, sentence: String) {
+    fn report_once(&mut self, name: String, sentence: String) {
         if !self.told.contains(&name) {
             self.told.push(name);
             self.tell(sentence);

@@ -31,7 +31,7 @@ pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracke
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use equations::{
-    Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
+    Supplements, Auxiliary, AuxiliaryRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
     NoClosedForm, Reason, Separable, Vakonomic,
 };
 pub use frames::Apparent;
@@ -70,14 +70,14 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
     };
-    equations.beside.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.supplements.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
-    equations.beside.frames = frames::find(model, &mut equations);
+    equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
-        equations.beside.vakonomic = Some(vakonomic::vakonomic(&mut equations, model, comparison));
+        equations.supplements.vakonomic = Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    if !equations.beside.carried.is_empty() {
+    if !equations.supplements.auxiliary.is_empty() {
         let why = "numbers are carried along that do not follow from H";
         equations.separable = Err(NoClosedForm(why.to_owned()));
     }

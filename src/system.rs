@@ -15,7 +15,7 @@ mod consistent_initial;
 mod constrained;
 mod discontinuities;
 mod exact;
-mod fault;
+mod error;
 mod inertia;
 mod jet;
 mod kkt;
@@ -41,12 +41,12 @@ pub use discontinuities::{
     CompiledEvent, CompiledImpulse, Discontinuities, EventFunctions, ImpulseOutcome, Schedule,
 };
 pub use exact::ExactRates;
-pub use fault::{Fault, FaultKind, Passage};
+pub use error::{MotionError, MotionErrorKind, Passage};
 pub use jet::{Jet, Side};
 pub use observe::Observer;
 pub use program::{Program, Singular};
 pub use rates::Rates;
 pub use series::Series;
-pub use state::{Form, Given, State};
+pub use state::{Form, InitialOverride, State};
 pub use terms::TermWatch;
 pub use value::Evaluator;

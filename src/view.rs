@@ -21,7 +21,7 @@ mod canvas;
 mod cursor;
 mod detail;
 mod equations;
-mod found;
+mod highlight;
 mod gauges;
 mod header_footer;
 mod help;
@@ -48,7 +48,7 @@ mod wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::app::{App, Drawn, Lab, Overlay, Page, Spot};
+use crate::app::{App, Drawn, Lab, Overlay, Page, HitTarget};
 use canvas::{Canvas, row};
 pub use detail::Detail;
 use glyphs::Glyphs;
@@ -116,7 +116,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         let title = format!("{} has mistakes", failure.name);
         return text(canvas, area, &title, page, app.scroll);
     }
-    if let (Some(sheet), Some(lab)) = (app.open_sheet(), &app.lab) {
+    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
         return workbench::draw(canvas, area, (app, lab), sheet);
     }
     let drawn = match (app.page, &app.lab) {
@@ -141,7 +141,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
     let look = canvas.look;
     if page == Page::Plain {
-        canvas.spot(area, Spot::Text);
+        canvas.spot(area, HitTarget::Text);
         let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
         let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
         let document = read.map(|q| plain::document(&q)).unwrap_or_default();
@@ -161,7 +161,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
 fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, Spot::Text);
+    canvas.spot(area, HitTarget::Text);
     page.draw(canvas, inner, scroll)
 }
 

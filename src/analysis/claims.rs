@@ -12,7 +12,7 @@ use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
 use crate::model::{ExpectedValue, Model};
-use crate::system::{ChannelKind, Fault, FaultKind, Observer, State, System};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
@@ -172,12 +172,12 @@ struct ClaimRun<'a> {
     /// The steps it may take in all, and those that are left.
     allowed: u64,
     budget: u64,
-    happenings: Vec<Occurrence>,
+    occurrences: Vec<Occurrence>,
 }
 
 /// Why a motion did not come as far as a claim.
 enum Short {
-    Fault(Fault),
+    MotionError(MotionError),
     Long(u64, f64),
     Ended(f64),
 }
@@ -185,7 +185,7 @@ enum Short {
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Short::Fault(fault) => fault.fmt(f),
+            Short::MotionError(fault) => fault.fmt(f),
             Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
             Short::Long(steps, time) => {
                 write!(f, "the {steps} steps that a check may take led only to t = {time}")
@@ -195,10 +195,10 @@ impl std::fmt::Display for Short {
 }
 
 /// Where in the file to look for the reason of a start that is none.
-fn place_of(model: &Model, fault: &Fault) -> SourceRange {
+fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
-        FaultKind::ConstraintMissed(name, _) => model.constraints.iter().find(|c| c.name == *name),
-        FaultKind::FreeVelocities(_) => model.constraints.first(),
+        MotionErrorKind::ConstraintMissed(name, _) => model.constraints.iter().find(|c| c.name == *name),
+        MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
         _ => None,
     };
     constraint.map_or(0..0, |c| c.place.clone())
@@ -227,11 +227,11 @@ impl<'a> ClaimRun<'a> {
             values: vec![f64::NAN; system.channels().len()],
             allowed,
             budget: allowed,
-            happenings: Vec::new(),
+            occurrences: Vec::new(),
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|fault| match &fault.kind {
-            FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => {
+            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::FreeVelocities(_) => {
                 refused(place_of(model, &fault), fault.to_string())
             }
             _ => motion
@@ -266,7 +266,7 @@ impl<'a> ClaimRun<'a> {
         &self,
         model: &Model,
         equations: &Equations,
-        fault: Option<&Fault>,
+        fault: Option<&MotionError>,
     ) -> Option<Diagnostic> {
         let energy = self.seen(ChannelKind::Energy);
         let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
@@ -347,14 +347,14 @@ impl<'a> ClaimRun<'a> {
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
-            mistakes.extend(self.false_happenings(model, short.as_ref()));
+            mistakes.extend(self.false_occurrences(model, short.as_ref()));
         }
     }
 
     /// Events that did not happen when, or as often as, the file says.
-    fn false_happenings(&self, model: &Model, short: Option<&Short>) -> Vec<Diagnostic> {
+    fn false_occurrences(&self, model: &Model, short: Option<&Short>) -> Vec<Diagnostic> {
         let times = |name: &str| -> Vec<f64> {
-            self.happenings.iter().filter(|h| h.name == name).map(|h| h.time).collect()
+            self.occurrences.iter().filter(|h| h.name == name).map(|h| h.time).collect()
         };
         let until = short.map_or(String::new(), |why| format!("; {why}"));
         let mut mistakes = Vec::new();
@@ -386,26 +386,26 @@ impl<'a> ClaimRun<'a> {
 
     fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
         loop {
-            match self.course.reach(time, limit, &mut self.budget).map_err(Short::Fault)? {
+            match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
                 Reached::There => break,
                 Reached::Underway => {
                     return Err(Short::Long(self.allowed, self.course.state().time));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
-                Reached::Happened(happening) => {
+                Reached::Happened(occurrence) => {
                     if self.budget < EVENT {
-                        return Err(Short::Long(self.allowed, happening.time));
+                        return Err(Short::Long(self.allowed, occurrence.time));
                     }
                     self.budget -= EVENT;
-                    if matches!(happening.kind, integrate::OccurrenceKind::Release(_)) {
+                    if matches!(occurrence.kind, integrate::OccurrenceKind::Release(_)) {
                         let parameters = self.observer.parameters().to_vec();
                         self.observer = self.course.system().observer(&parameters);
                     }
-                    self.happenings.push(happening);
+                    self.occurrences.push(occurrence);
                 }
             }
         }
-        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::Fault)
+        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::MotionError)
     }
 
     fn compare(&self, expected: &ExpectedValue) -> Option<Diagnostic> {

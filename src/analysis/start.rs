@@ -8,7 +8,7 @@ use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
-use crate::system::{Fault, FaultKind};
+use crate::system::{MotionError, MotionErrorKind};
 
 /// A part of the law longer than this is not reported.
 const LONGEST: u64 = 60;
@@ -17,7 +17,7 @@ const LONGEST: u64 = 60;
 pub(super) fn mistake(
     model: &Model,
     equations: &Equations,
-    fault: Option<&Fault>,
+    fault: Option<&MotionError>,
     energy: f64,
     at: &dyn Fn(Symbol) -> f64,
 ) -> Option<Diagnostic> {
@@ -25,7 +25,7 @@ pub(super) fn mistake(
     if fault.is_none() && energy.is_finite() {
         return None;
     }
-    if let Some(Fault { kind: FaultKind::SingularMass, .. }) = fault
+    if let Some(MotionError { kind: MotionErrorKind::SingularMass, .. }) = fault
         && let Some((place, message, help)) = without_inertia(model, equations)
     {
         return Some(Diagnostic::error(place, message).with_help(help));

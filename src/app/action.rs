@@ -82,7 +82,7 @@ pub enum Action {
     /// Choose what the focused pane shows.
     ChooseAxes,
     /// Move within the focused thing.
-    Move(Way),
+    Move(Direction),
     /// To its first line.
     First,
     /// To its last line.
@@ -129,7 +129,7 @@ pub enum Action {
 /// A direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the four directions")]
-pub enum Way {
+pub enum Direction {
     Up,
     Down,
     Left,

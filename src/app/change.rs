@@ -5,16 +5,16 @@
 
 use super::history::Change;
 use super::{App, Effect, Lab, Pane, Plot, ValueId};
-use crate::experiment::{Command, Snapshot, with_given};
+use crate::experiment::{Command, Snapshot, with_override};
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// What was asked of the experiment and not yet seen, beside single values.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingChanges {
     method: Option<&'static str>,
     settings: Option<Settings>,
-    given: Option<Vec<Given>>,
+    given: Option<Vec<InitialOverride>>,
 }
 
 impl PendingChanges {
@@ -70,7 +70,7 @@ impl Lab {
         self.asked.settings.or(self.snapshot.as_ref().map(|s| s.setup.settings))
     }
 
-    fn given(&self) -> Vec<Given> {
+    fn given(&self) -> Vec<InitialOverride> {
         let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.given.clone());
         self.asked.given.clone().unwrap_or_else(fact)
     }
@@ -87,7 +87,7 @@ impl Lab {
             }
             ValueId::Initial(index) => {
                 let before = self.given();
-                let after = with_given(&self.loaded.system, &before, index, to);
+                let after = with_override(&self.loaded.system, &before, index, to);
                 self.asked.given = Some(after.clone());
                 self.history.note(Change::Initial { index, numbers, given: [before, after] });
                 vec![Effect::Tell(Command::Initial { index, value: to })]
@@ -96,11 +96,11 @@ impl Lab {
     }
 
     /// Begins the motion with several initial values at once.
-    pub(super) fn start(&mut self, values: &[Given]) -> Vec<Effect> {
+    pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
-        let replaced = |old: &&Given| values.iter().any(|new| place(new) == place(old));
+        let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
         let kept = before.iter().filter(|old| !replaced(old)).copied();
-        let after: Vec<Given> = kept.chain(values.iter().copied()).collect();
+        let after: Vec<InitialOverride> = kept.chain(values.iter().copied()).collect();
         self.history.note(Change::Start([before, after.clone()]));
         vec![self.begin_with(after)]
     }
@@ -176,7 +176,7 @@ impl Lab {
 
     /// What goes where when one side of a change is made so: `g 9.81 → 3.2`.
     fn words(&self, change: &Change, side: Side) -> String {
-        let named = |target| self.facts(target).map_or_else(String::new, |facts| facts.shown);
+        let named = |target| self.value_info(target).map_or_else(String::new, |value_info| value_info.shown);
         let went = |what: &str, [from, to]: [String; 2]| format!("{what} {from} → {to}");
         match change {
             Change::Parameter { index, numbers } => {
@@ -268,7 +268,7 @@ impl Lab {
     }
 
     /// The motion begins with these in place of the file's values.
-    fn begin_with(&mut self, given: Vec<Given>) -> Effect {
+    fn begin_with(&mut self, given: Vec<InitialOverride>) -> Effect {
         // What the others then are, the experiment tells.
         self.pending.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.asked.given = Some(given.clone());
@@ -291,10 +291,10 @@ impl Lab {
 }
 
 /// Which value is given: of which coordinate, and whether it is its rate or momentum.
-pub(super) fn place(given: &Given) -> (usize, bool) {
+pub(super) fn place(given: &InitialOverride) -> (usize, bool) {
     match given {
-        Given::Position(i, _) => (*i, false),
-        Given::Velocity(i, _) | Given::Momentum(i, _) => (*i, true),
+        InitialOverride::Position(i, _) => (*i, false),
+        InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => (*i, true),
     }
 }
 

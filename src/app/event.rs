@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Act, Checked, Key, SaveError, Spot};
+use super::{Act, Checked, Key, SaveError, HitTarget};
 use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
@@ -24,7 +24,7 @@ pub enum Event {
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
     /// The mouse did something at a spot that `view` has found.
-    Mouse(Act, Spot),
+    Mouse(Act, HitTarget),
     /// The window of the terminal has got the keyboard, or lost it.
     Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.

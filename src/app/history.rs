@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::Plot;
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// Changes of one thing that follow each other within this time are taken back together.
 const TOGETHER: Duration = Duration::from_millis(800);
@@ -29,16 +29,16 @@ pub(super) enum Change {
         /// What stood there before, and after.
         numbers: [f64; 2],
         /// All that was given in place of the file's values before, and after.
-        given: [Vec<Given>; 2],
+        given: [Vec<InitialOverride>; 2],
     },
     /// Several initial values were given at once: all that was given before, and after.
-    Start([Vec<Given>; 2]),
+    Start([Vec<InitialOverride>; 2]),
     /// All values were given back to the file; these are the ones before.
     FullReset {
         /// The parameters.
         parameters: Vec<f64>,
         /// What was given in place of the file's initial values.
-        given: Vec<Given>,
+        given: Vec<InitialOverride>,
     },
     /// A picture shows something else, or is looked at in another way.
     Plot {
@@ -115,7 +115,7 @@ impl History {
     }
 
     /// They are let go; all that was changed meanwhile is taken back as one.
-    pub(super) fn release(&mut self) {
+    pub(super) fn end_group(&mut self) {
         if let Some(before) = self.begin_group.filter(|before| self.done.len() > before + 1) {
             let changes = self.done.split_off(before);
             self.done.push(Change::Together(changes));

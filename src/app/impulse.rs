@@ -28,7 +28,7 @@ impl Lab {
                 about: impulse.about.clone(),
                 keys: String::new(),
                 refusal: None,
-                choice: Choice::CompiledImpulse(index),
+                choice: Choice::Impulse(index),
             }
         };
         self.impulses().into_iter().map(line).collect()
@@ -37,17 +37,17 @@ impl Lab {
 
 impl App {
     /// Applies the one impulse there is, or asks which.
-    pub(super) fn strike(&mut self) -> Vec<Effect> {
+    pub(super) fn apply_one_impulse(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         match lab.impulse_lines().as_slice() {
             [] if lab.loaded.model.impulses.is_empty() => {
-                self.say("This system has no impulses.")
+                self.notify("This system has no impulses.")
             }
-            [] => self.say("The impulses of this system act by themselves; none waits for a key."),
-            [Item { choice: Choice::CompiledImpulse(only), .. }] => self.apply_impulse(*only),
+            [] => self.notify("The impulses of this system act by themselves; none waits for a key."),
+            [Item { choice: Choice::Impulse(only), .. }] => self.apply_impulse(*only),
             lines => {
-                let menu = Menu::new("Impulse", Choosing::CompiledImpulse, lines.to_vec());
-                self.over = Some(Overlay::Menu(menu));
+                let menu = Menu::new("Impulse", Choosing::Impulse, lines.to_vec());
+                self.overlay = Some(Overlay::Menu(menu));
                 Vec::new()
             }
         }
@@ -56,8 +56,8 @@ impl App {
     /// Applies the impulse of this index.
     pub(super) fn apply_impulse(&mut self, index: usize) -> Vec<Effect> {
         match self.snapshot().map(|s| &s.status) {
-            Some(Status::Ended(_)) => self.say("The motion has ended: begin it again with r."),
-            Some(Status::Faulted(_)) => self.say("It cannot go on from here: reset it with r."),
+            Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
+            Some(Status::Failed(_)) => self.notify("It cannot go on from here: reset it with r."),
             _ => vec![Effect::Tell(Command::ApplyImpulse(index))],
         }
     }

@@ -3,7 +3,7 @@
 //! In: a key and the places that are active. Out: an [`Action`]. The help page, the hints in the footer, the palette
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
-use super::action::{Action, Axes, Way};
+use super::action::{Action, Axes, Direction};
 use super::{Code, EditCommand, Key, Page};
 
 /// Where a key holds.
@@ -171,8 +171,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),
 
-    row(Place::Picker, &[UP], Action::Move(Way::Up), "", "the system above"),
-    row(Place::Picker, &[DOWN], Action::Move(Way::Down), "choose", "the system below"),
+    row(Place::Picker, &[UP], Action::Move(Direction::Up), "", "the system above"),
+    row(Place::Picker, &[DOWN], Action::Move(Direction::Down), "choose", "the system below"),
     row(Place::Picker, &[PAGE_UP], Action::PageUp, "", "ten systems up"),
     row(Place::Picker, &[PAGE_DOWN], Action::PageDown, "", "ten systems down"),
     row(Place::Picker, &[HOME], Action::First, "", "the first system"),
@@ -180,8 +180,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Picker, &[ENTER], Action::Open, "open", "open the system in the lab"),
     row(Place::Picker, &[c('/')], Action::Search, "search", "search by name, topic or summary; any other letter begins it too"),
 
-    row(Place::Search, &[UP], Action::Move(Way::Up), "", "the match above"),
-    row(Place::Search, &[DOWN, TAB], Action::Move(Way::Down), "choose", "the match below"),
+    row(Place::Search, &[UP], Action::Move(Direction::Up), "", "the match above"),
+    row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
     row(Place::Search, &[ENTER], Action::Open, "open", "open the match in the lab"),
 
     row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "hold time, or let it run"),
@@ -219,10 +219,10 @@ pub const KEYS: &[Binding] = &[
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "look at the motion in space from the next frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
-    row(Place::Space, &[LEFT, c('h')], Action::Move(Way::Left), "turn", "turn the picture to the left"),
-    row(Place::Space, &[RIGHT, c('l')], Action::Move(Way::Right), "", "turn the picture to the right"),
-    row(Place::Space, &[UP, c('k')], Action::Move(Way::Up), "", "look from higher up"),
-    row(Place::Space, &[DOWN, c('j')], Action::Move(Way::Down), "", "look from lower down"),
+    row(Place::Space, &[LEFT, c('h')], Action::Move(Direction::Left), "turn", "turn the picture to the left"),
+    row(Place::Space, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "turn the picture to the right"),
+    row(Place::Space, &[UP, c('k')], Action::Move(Direction::Up), "", "look from higher up"),
+    row(Place::Space, &[DOWN, c('j')], Action::Move(Direction::Down), "", "look from lower down"),
     row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
     row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the view as it was at first"),
@@ -238,14 +238,14 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('g')], Action::Log, "", "make the axis upwards logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "one to one: a unit as long across as upwards, or fill the pane again"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
-    row(Place::Plot, &[LEFT, c('h')], Action::Move(Way::Left), "move", "move the window, or the cursor, to the left"),
-    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Way::Right), "", "move the window, or the cursor, to the right"),
-    row(Place::Plot, &[UP, c('k')], Action::Move(Way::Up), "", "move the window, or the cursor, up"),
-    row(Place::Plot, &[DOWN, c('j')], Action::Move(Way::Down), "", "move the window, or the cursor, down"),
+    row(Place::Plot, &[LEFT, c('h')], Action::Move(Direction::Left), "move", "move the window, or the cursor, to the left"),
+    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "move the window, or the cursor, to the right"),
+    row(Place::Plot, &[UP, c('k')], Action::Move(Direction::Up), "", "move the window, or the cursor, up"),
+    row(Place::Plot, &[DOWN, c('j')], Action::Move(Direction::Down), "", "move the window, or the cursor, down"),
     row(Place::Plot, &[HOME, c('0')], Action::Home, "", "all of the motion, as at first"),
 
-    row(Place::Values, &[UP, c('k')], Action::Move(Way::Up), "", "the value above"),
-    row(Place::Values, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the value below"),
+    row(Place::Values, &[UP, c('k')], Action::Move(Direction::Up), "", "the value above"),
+    row(Place::Values, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the value below"),
     row(Place::Values, &[HOME], Action::First, "", "the first value"),
     row(Place::Values, &[END], Action::Last, "", "the last value"),
     row(Place::Values, &[LEFT, c('h')], change(-1, false), "", "less, by a fine step"),
@@ -255,11 +255,11 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value; pi, sqrt(2), 2*l are understood"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
-    row(Place::Gauges, &[UP, c('k')], Action::Move(Way::Up), "", "the gauge above"),
-    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the gauge below"),
+    row(Place::Gauges, &[UP, c('k')], Action::Move(Direction::Up), "", "the gauge above"),
+    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the gauge below"),
 
-    row(Place::Text, &[UP, c('k')], Action::Move(Way::Up), "", "a line back"),
-    row(Place::Text, &[DOWN, c('j')], Action::Move(Way::Down), "scroll", "a line on"),
+    row(Place::Text, &[UP, c('k')], Action::Move(Direction::Up), "", "a line back"),
+    row(Place::Text, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line on"),
     row(Place::Text, &[PAGE_UP, c('b')], Action::PageUp, "", "a screenful back"),
     row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a screenful on"),
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
@@ -267,15 +267,15 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the present"),
     row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the present anew every two seconds, or only when asked"),
-    row(Place::Plain, &[UP, c('k')], Action::Move(Way::Up), "", "the line above"),
-    row(Place::Plain, &[DOWN, c('j')], Action::Move(Way::Down), "line", "the line below"),
+    row(Place::Plain, &[UP, c('k')], Action::Move(Direction::Up), "", "the line above"),
+    row(Place::Plain, &[DOWN, c('j')], Action::Move(Direction::Down), "line", "the line below"),
     row(Place::Plain, &[PAGE_UP], Action::PageUp, "", "a screenful back"),
     row(Place::Plain, &[PAGE_DOWN], Action::PageDown, "", "a screenful on"),
     row(Place::Plain, &[HOME, c('g')], Action::First, "", "the first line"),
     row(Place::Plain, &[END, c('G')], Action::Last, "", "the last line"),
 
-    row(Place::Menu, &[UP], Action::Move(Way::Up), "", "the line above"),
-    row(Place::Menu, &[DOWN], Action::Move(Way::Down), "choose", "the line below"),
+    row(Place::Menu, &[UP], Action::Move(Direction::Up), "", "the line above"),
+    row(Place::Menu, &[DOWN], Action::Move(Direction::Down), "choose", "the line below"),
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 

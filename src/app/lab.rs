@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::change::PendingChanges;
 use super::history::History;
 use super::landscape::{self, Survey};
-use super::plot::{Eye, Plot};
+use super::plot::{CameraPose, Plot};
 use super::{Loaded, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
@@ -132,7 +132,7 @@ impl Lab {
         if snapshot.epoch != self.loaded.epoch {
             return false;
         }
-        let stopped = matches!(snapshot.status, Status::Faulted(_));
+        let stopped = matches!(snapshot.status, Status::Failed(_));
         if self.awaited.is_some() && !(snapshot.taken_up || stopped) {
             return false;
         }
@@ -155,7 +155,7 @@ impl Lab {
     }
 
     /// What an eye sees: each shape, and whether it is a rod.
-    pub fn shapes(&self, eye: Eye) -> impl Iterator<Item = (&Shape, bool)> {
+    pub fn shapes(&self, eye: CameraPose) -> impl Iterator<Item = (&Shape, bool)> {
         let model = &self.loaded.model;
         let own = eye.own_shapes(model).map(|view| &self.rods.views[view]);
         let rods = own.unwrap_or(&self.rods.space).iter().copied();
@@ -199,7 +199,7 @@ impl Lab {
             Pane::Initial => ValueId::Initial(self.selection.initial),
             Pane::Plot(_) | Pane::Gauges => return None,
         };
-        self.facts(target).map(|_| target)
+        self.value_info(target).map(|_| target)
     }
 
     /// Moves the selection of the focused list to `to(place)`, kept within the list.

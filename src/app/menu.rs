@@ -33,7 +33,7 @@ pub enum Choosing {
     /// Any action.
     Action,
     /// An impulse.
-    CompiledImpulse,
+    Impulse,
     /// A theme.
     Theme,
     /// What runs along the axis of the plot of this index.
@@ -73,7 +73,7 @@ pub enum Choice {
     /// An action.
     Action(Action),
     /// The impulse of this index.
-    CompiledImpulse(usize),
+    Impulse(usize),
     /// The picture in space.
     Space,
     /// The view of the file of this index.
@@ -96,7 +96,7 @@ impl Menu {
     /// A list on its first line.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
         let plain =
-            matches!(purpose, Choosing::Method | Choosing::CompiledImpulse | Choosing::Theme);
+            matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
         let filter = (!plain).then(Input::default);
         Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
     }

@@ -11,10 +11,10 @@ use crate::system::System;
 impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         // What is chosen is done to the page, not to the help above it.
-        if let Some(Overlay::Help { scroll, .. }) = self.over {
+        if let Some(Overlay::Help { scroll, .. }) = self.overlay {
             self.scroll = scroll;
         }
-        self.over = None;
+        self.overlay = None;
         let places = self.places_below();
         let rows = |wanted: fn(&Binding) -> bool| {
             // What can be done with the motion first, what holds everywhere last.
@@ -45,7 +45,7 @@ impl App {
         items.extend(rows(|row| moves(row.action)).map(line));
         items.extend(refused);
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
-        self.over =
+        self.overlay =
             Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
@@ -67,7 +67,7 @@ impl App {
 
     /// Why an action can do nothing with the loaded system; most always can.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
-        if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.over) {
+        if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.overlay) {
             return (!menu.takes_several()).then_some("one line is taken here");
         }
         let lab = self.lab.as_ref()?;
@@ -196,21 +196,21 @@ impl Lab {
         let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let initial = (0..self.count(ValueId::Initial)).map(ValueId::Initial);
         let line = |target: ValueId| {
-            let facts = self.facts(target)?;
+            let value_info = self.value_info(target)?;
             let what = match target {
                 ValueId::Parameter(_) => "type",
                 ValueId::Initial(_) => "type the initial",
             };
             let unit =
-                if facts.unit.is_empty() { String::new() } else { format!(" in {}", facts.unit) };
+                if value_info.unit.is_empty() { String::new() } else { format!(" in {}", value_info.unit) };
             let (meaning, about) = match target {
-                ValueId::Parameter(_) if !facts.about.is_empty() => {
-                    (format!(", {}", facts.about), format!("{}, a parameter{unit}", facts.name))
+                ValueId::Parameter(_) if !value_info.about.is_empty() => {
+                    (format!(", {}", value_info.about), format!("{}, a parameter{unit}", value_info.name))
                 }
-                _ => (String::new(), format!("{}: {}", facts.name, facts.about)),
+                _ => (String::new(), format!("{}: {}", value_info.name, value_info.about)),
             };
             Some(Item {
-                label: format!("{what} {}{meaning}", facts.shown),
+                label: format!("{what} {}{meaning}", value_info.shown),
                 about,
                 keys: String::new(),
                 refusal: None,

@@ -5,7 +5,7 @@
 use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
-use super::{Action, App, Effect, Lens, Notification, Overlay, Page, Pane, Plot, Purpose, Way};
+use super::{Action, App, Effect, Viewport, Notification, Overlay, Page, Pane, Plot, Purpose, Direction};
 use crate::experiment::{Command, Status};
 use crate::integrate::{METHODS, Stepping};
 
@@ -40,7 +40,7 @@ impl App {
             Action::Open => self.open_selected(),
             Action::Accept => self.accept(),
             Action::Mark => {
-                if let Some(Overlay::Menu(menu)) = &mut self.over {
+                if let Some(Overlay::Menu(menu)) = &mut self.overlay {
                     menu.mark();
                 }
                 Vec::new()
@@ -56,8 +56,8 @@ impl App {
         match action {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
-                Some(Status::Faulted(_)) => self.say("It cannot go on from here: reset it with r."),
-                Some(Status::Ended(_)) => self.say("The motion has ended: begin it again with r."),
+                Some(Status::Failed(_)) => self.notify("It cannot go on from here: reset it with r."),
+                Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
@@ -71,7 +71,7 @@ impl App {
             Action::Reset | Action::FullReset => {
                 // What was reported of the motion before is no longer so.
                 self.notice = None;
-                self.news.clear();
+                self.notifications.clear();
                 if action == Action::FullReset {
                     return lab.full_reset();
                 }
@@ -80,13 +80,13 @@ impl App {
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, told)) => self.told(told, effects),
-                None => self.say("There is nothing to take back."),
+                None => self.notify("There is nothing to take back."),
             },
             Action::Redo => match lab.redo() {
                 Some((effects, told)) => self.told(told, effects),
-                None => self.say("There is nothing to do again."),
+                None => self.notify("There is nothing to do again."),
             },
-            Action::ApplyImpulse => self.strike(),
+            Action::ApplyImpulse => self.apply_one_impulse(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
             Action::Edit => self.edit_file(),
@@ -101,7 +101,7 @@ impl App {
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),
             Action::TypeValue => match lab.selected() {
                 Some(target) => self.open_field(Purpose::Value(target)),
-                None => self.say("There is nothing to type here."),
+                None => self.notify("There is nothing to type here."),
             },
             Action::NextPane | Action::PreviousPane => {
                 let panes: Vec<Pane> = lab.panes().collect();
@@ -126,13 +126,13 @@ impl App {
             }
             Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
             Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
-            Action::Log => self.with_lens(|lens| lens.log = !lens.log),
+            Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, Plot::Phase { .. })) => self.with_lens(|lens| lens.equal = !lens.equal),
-                _ => self.say("Only where one quantity stands against another can units be equal."),
+                Some((_, Plot::Phase { .. })) => self.with_viewport(|viewport| viewport.equal = !viewport.equal),
+                _ => self.notify("Only where one quantity stands against another can units be equal."),
             },
-            Action::Cursor => self.with_lens(|lens| {
-                lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
+            Action::Cursor => self.with_viewport(|viewport| {
+                viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
             Action::NextFrame => self.next_frame(),
             Action::Home => self.with_plot(Plot::home),
@@ -147,7 +147,7 @@ impl App {
     }
 
     /// Tells the user something.
-    pub(super) fn say(&mut self, text: impl Into<String>) -> Vec<Effect> {
+    pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notice = Some(Notification::error(text));
         Vec::new()
     }
@@ -166,13 +166,13 @@ impl App {
     fn next_frame(&mut self) -> Vec<Effect> {
         let count = self.lab.as_ref().map_or(0, |lab| lab.loaded.model.frames.len());
         if count == 0 {
-            return self.say("This system has no frames to look from.");
+            return self.notify("This system has no frames to look from.");
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
         let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
-            return self.say("No picture shows the motion in space; v chooses what a pane shows.");
+            return self.notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
         lab.redraw(picture, |plot, _| {
             if let Plot::Space(eye) = plot {
@@ -182,10 +182,10 @@ impl App {
         Vec::new()
     }
 
-    fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
+    fn with_viewport(&mut self, change: impl FnOnce(&mut Viewport)) -> Vec<Effect> {
         self.with_plot(|plot, _| {
-            if let Some(lens) = plot.lens() {
-                change(lens);
+            if let Some(viewport) = plot.viewport() {
+                change(viewport);
             }
         })
     }
@@ -193,7 +193,7 @@ impl App {
     fn change_frames(&mut self, more: bool) -> Vec<Effect> {
         let Some(rate) = self.meter.next_rate(more) else {
             let end = if more { "most" } else { "fewest" };
-            return self.say(format!("{} frames a second are the {end}.", self.meter.asked));
+            return self.notify(format!("{} frames a second are the {end}.", self.meter.asked));
         };
         self.meter.asked = rate;
         self.notice = Some(Notification::info(format!("At most {rate} frames a second.")));
@@ -211,11 +211,11 @@ impl App {
     }
 
     fn help(&mut self) -> Vec<Effect> {
-        match self.over {
+        match self.overlay {
             Some(Overlay::Help { .. }) => return self.back(),
             _ => {
-                let editing = matches!(self.over, Some(Overlay::Workbench));
-                self.over = Some(Overlay::Help { scroll: self.scroll, editing });
+                let editing = matches!(self.overlay, Some(Overlay::Workbench));
+                self.overlay = Some(Overlay::Help { scroll: self.scroll, editing });
             }
         }
         self.scroll = 0;
@@ -223,13 +223,13 @@ impl App {
     }
 
     fn back(&mut self) -> Vec<Effect> {
-        if matches!(self.over, Some(Overlay::Workbench)) {
-            return self.leave_sheet();
+        if matches!(self.overlay, Some(Overlay::Workbench)) {
+            return self.leave_buffer();
         }
-        match self.over.take() {
+        match self.overlay.take() {
             Some(Overlay::Help { scroll, editing }) => {
                 self.scroll = scroll;
-                self.over = editing.then_some(Overlay::Workbench);
+                self.overlay = editing.then_some(Overlay::Workbench);
                 return Vec::new();
             }
             Some(
@@ -259,18 +259,18 @@ impl App {
         Vec::new()
     }
 
-    fn shift(&mut self, way: Way) -> Vec<Effect> {
+    fn shift(&mut self, way: Direction) -> Vec<Effect> {
         match way {
-            Way::Up => return self.jump(-1),
-            Way::Down => return self.jump(1),
-            Way::Left | Way::Right => {}
+            Direction::Up => return self.jump(-1),
+            Direction::Down => return self.jump(1),
+            Direction::Left | Direction::Right => {}
         }
         self.with_plot(|plot, _| plot.shift(way))
     }
 
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
     pub(super) fn jump(&mut self, by: isize) -> Vec<Effect> {
-        match &mut self.over {
+        match &mut self.overlay {
             Some(Overlay::Menu(menu)) => menu.step(by),
             Some(Overlay::Field(_) | Overlay::Prompt(_) | Overlay::Workbench) => {}
             Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
@@ -278,7 +278,7 @@ impl App {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
-                        let way = if by < 0 { Way::Up } else { Way::Down };
+                        let way = if by < 0 { Direction::Up } else { Direction::Down };
                         return self.with_plot(|plot, _| plot.shift(way));
                     }
                     lab.select(|place| place.saturating_add_signed(by));
@@ -308,11 +308,11 @@ impl App {
 
     pub(super) fn open_selected(&mut self) -> Vec<Effect> {
         let Some(name) = self.picker.take() else {
-            return self.say("No system fits this search.");
+            return self.notify("No system fits this search.");
         };
         if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
             self.scroll = 0;
-            self.over = Some(Overlay::Message(failure));
+            self.overlay = Some(Overlay::Message(failure));
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
@@ -335,14 +335,14 @@ impl App {
         let method = lab.snapshot.as_ref().map(|s| &s.method);
         let idle = lab.method().and_then(|name| idle(purpose, name));
         if let Some(sentence) = idle {
-            return self.say(sentence);
+            return self.notify(sentence);
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
-        self.over =
+        self.overlay =
             Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
     }

@@ -4,9 +4,9 @@
 
 use super::change::place;
 use super::mouse::Act;
-use super::spot::{Hold, Spot};
+use super::hit_target::{Drag, HitTarget};
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, Plot, ValueId};
-use crate::system::{ChannelKind, Given};
+use crate::system::{ChannelKind, InitialOverride};
 
 /// Lines of text or of a list that the wheel moves by.
 const LINES: isize = 3;
@@ -16,7 +16,7 @@ const NOTCH: f64 = 1.25;
 
 impl App {
     /// Takes in what the mouse did.
-    pub(super) fn point(&mut self, act: Act, spot: Spot) -> Vec<Effect> {
+    pub(super) fn point(&mut self, act: Act, spot: HitTarget) -> Vec<Effect> {
         match act {
             Act::Press => self.touch(spot),
             Act::Drag => self.drag(spot),
@@ -30,24 +30,24 @@ impl App {
     pub fn drop_hold(&mut self) {
         self.hold = None;
         if let Some(lab) = &mut self.lab {
-            lab.history.release();
+            lab.history.end_group();
         }
     }
 
-    fn touch(&mut self, spot: Spot) -> Vec<Effect> {
+    fn touch(&mut self, spot: HitTarget) -> Vec<Effect> {
         self.drop_hold();
-        match (&mut self.over, spot) {
-            (_, Spot::Hint(action)) => return self.perform(action),
-            (Some(Overlay::Menu(menu)), Spot::Line(line)) => {
+        match (&mut self.overlay, spot) {
+            (_, HitTarget::Hint(action)) => return self.perform(action),
+            (Some(Overlay::Menu(menu)), HitTarget::Line(line)) => {
                 menu.selected = line;
                 return self.perform(Action::Accept);
             }
             // Beside a list it closes; a text being typed is not given up by a slip of the hand.
-            (Some(Overlay::Menu(_)), Spot::Menu)
+            (Some(Overlay::Menu(_)), HitTarget::Menu)
             | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
             (Some(Overlay::Menu(_)), _) => return self.perform(Action::Back),
-            (_, Spot::Page(page)) if self.lab.is_some() => self.go(page),
-            (None, Spot::System(place)) => {
+            (_, HitTarget::Page(page)) if self.lab.is_some() => self.go(page),
+            (None, HitTarget::System(place)) => {
                 if self.picker.selected == place {
                     return self.perform(Action::Open);
                 }
@@ -55,42 +55,42 @@ impl App {
             }
             _ => {}
         }
-        let (None, Some(lab)) = (&self.over, &mut self.lab) else { return Vec::new() };
+        let (None, Some(lab)) = (&self.overlay, &mut self.lab) else { return Vec::new() };
         match spot {
-            Spot::Pane(pane) => lab.focus = pane,
-            Spot::Gauge(index) => (lab.focus, lab.selection.gauge) = (Pane::Gauges, index),
-            Spot::Value(target) => {
+            HitTarget::Pane(pane) => lab.focus = pane,
+            HitTarget::Gauge(index) => (lab.focus, lab.selection.gauge) = (Pane::Gauges, index),
+            HitTarget::Value(target) => {
                 if lab.selected() == Some(target) {
                     return self.perform(Action::TypeValue);
                 }
                 lab.choose(target);
             }
-            Spot::Bar { target, value } => {
+            HitTarget::Bar { target, value } => {
                 lab.choose(target);
                 lab.history.begin_group();
-                self.hold = Some(Hold::Bar(target));
+                self.hold = Some(Drag::Bar(target));
                 return self.pull(target, value);
             }
-            Spot::Plot { index, place, .. } | Spot::Space { index, place } => {
+            HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus = Pane::Plot(index);
                 lab.history.begin_group();
-                self.hold = Some(Hold::Picture { index, place, moved: false });
+                self.hold = Some(Drag::Picture { index, place, moved: false });
             }
             _ => {}
         }
         Vec::new()
     }
 
-    fn drag(&mut self, spot: Spot) -> Vec<Effect> {
+    fn drag(&mut self, spot: HitTarget) -> Vec<Effect> {
         match (self.hold, spot) {
-            (Some(Hold::Bar(held)), Spot::Bar { target, value }) if held == target => {
+            (Some(Drag::Bar(held)), HitTarget::Bar { target, value }) if held == target => {
                 self.pull(target, value)
             }
             (
-                Some(Hold::Picture { index: held, place: from, .. }),
-                Spot::Plot { index, place, .. } | Spot::Space { index, place },
+                Some(Drag::Picture { index: held, place: from, .. }),
+                HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
             ) if held == index && place != from => {
-                self.hold = Some(Hold::Picture { index, place, moved: true });
+                self.hold = Some(Drag::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 if let Some(lab) = &mut self.lab {
                     lab.redraw(index, |plot, _| plot.drag(by));
@@ -101,22 +101,22 @@ impl App {
         }
     }
 
-    fn let_go(&mut self, spot: Spot) -> Vec<Effect> {
+    fn let_go(&mut self, spot: HitTarget) -> Vec<Effect> {
         let held = self.hold.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (held, spot) {
-            (Some(Hold::Picture { moved: false, .. }), Spot::Plot { index, place, at }) => {
+            (Some(Drag::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.beginning_at(index, at) {
                     Some(_) if !lab.loaded.model.constraints.is_empty() => {
                         let why =
                             "Constraints tie the initial values together; type them one by one.";
-                        return self.say(why);
+                        return self.notify(why);
                     }
                     Some(given) => lab.start(&given),
                     None => {
                         lab.redraw(index, |plot, _| {
-                            if let Some(lens) = plot.lens() {
-                                lens.cursor = Some(place);
+                            if let Some(viewport) = plot.viewport() {
+                                viewport.cursor = Some(place);
                             }
                         });
                         Vec::new()
@@ -126,31 +126,31 @@ impl App {
             _ => Vec::new(),
         };
         if let Some(lab) = &mut self.lab {
-            lab.history.release();
+            lab.history.end_group();
         }
         effects
     }
 
-    fn wheel(&mut self, spot: Spot, up: isize) -> Vec<Effect> {
-        match (&mut self.over, spot) {
-            (Some(Overlay::Menu(menu)), Spot::Menu | Spot::Line(_)) => menu.step(-up),
-            (_, Spot::Text) => return self.jump(-up * LINES),
-            (None, Spot::Systems | Spot::System(_)) => self.picker.step(-up),
+    fn wheel(&mut self, spot: HitTarget, up: isize) -> Vec<Effect> {
+        match (&mut self.overlay, spot) {
+            (Some(Overlay::Menu(menu)), HitTarget::Menu | HitTarget::Line(_)) => menu.step(-up),
+            (_, HitTarget::Text) => return self.jump(-up * LINES),
+            (None, HitTarget::Systems | HitTarget::System(_)) => self.picker.step(-up),
             (None, spot) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };
                 match spot {
-                    Spot::Plot { index, place, .. } | Spot::Space { index, place } => {
+                    HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, place));
                     }
-                    Spot::Value(target) | Spot::Bar { target, .. } => {
+                    HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
                         lab.focus = match target {
                             ValueId::Parameter(_) => Pane::Parameters,
                             ValueId::Initial(_) => Pane::Initial,
                         };
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
-                    Spot::Gauge(_) => {
+                    HitTarget::Gauge(_) => {
                         lab.focus = Pane::Gauges;
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
@@ -174,13 +174,13 @@ impl App {
 
 impl Lab {
     /// The initial values that a place in a plot stands for, if both its axes are of the state.
-    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<Vec<Given>> {
+    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<Vec<InitialOverride>> {
         let Plot::Phase { x, y, .. } = self.plots.get(index)? else { return None };
         let given =
             |channel: usize, value: f64| match self.loaded.system.channels().get(channel)?.kind {
-                ChannelKind::Position(i) => Some(Given::Position(i, value)),
-                ChannelKind::Velocity(i) => Some(Given::Velocity(i, value)),
-                ChannelKind::Momentum(i) => Some(Given::Momentum(i, value)),
+                ChannelKind::Position(i) => Some(InitialOverride::Position(i, value)),
+                ChannelKind::Velocity(i) => Some(InitialOverride::Velocity(i, value)),
+                ChannelKind::Momentum(i) => Some(InitialOverride::Momentum(i, value)),
                 _ => None,
             };
         let both = [given(*x, at[0])?, given(*y, at[1])?];

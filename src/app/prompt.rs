@@ -34,7 +34,7 @@ impl Prompt {
 impl App {
     pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
         if self.lab.is_some() {
-            self.over = Some(Overlay::Prompt(Prompt::default()));
+            self.overlay = Some(Overlay::Prompt(Prompt::default()));
         }
         Vec::new()
     }
@@ -51,7 +51,7 @@ impl App {
                 Err(mistake) => (prompt.mistake, prompt.answered) = (Some(mistake), None),
             }
         }
-        self.over = Some(Overlay::Prompt(prompt));
+        self.overlay = Some(Overlay::Prompt(prompt));
         Vec::new()
     }
 }

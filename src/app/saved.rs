@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    App, Effect, Eye, Lab, Lens, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
+    App, Effect, CameraPose, Lab, Viewport, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
     SourceBuffer,
 };
 use crate::experiment::{Checkpoint, Command};
@@ -45,7 +45,7 @@ pub enum SavedPlot {
     /// The motion in space.
     Space {
         /// Where it is seen from.
-        eye: Eye,
+        eye: CameraPose,
     },
     /// One quantity against another.
     Phase {
@@ -54,21 +54,21 @@ pub enum SavedPlot {
         /// Upwards.
         y: Quantity,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// The potential of a view of the file.
     Potential {
         /// Its place among the views.
         view: usize,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// Quantities against time.
     Time {
         /// Upwards.
         y: Vec<Quantity>,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
 }
 
@@ -113,12 +113,12 @@ impl SavedPlot {
         };
         match plot {
             Plot::Space(eye) => Self::Space { eye: *eye },
-            Plot::Phase { x, y, lens } => {
-                Self::Phase { x: quantity(x), y: quantity(y), lens: *lens }
+            Plot::Phase { x, y, viewport } => {
+                Self::Phase { x: quantity(x), y: quantity(y), viewport: *viewport }
             }
-            Plot::Potential { view, lens } => Self::Potential { view: *view, lens: *lens },
-            Plot::Time { y, lens } => {
-                Self::Time { y: y.iter().map(quantity).collect(), lens: *lens }
+            Plot::Potential { view, viewport } => Self::Potential { view: *view, viewport: *viewport },
+            Plot::Time { y, viewport } => {
+                Self::Time { y: y.iter().map(quantity).collect(), viewport: *viewport }
             }
         }
     }
@@ -142,17 +142,17 @@ impl SavedPlot {
                 }
                 Plot::Space(*eye)
             }
-            Self::Phase { x, y, lens } => {
-                Plot::Phase { x: channel(x)?, y: channel(y)?, lens: *lens }
+            Self::Phase { x, y, viewport } => {
+                Plot::Phase { x: channel(x)?, y: channel(y)?, viewport: *viewport }
             }
-            Self::Potential { view, lens } => {
+            Self::Potential { view, viewport } => {
                 let kind = model.views.get(*view)?.kind;
                 let potential = kind == crate::model::ViewKind::Potential;
-                potential.then_some(Plot::Potential { view: *view, lens: *lens })?
+                potential.then_some(Plot::Potential { view: *view, viewport: *viewport })?
             }
-            Self::Time { y, lens } => {
+            Self::Time { y, viewport } => {
                 let y: Vec<usize> = y.iter().filter_map(channel).collect();
-                (!y.is_empty()).then_some(Plot::Time { y, lens: *lens })?
+                (!y.is_empty()).then_some(Plot::Time { y, viewport: *viewport })?
             }
         })
     }
@@ -182,8 +182,8 @@ impl App {
             return self.left.clone();
         }
         let lab = self.lab.as_ref()?;
-        let runs = |sheet: &SourceBuffer| sheet.is_modified() && sheet.state != SheetState::Left;
-        let edited = self.own_sheet().is_some_and(runs);
+        let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
+        let edited = self.own_buffer().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
 
@@ -240,8 +240,8 @@ impl App {
             lab.history = old.history;
         }
         // What is open speaks of the old system's places.
-        if matches!(self.over, Some(Overlay::Menu(_) | Overlay::Field(_))) {
-            self.over = None;
+        if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
+            self.overlay = None;
         }
         self.meter.forget();
         let Some(saved) = saved else {

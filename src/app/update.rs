@@ -33,16 +33,16 @@ impl App {
                 self.notice = Some(Notification::info(sentence));
                 Vec::new()
             }
-            Event::Written(Err(sentence)) => self.say(sentence),
+            Event::Written(Err(sentence)) => self.notify(sentence),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
-                self.news.tick(&mut self.notice, elapsed);
+                self.notifications.tick(&mut self.notice, elapsed);
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
                 let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
-                preview.into_iter().chain(self.tick_sheet(elapsed)).collect()
+                preview.into_iter().chain(self.tick_buffer(elapsed)).collect()
             }
             Event::Checked(checked) => self.checked(*checked),
             Event::FileSaved(outcome) => {
@@ -88,8 +88,8 @@ impl App {
         }
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
-        match &mut self.over {
-            Some(Overlay::Workbench) => self.type_on_sheet(key),
+        match &mut self.overlay {
+            Some(Overlay::Workbench) => self.type_into_buffer(key),
             Some(Overlay::Field(field)) => field.press(key),
             Some(Overlay::Prompt(prompt)) => prompt.press(key),
             Some(Overlay::Menu(menu)) => {
@@ -110,8 +110,8 @@ impl App {
     fn paste(&mut self, text: &str) -> Vec<Effect> {
         let all = text.len();
         let text = beginning(text, LONGEST_PASTE);
-        let whole = match &mut self.over {
-            Some(Overlay::Workbench) => self.paste_on_sheet(text),
+        let whole = match &mut self.overlay {
+            Some(Overlay::Workbench) => self.paste_into_buffer(text),
             Some(Overlay::Field(field)) => field.paste(text),
             Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Overlay::Menu(menu)) => {
@@ -126,7 +126,7 @@ impl App {
             _ => return Vec::new(),
         };
         if !whole || text.len() < all {
-            self.notice = Some(Notification::error(match self.over {
+            self.notice = Some(Notification::error(match self.overlay {
                 Some(Overlay::Workbench) => LONG_TEXT,
                 _ => "The pasted text was too long; its beginning was taken.",
             }));
@@ -141,8 +141,8 @@ impl App {
         if lab.see(Arc::clone(snapshot)) {
             self.meter.count(steps);
             self.reading.see(snapshot);
-            for sentence in news(&before, &snapshot.notices) {
-                self.news.tell(&mut self.notice, Notification::info(sentence.clone()));
+            for sentence in notifications(&before, &snapshot.notices) {
+                self.notifications.tell(&mut self.notice, Notification::info(sentence.clone()));
             }
         }
         Vec::new()
@@ -153,11 +153,11 @@ impl App {
         self.drop_hold();
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
-        self.over.take_if(|over| matches!(over, Overlay::Workbench));
+        self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.lab = Some(Lab::new(loaded));
         // What went wrong is not less so because something else is there.
         self.notice.take_if(|notice| !notice.error);
-        self.news.clear();
+        self.notifications.clear();
         self.meter.forget();
         self.picker.failure = None;
         if answered == Some(true) {
@@ -170,7 +170,7 @@ impl App {
 
     /// The system whose file is told to be wrong.
     pub fn failed_system(&self) -> Option<&str> {
-        match &self.over {
+        match &self.overlay {
             Some(Overlay::Message(failure)) => Some(&failure.name),
             _ => None,
         }
@@ -185,7 +185,7 @@ impl App {
     fn failed(&mut self, failure: LoadError) -> Vec<Effect> {
         if self.answered(&failure.name) == Some(true) {
             self.scroll = 0;
-            self.over = Some(Overlay::Message(failure.clone()));
+            self.overlay = Some(Overlay::Message(failure.clone()));
         }
         self.picker.failure = Some(failure);
         Vec::new()
@@ -203,9 +203,9 @@ impl App {
             self.left = self.saved();
             // what was reported of the motion that is left says nothing of another
             self.notice = None;
-            self.news.clear();
+            self.notifications.clear();
         }
-        (self.page, self.over, self.scroll) = (page, None, 0);
+        (self.page, self.overlay, self.scroll) = (page, None, 0);
         if page == Page::Plain {
             self.read();
         }
@@ -213,7 +213,7 @@ impl App {
 }
 
 /// The sentences of `now` that came after those of `before`; old ones may have gone at the front.
-fn news<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
+fn notifications<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
     let mut known = (0..=before.len().min(now.len())).rev();
     &now[known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0)..]
 }

@@ -42,7 +42,7 @@ impl Lab {
     }
 
     /// What is known of a value; of one that does not exist, nothing.
-    pub fn facts(&self, target: ValueId) -> Option<ValueInfo> {
+    pub fn value_info(&self, target: ValueId) -> Option<ValueInfo> {
         let model = &self.loaded.model;
         match target {
             ValueId::Parameter(index) => {
@@ -110,7 +110,7 @@ impl Lab {
     /// The value one fine or coarse step up (+1) or down (−1), within its range.
     pub fn stepped(&self, target: ValueId, sign: i8, coarse: bool) -> Option<f64> {
         let value = self.value(target)?;
-        let range = self.facts(target)?.range;
+        let range = self.value_info(target)?.range;
         Some(step(value, range, f64::from(sign), if coarse { 10.0 } else { 1.0 }))
     }
 }
@@ -118,7 +118,7 @@ impl Lab {
 impl Lab {
     /// A value as it would be set by hand: a whole number of fine steps within its range, whose ends are exact.
     pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
-        match self.facts(target).and_then(|facts| facts.range) {
+        match self.value_info(target).and_then(|value_info| value_info.range) {
             Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
             Some((min, max, Scale::Log)) if min > 0.0 => significant(value, 3).clamp(min, max),
             Some((min, max, _)) => {

@@ -8,7 +8,7 @@ use crate::expr::{Expr, Pool};
 use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
 use crate::num::Number;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 use super::failure::CommandError;
 use super::stderr;
@@ -110,16 +110,16 @@ pub(super) fn initial(
     model: &Model,
     parameters: &[f64],
     set: &[Assignment],
-) -> Result<Vec<Given>, CommandError> {
-    let mut all: Vec<Given> = Vec::new();
+) -> Result<Vec<InitialOverride>, CommandError> {
+    let mut all: Vec<InitialOverride> = Vec::new();
     refuse_twice("--init", set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
         all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
-        let has = |wanted: Given| all.iter().any(|g| label(model, g) == label(model, &wanted));
-        if has(Given::Velocity(i, 0.0)) && has(Given::Momentum(i, 0.0)) {
+        let has = |wanted: InitialOverride| all.iter().any(|g| label(model, g) == label(model, &wanted));
+        if has(InitialOverride::Velocity(i, 0.0)) && has(InitialOverride::Momentum(i, 0.0)) {
             let name = &c.name;
             let message =
                 format!("--init gives both {name}' and p_{name}; one follows from the other");
@@ -130,9 +130,9 @@ pub(super) fn initial(
 }
 
 /// Has a model begin at these coordinates: which constraints repeat others is judged there.
-pub(super) fn begin_at(model: &mut Model, given: &[Given]) {
+pub(super) fn begin_at(model: &mut Model, given: &[InitialOverride]) {
     for given in given {
-        if let &Given::Position(i, x) = given {
+        if let &InitialOverride::Position(i, x) = given {
             model.coordinates[i].initial = model.pool.number(Number::Real(x).canonical());
         }
     }
@@ -160,13 +160,13 @@ fn initial_value(
 }
 
 /// Which initial value a name means.
-fn place(model: &Model, name: &str, value: f64) -> Result<Given, CommandError> {
+fn place(model: &Model, name: &str, value: f64) -> Result<InitialOverride, CommandError> {
     let coordinate = |name: &str| model.coordinate(name);
-    let plain = coordinate(name).map(|i| Given::Position(i, value));
+    let plain = coordinate(name).map(|i| InitialOverride::Position(i, value));
     // variables of brackets have neither velocities nor momenta at their start
     let find = |name: &str| coordinate(name).filter(|_| !model.is_poisson());
-    let primed = || Some(Given::Velocity(find(name.strip_suffix('\'')?)?, value));
-    let momentum = || Some(Given::Momentum(find(name.strip_prefix("p_")?)?, value));
+    let primed = || Some(InitialOverride::Velocity(find(name.strip_suffix('\'')?)?, value));
+    let momentum = || Some(InitialOverride::Momentum(find(name.strip_prefix("p_")?)?, value));
     plain.or_else(primed).or_else(momentum).ok_or_else(|| {
         let names: Vec<String> = model
             .coordinates
@@ -180,11 +180,11 @@ fn place(model: &Model, name: &str, value: f64) -> Result<Given, CommandError> {
 }
 
 /// As it is written in front of the `=`.
-fn label(model: &Model, given: &Given) -> String {
+fn label(model: &Model, given: &InitialOverride) -> String {
     match *given {
-        Given::Position(i, _) => model.coordinates[i].name.clone(),
-        Given::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
-        Given::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
+        InitialOverride::Position(i, _) => model.coordinates[i].name.clone(),
+        InitialOverride::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
+        InitialOverride::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
     }
 }
 

@@ -14,7 +14,7 @@ use super::script::Script;
 use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
 use crate::model::{Channel, Model};
-use crate::system::{ChannelKind, Given, System};
+use crate::system::{ChannelKind, InitialOverride, System};
 
 /// Take Poisson's bracket of two expressions.
 ///
@@ -80,7 +80,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 /// The point at which the value is wanted.
 struct Start {
     parameters: Vec<f64>,
-    given: Vec<Given>,
+    given: Vec<InitialOverride>,
 }
 
 impl Start {

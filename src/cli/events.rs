@@ -17,8 +17,8 @@ pub(super) struct Events {
 }
 
 impl Events {
-    pub(super) fn of(model: &Arc<Model>, happenings: &EventLog) -> Events {
-        Events { of: Some((Arc::clone(model), happenings.clone())) }
+    pub(super) fn of(model: &Arc<Model>, occurrences: &EventLog) -> Events {
+        Events { of: Some((Arc::clone(model), occurrences.clone())) }
     }
 
     /// Those of a run that was ended from outside, which nobody can be asked for.
@@ -29,14 +29,14 @@ impl Events {
     /// One object for each event and each impulse, in time: name, time, and of an impulse the jump of each
     /// momentum (or variable) and the reaction of each constraint.
     pub(super) fn iter(&self) -> impl Iterator<Item = Value> {
-        self.of.iter().flat_map(|(model, happenings)| {
-            happenings.iter().map(move |happening| Events::object(model, happening))
+        self.of.iter().flat_map(|(model, occurrences)| {
+            occurrences.iter().map(move |occurrence| Events::object(model, occurrence))
         })
     }
 
-    fn object(model: &Model, happening: &Occurrence) -> Value {
-        let mut object = json!({ "name": happening.name, "t": happening.time });
-        if let OccurrenceKind::CompiledImpulse { jump, reaction } = &happening.kind {
+    fn object(model: &Model, occurrence: &Occurrence) -> Value {
+        let mut object = json!({ "name": occurrence.name, "t": occurrence.time });
+        if let OccurrenceKind::Impulse { jump, reaction } = &occurrence.kind {
             let moved = |i: usize| {
                 let c = &model.coordinates[i];
                 if model.is_poisson() { c.name.clone() } else { format!("p_{}", c.name) }

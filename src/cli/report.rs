@@ -62,7 +62,7 @@ pub(super) enum Status {
     /// Where an event or the user stopped it.
     Stopped,
     /// Where it could not go on.
-    Faulted,
+    Failed,
 }
 
 impl Status {
@@ -71,7 +71,7 @@ impl Status {
         match self {
             Status::Completed => "completed",
             Status::Stopped => "stopped",
-            Status::Faulted => "faulted",
+            Status::Failed => "faulted",
         }
     }
 }

@@ -153,7 +153,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
     if arguments.format == Format::Csv {
-        experiment.only_count_happenings();
+        experiment.only_count_occurrences();
     }
     let form = match arguments.format {
         Format::Csv => Form::Text,
@@ -183,7 +183,7 @@ struct Run<'i> {
 
 /// How a run ended before its time.
 enum End {
-    Fault(experiment::Fault),
+    Fault(experiment::Failure),
     Event,
     Signal(i32),
     Write(std::io::Error),
@@ -242,7 +242,7 @@ impl Run<'_> {
         }
         out.finish()?;
         cautions::after(&self.experiment);
-        let event_log = self.experiment.happenings();
+        let event_log = self.experiment.occurrences();
         if event_log.forgotten() > 0 && format != Format::Csv {
             let (count, forgotten) = (event_log.count(), event_log.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
@@ -303,7 +303,7 @@ impl Run<'_> {
             bar.show(self.experiment.time());
             // a step that a signal has cancelled is no fault of the motion
             self.interrupted()?;
-            if let experiment::Status::Faulted(fault) = self.experiment.status() {
+            if let experiment::Status::Failed(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
             // the moment itself still has its row
@@ -318,7 +318,7 @@ impl Run<'_> {
 
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
-            Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
+            Some(End::Fault(fault)) => (Status::Failed, Some(fault.message.clone())),
             Some(End::Signal(_) | End::Write(_)) => {
                 (Status::Stopped, Some("stopped by a signal".to_owned()))
             }
@@ -332,7 +332,7 @@ impl Run<'_> {
             },
         };
         let gauges = self.experiment.snapshot().gauges;
-        let events = Events::of(self.experiment.model(), self.experiment.happenings());
+        let events = Events::of(self.experiment.model(), self.experiment.occurrences());
         Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }

@@ -15,7 +15,7 @@ use super::gauges::Gauges;
 use super::{Experiment, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
-use crate::system::{Channel, ChannelKind, Fault, Form, Given, State, System};
+use crate::system::{Channel, ChannelKind, Failure, Form, InitialOverride, State, System};
 
 /// A motion that is on its constraints to this part of their terms may be taken up as it is.
 const KEPT_WITHIN: f64 = 1e-9;
@@ -255,34 +255,34 @@ fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
 }
 
 /// An initial value by its name in expressions.
-fn named(model: &Model, given: Given) -> Option<Named> {
+fn named(model: &Model, given: InitialOverride) -> Option<Named> {
     let (index, value) = match given {
-        Given::Position(i, x) | Given::Velocity(i, x) | Given::Momentum(i, x) => (i, x),
+        InitialOverride::Position(i, x) | InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x) => (i, x),
     };
     let name = &model.coordinates.get(index)?.name;
     let name = match given {
-        Given::Position(..) => name.clone(),
-        Given::Velocity(..) => format!("{name}'"),
-        Given::Momentum(..) => format!("p_{name}"),
+        InitialOverride::Position(..) => name.clone(),
+        InitialOverride::Velocity(..) => format!("{name}'"),
+        InitialOverride::Momentum(..) => format!("p_{name}"),
     };
     Some(Named { name, value })
 }
 
 /// The initial value of a name, if the model has it.
-fn given(model: &Model, named: &Named) -> Option<Given> {
+fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
     let place = |name: &str| model.coordinates.iter().position(|c| c.name == name);
     let (name, value) = (named.name.as_str(), named.value);
     if let Some(i) = place(name) {
-        return Some(Given::Position(i, value));
+        return Some(InitialOverride::Position(i, value));
     }
     if model.is_poisson() {
         return None;
     }
     if let Some(i) = name.strip_suffix('\'').and_then(place) {
-        return Some(Given::Velocity(i, value));
+        return Some(InitialOverride::Velocity(i, value));
     }
     let i = name.strip_prefix("p_").and_then(place)?;
-    Some(Given::Momentum(i, value))
+    Some(InitialOverride::Momentum(i, value))
 }
 
 impl Experiment {
@@ -359,7 +359,7 @@ impl Experiment {
     }
 
     /// Puts the present where it was: to the last bit where the system has the same state, else as far as names agree.
-    fn take_present(&mut self, present: &MotionState) -> Result<(), Fault> {
+    fn take_present(&mut self, present: &MotionState) -> Result<(), Failure> {
         let exact = present.fits(&self.model, self.system()) && self.take_exactly(present);
         if !exact {
             let state = self.state_of(present)?;
@@ -396,14 +396,14 @@ impl Experiment {
     }
 
     /// The state with the same coordinates and velocities (for a Hamiltonian: momenta), where there are such.
-    fn state_of(&self, present: &MotionState) -> Result<State, Fault> {
+    fn state_of(&self, present: &MotionState) -> Result<State, Failure> {
         let poisson = self.model.is_poisson();
-        let fits = |given: &Given| match given {
-            Given::Position(..) => true,
-            Given::Velocity(..) => self.model.is_lagrangian(),
-            Given::Momentum(..) => !self.model.is_lagrangian() && !poisson,
+        let fits = |given: &InitialOverride| match given {
+            InitialOverride::Position(..) => true,
+            InitialOverride::Velocity(..) => self.model.is_lagrangian(),
+            InitialOverride::Momentum(..) => !self.model.is_lagrangian() && !poisson,
         };
-        let given: Vec<Given> = present
+        let given: Vec<InitialOverride> = present
             .seen
             .iter()
             .filter_map(|named| given(&self.model, named))

@@ -2,7 +2,7 @@
 
 use super::Checkpoint;
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// One request.
 #[derive(Clone, PartialEq, Debug)]
@@ -31,7 +31,7 @@ pub enum Command {
         value: f64,
     },
     /// Begins the motion anew with these in place of the file's initial values, and with no others.
-    Start(Vec<Given>),
+    Start(Vec<InitialOverride>),
     /// Strikes the motion now with the impulse of this index.
     ApplyImpulse(usize),
     /// Back to the initial values; parameters stay.

@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use crate::integrate::{Occurrence, OccurrenceKind};
 
-/// Happenings in a sealed chunk.
+/// Occurrences in a sealed chunk.
 const CHUNK: usize = 256;
 
-/// The most chunks kept; of more the oldest are forgotten: a million happenings.
+/// The most chunks kept; of more the oldest are forgotten: a million occurrences.
 const CHUNKS: usize = 4096;
 
-/// The most bytes kept, of happenings with many numbers, such as the jumps of sixty coordinates.
+/// The most bytes kept, of occurrences with many numbers, such as the jumps of sixty coordinates.
 const BYTES: usize = 128 << 20;
 
-/// Happenings, the oldest first, and how often each has come.
+/// Occurrences, the oldest first, and how often each has come.
 #[derive(Clone, Debug, Default)]
 pub struct EventLog {
     sealed: VecDeque<Arc<Vec<Occurrence>>>,
@@ -43,18 +43,18 @@ impl EventLog {
         *self = EventLog { only_counts: self.only_counts, ..EventLog::default() };
     }
 
-    /// From now on happenings are counted only, and none is kept.
+    /// From now on occurrences are counted only, and none is kept.
     pub(super) fn only_count(&mut self) {
         self.only_counts = true;
     }
 
     /// Adds what has happened now.
-    pub(super) fn push(&mut self, happening: Occurrence) {
+    pub(super) fn push(&mut self, occurrence: Occurrence) {
         let tallies = Arc::make_mut(&mut self.tallies);
-        match tallies.iter_mut().find(|tally| tally.name == happening.name) {
-            Some(tally) => (tally.count, tally.last) = (tally.count + 1, happening.time),
+        match tallies.iter_mut().find(|tally| tally.name == occurrence.name) {
+            Some(tally) => (tally.count, tally.last) = (tally.count + 1, occurrence.time),
             None => {
-                let (name, last) = (happening.name.clone(), happening.time);
+                let (name, last) = (occurrence.name.clone(), occurrence.time);
                 tallies.push(EventCount { name, count: 1, last });
             }
         }
@@ -62,7 +62,7 @@ impl EventLog {
             return;
         }
         let open = Arc::make_mut(&mut self.open);
-        open.push(happening);
+        open.push(occurrence);
         if open.len() == CHUNK {
             let full = std::mem::take(&mut self.open);
             self.bytes += size(&full);
@@ -102,20 +102,20 @@ impl EventLog {
 
 /// What a chunk takes, in bytes.
 fn size(chunk: &[Occurrence]) -> usize {
-    let numbers = |happening: &Occurrence| match &happening.kind {
-        OccurrenceKind::CompiledImpulse { jump, reaction } => jump.len() + reaction.len(),
+    let numbers = |occurrence: &Occurrence| match &occurrence.kind {
+        OccurrenceKind::Impulse { jump, reaction } => jump.len() + reaction.len(),
         OccurrenceKind::Mark | OccurrenceKind::Stop | OccurrenceKind::Release(_) => 0,
     };
-    let own = |happening: &Occurrence| {
-        size_of::<Occurrence>() + happening.name.len() + size_of::<f64>() * numbers(happening)
+    let own = |occurrence: &Occurrence| {
+        size_of::<Occurrence>() + occurrence.name.len() + size_of::<f64>() * numbers(occurrence)
     };
     chunk.iter().map(own).sum()
 }
 
 impl FromIterator<Occurrence> for EventLog {
-    fn from_iter<I: IntoIterator<Item = Occurrence>>(happenings: I) -> EventLog {
+    fn from_iter<I: IntoIterator<Item = Occurrence>>(occurrences: I) -> EventLog {
         let mut event_log = EventLog::default();
-        happenings.into_iter().for_each(|happening| event_log.push(happening));
+        occurrences.into_iter().for_each(|occurrence| event_log.push(occurrence));
         event_log
     }
 }
@@ -138,7 +138,7 @@ mod tests {
         let most = CHUNK * CHUNKS;
         let count = most + 1000;
         let event_log: EventLog = ticks(count).collect();
-        let times: Vec<f64> = event_log.iter().map(|happening| happening.time).collect();
+        let times: Vec<f64> = event_log.iter().map(|occurrence| occurrence.time).collect();
         assert!((most..most + CHUNK).contains(&times.len()), "{}", times.len());
         assert!(times.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
         assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
@@ -150,11 +150,11 @@ mod tests {
     }
 
     #[test]
-    fn happenings_of_many_numbers_are_bounded_by_their_size() {
+    fn occurrences_of_many_numbers_are_bounded_by_their_size() {
         let wide = |k: usize| Occurrence {
             name: "kick".to_owned(),
             time: k as f64,
-            kind: OccurrenceKind::CompiledImpulse {
+            kind: OccurrenceKind::Impulse {
                 jump: vec![1.0; 2000],
                 reaction: vec![1.0; 2000],
             },
@@ -172,10 +172,10 @@ mod tests {
     fn what_is_only_counted_is_not_kept() {
         let mut event_log = EventLog::default();
         event_log.only_count();
-        ticks(3 * CHUNK).for_each(|happening| event_log.push(happening));
+        ticks(3 * CHUNK).for_each(|occurrence| event_log.push(occurrence));
         assert_eq!((event_log.count(), event_log.iter().count()), (3 * CHUNK as u64, 0));
         event_log.clear();
-        ticks(2).for_each(|happening| event_log.push(happening));
+        ticks(2).for_each(|occurrence| event_log.push(occurrence));
         assert_eq!((event_log.count(), event_log.iter().count()), (2, 0));
     }
 
@@ -183,7 +183,7 @@ mod tests {
     fn a_copy_keeps_what_it_saw() {
         let mut event_log: EventLog = ticks(CHUNK - 1).collect();
         let before = event_log.clone();
-        ticks(3 * CHUNK).for_each(|happening| event_log.push(happening));
+        ticks(3 * CHUNK).for_each(|occurrence| event_log.push(occurrence));
         assert_eq!((before.count(), before.iter().count()), (CHUNK as u64 - 1, CHUNK - 1));
         assert_eq!((event_log.forgotten(), event_log.iter().count()), (0, 4 * CHUNK - 1));
         assert!(EventLog::default().is_empty() && !before.is_empty());

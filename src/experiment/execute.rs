@@ -4,7 +4,7 @@
 //! of Dynamics*, § 1.3.3 with no impulse.
 
 use super::gauges::Gauges;
-use super::setup::{choose_method, with_given};
+use super::setup::{choose_method, with_override};
 use super::{Command, Experiment, MethodNotFound};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::system::{self, ChannelKind, State};
@@ -29,15 +29,15 @@ impl Experiment {
             Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
             Command::Parameter { index, value } => self.change_parameter(index, value),
             Command::Initial { index, value } => self.change_initial(index, value),
-            Command::Start(given) => {
-                self.setup.given = given;
+            Command::Start(overrides) => {
+                self.setup.overrides = overrides;
                 self.restart();
             }
             Command::ApplyImpulse(index) => self.strike(index),
             Command::Reset => self.restart(),
             Command::FullReset => {
                 self.setup.parameters = self.model.parameter_values();
-                self.setup.given.clear();
+                self.setup.overrides.clear();
                 self.restart();
             }
             Command::Method(name) => self.take_method(&name, self.motion.settings()),
@@ -65,7 +65,7 @@ impl Experiment {
         if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
             return;
         }
-        match self.motion.strike(index).and_then(|happening| self.note(happening)) {
+        match self.motion.strike(index).and_then(|occurrence| self.note(occurrence)) {
             Ok(sentence) => self.tell(sentence),
             Err(fault) => self.fault = Some(fault.into()),
         }
@@ -99,12 +99,12 @@ impl Experiment {
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
-            self.tell_jump(&format!("{name}: energy jumped by"), jump);
+            self.report_jump(&format!("{name}: energy jumped by"), jump);
         }
     }
 
     /// Tells of a jump; a parameter that is turned on and on tells of it once.
-    fn tell_jump(&mut self, lead: &str, jump: f64) {
+    fn report_jump(&mut self, lead: &str, jump: f64) {
         if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
             self.notices.pop();
         }
@@ -127,7 +127,7 @@ impl Experiment {
         if index >= self.system().moving() || !value.is_finite() {
             return self.tell(format!("an initial value cannot be {value}"));
         }
-        self.setup.given = with_given(self.system(), &self.setup.given, index, value);
+        self.setup.overrides = with_override(self.system(), &self.setup.overrides, index, value);
         self.restart();
     }
 
@@ -179,9 +179,9 @@ impl Experiment {
     }
 
     /// Goes on from a state, if there is one to go on from.
-    fn go_on(&mut self, state: Result<State, system::Fault>) {
+    fn go_on(&mut self, state: Result<State, system::MotionError>) {
         let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
-        self.fault = begun.err().map(super::Fault::from);
+        self.fault = begun.err().map(super::Failure::from);
     }
 }
 

@@ -5,7 +5,7 @@ use crate::expr::Symbol;
 use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;
-use crate::system::{Form, Given, System};
+use crate::system::{Form, InitialOverride, System};
 
 /// Everything an experiment is reported at its beginning.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -13,7 +13,7 @@ pub struct Setup {
     /// The parameters, in the model's order.
     pub parameters: Vec<f64>,
     /// Initial values that take the place of the file's.
-    pub given: Vec<Given>,
+    pub overrides: Vec<InitialOverride>,
     /// The method's name in the table of methods, or `auto`.
     pub method: String,
     /// Its step or tolerance.
@@ -38,7 +38,7 @@ impl Setup {
         let run = &model.run;
         Setup {
             parameters: model.parameter_values(),
-            given: Vec::new(),
+            overrides: Vec::new(),
             method: run.method.clone(),
             settings: Settings { step: run.step, tolerance: run.tolerance },
             start: run.start,
@@ -59,18 +59,18 @@ impl Setup {
 
 /// What is given in place of the file's initial values once the one of an index (coordinates first, then velocities or
 /// momenta) is given too.
-pub fn with_given(system: &System, before: &[Given], index: usize, value: f64) -> Vec<Given> {
+pub fn with_override(system: &System, before: &[InitialOverride], index: usize, value: f64) -> Vec<InitialOverride> {
     let n = system.degrees();
-    let given = match (index < n, system.form()) {
-        (true, _) => Given::Position(index, value),
-        (false, Form::Velocity) => Given::Velocity(index - n, value),
-        (false, Form::Momentum | Form::Variables) => Given::Momentum(index - n, value),
+    let overrides = match (index < n, system.form()) {
+        (true, _) => InitialOverride::Position(index, value),
+        (false, Form::Velocity) => InitialOverride::Velocity(index - n, value),
+        (false, Form::Momentum | Form::Variables) => InitialOverride::Momentum(index - n, value),
     };
-    let same = |g: &&Given| match g {
-        Given::Position(i, _) => *i == index,
-        Given::Velocity(i, _) | Given::Momentum(i, _) => i + n == index,
+    let same = |g: &&InitialOverride| match g {
+        InitialOverride::Position(i, _) => *i == index,
+        InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => i + n == index,
     };
-    before.iter().filter(|g| !same(g)).copied().chain([given]).collect()
+    before.iter().filter(|g| !same(g)).copied().chain([overrides]).collect()
 }
 
 /// Why a method cannot be had.

@@ -39,7 +39,7 @@ pub struct Snapshot {
     /// What the user is reported in passing: "energy reference taken anew: …". The newest last.
     pub notices: Arc<[String]>,
     /// What happened since the last restart, in time.
-    pub happenings: EventLog,
+    pub occurrences: EventLog,
     /// The constraints that were let go, by index.
     pub released: Vec<usize>,
     /// Whether a motion left elsewhere was taken up.
@@ -64,7 +64,7 @@ impl Snapshot {
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
-            happenings: EventLog::default(),
+            occurrences: EventLog::default(),
             released: Vec::new(),
             taken_up: false,
         }
@@ -81,12 +81,12 @@ pub enum Status {
     /// Ended by the event of this name.
     Ended(String),
     /// It cannot go on.
-    Faulted(Fault),
+    Failed(Failure),
 }
 
 /// Why a motion cannot go on.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Fault {
+pub struct Failure {
     /// When.
     pub time: f64,
     /// What happened, where, and what may help, in a sentence or two.
@@ -153,8 +153,8 @@ pub struct MethodFact {
     pub tolerance: Option<f64>,
 }
 
-impl From<crate::system::Fault> for Fault {
-    fn from(fault: crate::system::Fault) -> Fault {
-        Fault { time: fault.time, message: fault.to_string() }
+impl From<crate::system::MotionError> for Failure {
+    fn from(fault: crate::system::MotionError) -> Failure {
+        Failure { time: fault.time, message: fault.to_string() }
     }
 }

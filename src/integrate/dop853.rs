@@ -16,7 +16,7 @@ use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
-use crate::system::{Fault, FaultKind, Rates, State, System};
+use crate::system::{MotionError, MotionErrorKind, Rates, State, System};
 
 /// The tolerance where none is asked for.
 const TOLERANCE: f64 = 1e-13;
@@ -115,7 +115,7 @@ impl DormandPrince {
     }
 
     /// Makes the stages of a step of this size and its result, in `next`.
-    fn attempt(&mut self, step: f64) -> Result<(), Fault> {
+    fn attempt(&mut self, step: f64) -> Result<(), MotionError> {
         for stage in 1..METHOD_STAGES {
             let (rates, numbers) = (&mut self.rates, &mut self.numbers);
             evaluate(rates, stage, step, &self.state, &mut self.slopes, numbers)?;
@@ -174,15 +174,15 @@ impl DormandPrince {
 
     /// A fault where a step of this size leads nowhere, or where somebody asked to stop. The way
     /// to the limit (`last`) may be as short as it likes.
-    fn may_try(&self, step: f64, last: bool) -> Result<(), Fault> {
+    fn may_try(&self, step: f64, last: bool) -> Result<(), MotionError> {
         let size = step.abs();
         let kind = if self.system.cancel().is_cancelled() {
-            FaultKind::Cancelled
+            MotionErrorKind::Cancelled
         } else if size <= 1e-16 * self.state.time.abs()
             || size < 1e-290
             || (size < SHORTEST * self.longest && !last)
         {
-            FaultKind::StepUnderflow(step)
+            MotionErrorKind::StepUnderflow(step)
         } else {
             return Ok(());
         };
@@ -190,7 +190,7 @@ impl DormandPrince {
     }
 
     /// The slopes that only the interpolant needs.
-    fn complete(&mut self) -> Result<(), Fault> {
+    fn complete(&mut self) -> Result<(), MotionError> {
         if !self.has_interpolant {
             let step = self.last_step();
             for stage in METHOD_STAGES + 1..STAGES.len() {
@@ -215,7 +215,7 @@ fn evaluate(
     origin: &State,
     slopes: &mut [Vec<f64>],
     numbers: &mut [f64],
-) -> Result<(), Fault> {
+) -> Result<(), MotionError> {
     for (i, x) in numbers.iter_mut().enumerate() {
         *x = origin.values[i] + (origin.carry[i] + step * sum(STAGES[stage].from, slopes, i));
     }
@@ -228,7 +228,7 @@ fn sum(terms: &[Term], slopes: &[Vec<f64>], i: usize) -> f64 {
 }
 
 impl Stepper for DormandPrince {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.before.copy_from(&self.state);
         self.rates.set_parameters(parameters);
@@ -239,7 +239,7 @@ impl Stepper for DormandPrince {
         self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
@@ -260,7 +260,7 @@ impl Stepper for DormandPrince {
             self.may_try(step, last)?;
             if let Err(fault) = self.attempt(step) {
                 // a stage of a step too long may lie where there are no rates
-                if failures == TRIES || fault.kind == FaultKind::Cancelled {
+                if failures == TRIES || fault.kind == MotionErrorKind::Cancelled {
                     return Err(fault);
                 }
                 self.size = step.abs() * SHORTER;
@@ -312,7 +312,7 @@ impl Stepper for DormandPrince {
         (self.before.time, self.state.time)
     }
 
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         if time == self.state.time {
             out.copy_from(&self.state);
             return Ok(());

@@ -12,7 +12,7 @@ use super::Stepper;
 use super::clock::spacing;
 use crate::model::Direction;
 use crate::num::{DoubleDouble, math};
-use crate::system::{EventFunctions, Fault, FaultKind, State};
+use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
 
 /// Into how many pieces a stretch on which the functions are simple is cut at first.
 const PIECES: usize = 4;
@@ -130,7 +130,7 @@ impl EventLocator {
         before: &State,
         after: &State,
         event: Option<usize>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         let mut old = vec![0.0; self.sides.len()];
         self.event_functions.look(before, &mut old)?;
         self.event_functions.look(after, &mut self.values)?;
@@ -147,7 +147,7 @@ impl EventLocator {
 
     /// A constraint was let go at a state: functions that did not jump with it stand where `known`
     /// has them.
-    pub(super) fn inherit(&mut self, mut known: EventLocator, state: &State) -> Result<(), Fault> {
+    pub(super) fn inherit(&mut self, mut known: EventLocator, state: &State) -> Result<(), MotionError> {
         known.event_functions.look(state, &mut known.values)?;
         self.event_functions.look(state, &mut self.values)?;
         for (i, (old, new)) in known.values.iter().zip(&self.values).enumerate() {
@@ -165,7 +165,7 @@ impl EventLocator {
         stepper: &mut dyn Stepper,
         from: f64,
         to: f64,
-    ) -> Result<f64, Fault> {
+    ) -> Result<f64, MotionError> {
         if from >= to {
             return Ok(to);
         }
@@ -177,8 +177,8 @@ impl EventLocator {
         let shortest = DIGITS * spacing(from);
         self.shortest = if length < shortest { self.shortest + 1 } else { 0 };
         if self.shortest > MOST_SHORTEST {
-            let kind = FaultKind::ClockStands(spacing(from));
-            return Err(Fault { time: from, kind, place: Vec::new() });
+            let kind = MotionErrorKind::ClockStands(spacing(from));
+            return Err(MotionError { time: from, kind, place: Vec::new() });
         }
         let end = from + length.max(shortest);
         self.simple = Some(end);
@@ -192,7 +192,7 @@ impl EventLocator {
         stepper: &mut dyn Stepper,
         from: f64,
         to: f64,
-    ) -> Result<Option<LocatedEvent>, Fault> {
+    ) -> Result<Option<LocatedEvent>, MotionError> {
         if from >= to {
             return Ok(None);
         }
@@ -242,7 +242,7 @@ impl EventLocator {
         time: f64,
         width: f64,
         (from, to): (f64, f64),
-    ) -> Result<Vec<Sample>, Fault> {
+    ) -> Result<Vec<Sample>, MotionError> {
         self.move_to(stepper, time)?;
         self.event_functions.look(&self.state, &mut self.values)?;
         let here = self.values.clone();
@@ -259,7 +259,7 @@ impl EventLocator {
     }
 
     /// The state at a time within the last step, though not before the last impulse.
-    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), Fault> {
+    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), MotionError> {
         match self.begun.filter(|&begun| earlier(DoubleDouble::written(time), begun)) {
             Some(begun) => stepper.at_exactly(begun, &mut self.state),
             None => stepper.at(time, &mut self.state),
@@ -282,7 +282,7 @@ impl EventLocator {
         event: usize,
         looks: &[Sample],
         whole: (f64, f64),
-    ) -> Result<Vec<Crossing>, Fault> {
+    ) -> Result<Vec<Crossing>, MotionError> {
         let mut walk = Search { event, whole, side: self.sides[event], found: Vec::new() };
         for pair in looks.windows(2) {
             if walk.side == 0.0 {
@@ -307,7 +307,7 @@ impl EventLocator {
         a: Sample,
         b: Sample,
         halvings: u32,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let time = 0.5 * (a.time + b.time);
         if time <= a.time || time >= b.time {
             return self.end(stepper, walk, a, b);
@@ -334,7 +334,7 @@ impl EventLocator {
         walk: &mut Search,
         a: Sample,
         b: Sample,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(same_side && towards) {
@@ -373,7 +373,7 @@ impl EventLocator {
         walk: &mut Search,
         a: Sample,
         b: Sample,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let side = sign(b, a);
         if side == 0.0 && b.time == walk.whole.1 && b.slope * walk.side < 0.0 {
             // it crosses just where the step ends, as one does that ends there for a row or an impulse
@@ -407,7 +407,7 @@ impl EventLocator {
         side: f64,
         mut left: f64,
         mut right: f64,
-    ) -> Result<DoubleDouble, Fault> {
+    ) -> Result<DoubleDouble, MotionError> {
         let mut low = self.exactly(stepper, event, left)?;
         let mut high = self.exactly(stepper, event, right)?;
         if low.high * side > 0.0 {
@@ -449,7 +449,7 @@ impl EventLocator {
         stepper: &mut dyn Stepper,
         event: usize,
         time: f64,
-    ) -> Result<DoubleDouble, Fault> {
+    ) -> Result<DoubleDouble, MotionError> {
         self.move_to(stepper, time)?;
         self.event_functions.exactly(event, &self.state)
     }

@@ -6,7 +6,7 @@ use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
 use crate::num::{DoubleDouble, math};
-use crate::system::{Fault, FaultKind, Form, State, System};
+use crate::system::{MotionError, MotionErrorKind, Form, State, System};
 
 /// The step where none is asked for, as a part of the motion's [pace](pace::of).
 const PART_OF_PACE: f64 = 1.0 / 10.0;
@@ -27,7 +27,7 @@ pub(super) trait Scheme: Clone + Send {
 
     /// Moves the numbers of `state` by one step; its time is that of the beginning, and left
     /// alone.
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault>;
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
     /// The motion begins at a state in the system's own form, which may say more than the
     /// scheme's.
@@ -42,7 +42,7 @@ pub(super) trait Scheme: Clone + Send {
     }
 
     /// The rates of change at the numbers of a state.
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault>;
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
 }
 
 /// A motion in steps that are all alike.
@@ -127,12 +127,12 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// A fault where somebody asked to stop, or where the way is longer than can be counted.
-    fn may_step(&self, limit: f64) -> Result<(), Fault> {
+    fn may_step(&self, limit: f64) -> Result<(), MotionError> {
         let way = (limit - self.origin.high).abs() / self.step.high.abs();
         let kind = if self.system.cancel().is_cancelled() {
-            FaultKind::Cancelled
+            MotionErrorKind::Cancelled
         } else if limit.is_finite() && way > MOST_STEPS {
-            FaultKind::TooManySteps(self.step.high.abs(), limit)
+            MotionErrorKind::TooManySteps(self.step.high.abs(), limit)
         } else {
             return Ok(());
         };
@@ -141,7 +141,7 @@ impl<S: Scheme> FixedStep<S> {
 }
 
 impl<S: Scheme> Stepper for FixedStep<S> {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.scheme.form(), parameters)?;
         self.before.copy_from(&self.state);
         self.parameters.clear();
@@ -160,7 +160,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
@@ -174,7 +174,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         let time = self.origin + self.step * (self.count + 1.0);
         (self.next.time, self.next.time_carry) = (time.high, time.low);
         if time.high == self.state.time {
-            let kind = FaultKind::StepUnderflow(self.step.high);
+            let kind = MotionErrorKind::StepUnderflow(self.step.high);
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         self.system.check_finite(&self.next)?;
@@ -196,7 +196,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         (self.before.time, self.state.time)
     }
 
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         if time == self.state.time {
             out.copy_from(&self.state);
             return Ok(());

@@ -20,7 +20,7 @@ use super::fixed::{FixedStep, Scheme};
 use super::method::{Method, MethodError, Preserves, Stepping};
 use super::roundoff;
 use crate::num::DoubleDouble;
-use crate::system::{Fault, FaultKind, Form, Rates, State, System};
+use crate::system::{MotionError, MotionErrorKind, Form, Rates, State, System};
 
 /// How often the iteration may be repeated.
 const PASSES: usize = 120;
@@ -117,7 +117,7 @@ impl Gauss {
 
     /// The slopes to begin with: the last step's polynomial, carried on into this one; else the
     /// slope at the beginning.
-    fn guess(&mut self, state: &State) -> Result<(), Fault> {
+    fn guess(&mut self, state: &State) -> Result<(), MotionError> {
         if !self.contiguous {
             for slope in &mut self.slopes {
                 self.rates.evaluate(state.time, &state.values, slope)?;
@@ -145,7 +145,7 @@ impl Gauss {
     }
 
     /// The slopes that belong to the stages.
-    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), Fault> {
+    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), MotionError> {
         for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
         {
             self.rates.evaluate(time + c.high * step, stage, slope)?;
@@ -154,7 +154,7 @@ impl Gauss {
     }
 
     /// One pass; whether all numbers have come to rest.
-    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, Fault> {
+    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, MotionError> {
         self.evaluate(step, state.time)?;
         for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
             old.clone_from(stage);
@@ -191,13 +191,13 @@ impl Gauss {
         }
     }
 
-    fn solve(&mut self, step: f64, state: &State) -> Result<(), Fault> {
+    fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
         self.resting.fill(false);
         self.place(step, state);
         for count in 1..=PASSES {
             if self.rates.system().cancel().is_cancelled() {
-                let kind = FaultKind::Cancelled;
+                let kind = MotionErrorKind::Cancelled;
                 return Err(self.rates.system().fault(kind, state.time, &state.values));
             }
             match self.pass(count - 1, step, state) {
@@ -219,7 +219,7 @@ impl Gauss {
         let mut here = state.clone();
         here.values.clone_from(&self.slopes[0]);
         system.check_finite(&here)?;
-        Err(system.fault(FaultKind::NoConvergence(step), state.time, &state.values))
+        Err(system.fault(MotionErrorKind::NoConvergence(step), state.time, &state.values))
     }
 }
 
@@ -241,11 +241,11 @@ impl Scheme for Gauss {
         self.rates.go_on_from(&other.rates);
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.rates.evaluate(time, numbers, out)
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         self.guess(state)?;
         self.contiguous = false;
         self.solve(step, state)?;

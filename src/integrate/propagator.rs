@@ -12,7 +12,7 @@ use super::impulse_schedule::ImpulseSchedule;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{ConstraintProjector, Fault, FaultKind, Form, State, System};
+use crate::system::{ConstraintProjector, MotionError, MotionErrorKind, Form, State, System};
 use constraint_watch::Watch;
 pub use occurrence::{Occurrence, OccurrenceKind};
 
@@ -116,7 +116,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Where the motion cannot begin there.
-    pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.system.check_intervals(parameters, state.time)?;
         self.start = state.time;
         self.ended = false;
@@ -139,7 +139,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Where the motion cannot go on from there.
-    pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         if parameters != self.parameters {
             self.system.check_intervals(parameters, state.time)?;
             self.parameters = parameters.to_vec();
@@ -167,7 +167,7 @@ impl Propagator {
         parameters: &[f64],
         start: f64,
         released: &[usize],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         self.begin(state, parameters)?;
         for &constraint in released {
             let own = self.own()?;
@@ -195,7 +195,7 @@ impl Propagator {
         Ok(())
     }
 
-    fn resume(&mut self, state: &State) -> Result<(), Fault> {
+    fn resume(&mut self, state: &State) -> Result<(), MotionError> {
         if state.form == self.system.form() {
             self.state.copy_from(state);
         } else {
@@ -217,7 +217,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Where the motion cannot go on.
-    pub fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, Fault> {
+    pub fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, MotionError> {
         loop {
             if self.ended {
                 return Ok(Reached::Ended);
@@ -258,7 +258,7 @@ impl Propagator {
         }
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         let limit =
             self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
         let before = self.stepper.state().exact_time();
@@ -286,7 +286,7 @@ impl Propagator {
 
     /// Looks for events in what was computed beyond `clear`, up to the next impulse, as far as the
     /// functions are simple.
-    fn scan(&mut self) -> Result<(), Fault> {
+    fn scan(&mut self) -> Result<(), MotionError> {
         let end = self.stepper.time();
         let mut end =
             self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
@@ -299,7 +299,7 @@ impl Propagator {
     }
 
     /// The present becomes the state at a time within the last step.
-    fn look(&mut self, time: f64) -> Result<(), Fault> {
+    fn look(&mut self, time: f64) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if time == end || begin == end {
             self.state.copy_from(self.stepper.state());
@@ -314,7 +314,7 @@ impl Propagator {
 
     /// The present becomes the state at a time of something that happens, known beyond the last
     /// digit of an `f64`.
-    fn look_exactly(&mut self, time: DoubleDouble) -> Result<(), Fault> {
+    fn look_exactly(&mut self, time: DoubleDouble) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if begin == end {
             self.state.copy_from(self.stepper.state());
@@ -328,11 +328,11 @@ impl Propagator {
     }
 
     /// The present in the system's own form.
-    fn own(&self) -> Result<State, Fault> {
+    fn own(&self) -> Result<State, MotionError> {
         self.to_own(&self.state)
     }
 
-    fn to_own(&self, state: &State) -> Result<State, Fault> {
+    fn to_own(&self, state: &State) -> Result<State, MotionError> {
         if self.near.values.is_empty() {
             self.system.convert(state, self.system.form(), &self.parameters)
         } else {
@@ -345,9 +345,9 @@ impl Propagator {
 const MOST_STALLED: u32 = 128;
 
 /// The clock has no digits left for what is to come.
-fn stands_still(time: f64) -> Fault {
-    let kind = FaultKind::ClockStands(super::clock::spacing(time));
-    Fault { time, kind, place: Vec::new() }
+fn stands_still(time: f64) -> MotionError {
+    let kind = MotionErrorKind::ClockStands(super::clock::spacing(time));
+    MotionError { time, kind, place: Vec::new() }
 }
 
 /// What can be asked of it.
@@ -397,7 +397,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Where it cannot be reported.
-    pub fn inside(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    pub fn inside(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         self.stepper.at(time, out)
     }
 
@@ -405,7 +405,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Where it cannot be reported.
-    pub fn reach_computed(&mut self) -> Result<(), Fault> {
+    pub fn reach_computed(&mut self) -> Result<(), MotionError> {
         self.look(self.clear)
     }
 

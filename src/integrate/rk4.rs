@@ -10,7 +10,7 @@ use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
 use super::stability::Modes;
 use crate::num::math;
-use crate::system::{Fault, Form, Rates, State, System};
+use crate::system::{MotionError, Form, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
     name: "rk4",
@@ -59,7 +59,7 @@ impl Scheme for RungeKutta {
         self.rates.set_parameters(parameters);
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         self.slope.fill(0.0);
         self.sum.fill(0.0);
         for (part, weight) in STAGES {
@@ -83,7 +83,7 @@ impl Scheme for RungeKutta {
         Some(Modes { growth: |_, z| growth(z), weights: &[] })
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.rates.evaluate(time, numbers, out)
     }
 }

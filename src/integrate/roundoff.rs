@@ -4,7 +4,7 @@
 //! each rate is rounding. It is measured afresh wherever it is asked for, and what was found is
 //! never fed back: an error of the method cannot pass for rounding.
 
-use crate::system::{Fault, Rates};
+use crate::system::{MotionError, Rates};
 
 /// By how many units in the last place the numbers are moved, in turn: unlike each other, so that
 /// no symmetry of the motion hides what they do.
@@ -31,7 +31,7 @@ pub(super) fn measure(
     rates: &mut Rates,
     place: &Place<'_>,
     noise: &mut [f64],
-) -> Result<(), Fault> {
+) -> Result<(), MotionError> {
     noise.fill(0.0);
     let mut here = vec![0.0; noise.len()];
     rates.evaluate(place.time, place.numbers, &mut here)?;

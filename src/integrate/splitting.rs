@@ -8,7 +8,7 @@
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
-use crate::system::{Fault, Form, Rates, State, System};
+use crate::system::{MotionError, Form, Rates, State, System};
 
 /// What a system must be for it.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
@@ -57,7 +57,7 @@ impl Scheme for Splitting {
         self.known = false;
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         if !self.known {
             self.kick.evaluate(state.time, &state.values, &mut self.force)?;
         }
@@ -80,7 +80,7 @@ impl Scheme for Splitting {
         Some(Modes { growth, weights: &self.weights })
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.drift.evaluate(time, numbers, out)?;
         self.kick.evaluate(time, numbers, out)
     }

@@ -48,10 +48,10 @@ pub fn rate_by_bracket(
     f: Expr,
 ) -> Result<Expr, NoClosedForm> {
     let hamiltonian = equations.hamiltonian.clone()?;
-    let carried = bracket(model, equations, f, hamiltonian)?;
+    let auxiliary = bracket(model, equations, f, hamiltonian)?;
     let f = in_phase_space(equations, f)?;
     let own = equations.pool.derivative(f, equations.symbols.time);
-    let rate = equations.pool.add(carried, own);
+    let rate = equations.pool.add(auxiliary, own);
     let rate = zero_if_proved(&mut equations.pool, rate);
     Ok(equations.pool.simplify(rate))
 }
@@ -66,9 +66,9 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
         let why = "the action is an integral along the motion, no function of its state";
         return Err(NoClosedForm(why.to_owned()));
     }
-    let carried: Vec<Symbol> =
-        equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()).collect();
-    if equations.pool.depends_on_any(e, &carried) {
+    let auxiliary: Vec<Symbol> =
+        equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()).collect();
+    if equations.pool.depends_on_any(e, &auxiliary) {
         let why = "what is carried along beside the motion is no function of its state";
         return Err(NoClosedForm(why.to_owned()));
     }
@@ -195,7 +195,7 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedFor
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
     others.push(equations.symbols.action);
-    others.extend(equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()));
+    others.extend(equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()));
     if equations.pool.depends_on_any(e, &others) {
         return Err(NoClosedForm("it is not known as a function of q, q̇ and t".to_owned()));
     }

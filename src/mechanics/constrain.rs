@@ -46,8 +46,8 @@ fn row(
         drift.push((c.position, v));
     }
     let kept = pool.sum(&terms);
-    let carried = pool.derivation(kept, &drift);
-    let bias = pool.neg(carried);
+    let auxiliary = pool.derivation(kept, &drift);
+    let bias = pool.neg(auxiliary);
     ConstraintRow {
         name: constraint.name.clone(),
         multiplier: constraint.multiplier,

@@ -47,14 +47,14 @@ pub struct Equations {
     /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
     pub separable: Result<Separable, NoClosedForm>,
     /// What goes beside the motion.
-    pub beside: Beside,
+    pub supplements: Supplements,
 }
 
 /// What is integrated, seen or known beside the equations of motion, and has no part in them.
 #[derive(Clone, Debug, Default)]
-pub struct Beside {
+pub struct Supplements {
     /// Numbers that are integrated beside the motion and do not act on it.
-    pub carried: Vec<Carried>,
+    pub auxiliary: Vec<Auxiliary>,
     /// The wrong mechanics beside the right, where the file asks for it.
     pub vakonomic: Option<Vakonomic>,
     /// The particles of each frame, as seen from it.
@@ -67,11 +67,11 @@ pub struct Beside {
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
 }
 
-impl Beside {
+impl Supplements {
     /// Nothing yet, but for the symbols that the model's attitude has.
-    pub(super) fn of(model: &Model) -> Beside {
+    pub(super) fn of(model: &Model) -> Supplements {
         let attitude_symbols = model.attitude.as_ref().map(|a| a.matrix);
-        Beside { attitude_symbols, ..Beside::default() }
+        Supplements { attitude_symbols, ..Supplements::default() }
     }
 }
 
@@ -107,19 +107,19 @@ pub struct ConstraintRow {
 
 /// Numbers that are integrated beside the motion: functions of the state, of themselves and of t.
 #[derive(Clone, Debug)]
-pub struct Carried {
+pub struct Auxiliary {
     /// What they are called, in the order in which a state carries them.
     pub symbols: Vec<Symbol>,
     /// Their rates of change.
-    pub rates: CarriedRates,
+    pub rates: AuxiliaryRates,
     /// Their values at the start, of the state there and the parameters.
-    pub initial: CarriedRates,
+    pub initial: AuxiliaryRates,
 }
 
 /// As many expressions as there are numbers: some as they stand, then the solution of linear
 /// equations.
 #[derive(Clone, Debug)]
-pub struct CarriedRates {
+pub struct AuxiliaryRates {
     /// The first ones.
     pub plain: Vec<Expr>,
     /// The matrix of the others.

@@ -1,7 +1,7 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{Beside, CoordinateSymbols, Equations, Flow, NoClosedForm, Separable};
+use super::equations::{Supplements, CoordinateSymbols, Equations, Flow, NoClosedForm, Separable};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -63,7 +63,7 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
-        beside: Beside::of(model),
+        supplements: Supplements::of(model),
     }
 }
 

@@ -282,9 +282,9 @@ impl Equations {
         let g = self.pool.substitute(observable, &map);
         let fast = self.coordinates.iter().flat_map(|c| [c.velocity, c.acceleration]);
         let others = self.constraints.iter().map(|c| c.multiplier);
-        let carried = self.beside.carried.iter().flat_map(|carried| carried.symbols.clone());
+        let auxiliary = self.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
         let others: Vec<Symbol> =
-            fast.chain(others).chain(carried).chain([self.symbols.action]).collect();
+            fast.chain(others).chain(auxiliary).chain([self.symbols.action]).collect();
         if self.pool.depends_on_any(g, &others) {
             return None;
         }
@@ -324,10 +324,10 @@ impl Equations {
             return None;
         }
         let mut seeds = self.along_the_flow();
-        for carried in &self.beside.carried {
-            if carried.rates.plain.len() == carried.symbols.len() {
-                seeds.extend(carried.symbols.iter().copied().zip(carried.rates.plain.clone()));
-            } else if self.pool.depends_on_any(g, &carried.symbols) {
+        for auxiliary in &self.supplements.auxiliary {
+            if auxiliary.rates.plain.len() == auxiliary.symbols.len() {
+                seeds.extend(auxiliary.symbols.iter().copied().zip(auxiliary.rates.plain.clone()));
+            } else if self.pool.depends_on_any(g, &auxiliary.symbols) {
                 return None;
             }
         }

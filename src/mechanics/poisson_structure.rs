@@ -35,7 +35,7 @@ pub struct StructureError {
 
 /// What is false in the brackets and Casimirs of a Poisson system, and senseless in a body.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
-    let mut flaws = rigid_body::flaws(model, &equations.pool, equations.beside.body.as_ref());
+    let mut flaws = rigid_body::flaws(model, &equations.pool, equations.supplements.body.as_ref());
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
         return flaws;
     };

@@ -43,7 +43,7 @@ impl Point {
     pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Point {
         let mut point = Point(model.parameters.iter().map(|p| (p.symbol, p.value)).collect());
         let parameters = model.parameter_values();
-        let body = equations.beside.body.as_ref();
+        let body = equations.supplements.body.as_ref();
         point.0.extend(body_values(model, &equations.pool, body, &parameters));
         let mut draws = Draws { n, k: 0 };
         let initial = |point: &Point, e| {

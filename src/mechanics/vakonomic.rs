@@ -15,7 +15,7 @@
 
 use std::collections::HashMap;
 
-use super::equations::{Carried, CarriedRates, Equations, Flow, NoClosedForm, Vakonomic};
+use super::equations::{Auxiliary, AuxiliaryRates, Equations, Flow, NoClosedForm, Vakonomic};
 use super::linear;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Comparison, Model};
@@ -48,7 +48,7 @@ pub(super) fn vakonomic(
     for (i, &f) in force.iter().enumerate() {
         let mut terms = vec![(Number::ONE, f)];
         for (row, &mu) in rows.iter().zip(&mu) {
-            let carried = pool.derivation(row.row[i], &drift);
+            let auxiliary = pool.derivation(row.row[i], &drift);
             let mut kept = vec![pool.derivative(row.rate, equations.coordinates[i].position)];
             for (c, &a) in equations.coordinates.iter().zip(&row.row) {
                 let slope = pool.derivative(a, equations.coordinates[i].position);
@@ -56,7 +56,7 @@ pub(super) fn vakonomic(
                 kept.push(pool.mul(slope, v));
             }
             let kept = pool.sum(&kept);
-            let turned = pool.sub(carried, kept);
+            let turned = pool.sub(auxiliary, kept);
             let mu = pool.variable(mu);
             terms.push((Number::MINUS_ONE, pool.mul(mu, turned)));
         }
@@ -98,10 +98,10 @@ pub(super) fn vakonomic(
     let mut initial: Vec<Expr> = state.into_iter().map(|s| pool.variable(s)).collect();
     initial.truncate(2 * n);
     let rates = velocities.map(|v| pool.variable(v)).collect();
-    equations.beside.carried.push(Carried {
+    equations.supplements.auxiliary.push(Auxiliary {
         symbols,
-        rates: CarriedRates { plain: rates, matrix, right },
-        initial: CarriedRates { plain: initial, matrix: start_matrix, right: start_right },
+        rates: AuxiliaryRates { plain: rates, matrix, right },
+        initial: AuxiliaryRates { plain: initial, matrix: start_matrix, right: start_right },
     });
     let lagrangian = shortened(equations, model, comparison);
     Vakonomic { lagrangian }

@@ -115,7 +115,7 @@ fn status(status: &Status) -> &'static str {
         Status::Running => "running",
         Status::Paused => "paused",
         Status::Ended(_) => "ended",
-        Status::Faulted(_) => "stopped",
+        Status::Failed(_) => "stopped",
     }
 }
 
@@ -154,7 +154,7 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
             events.chain(model.impulses.iter().map(|impulse| impulse.name.as_str()))
         };
         if names().any(|name| name == of.text) {
-            return Ok(snapshot.happenings.tallies().iter().find(|t| t.name == of.text));
+            return Ok(snapshot.occurrences.tallies().iter().find(|t| t.name == of.text));
         }
         Err(missing("event or impulse", of, names(), &lab.loaded.name))
     };

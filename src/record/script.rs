@@ -91,7 +91,7 @@ pub struct Text {
 
 /// How one value goes in a sweep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct SweepPath {
     /// Which.
     pub name: Text,
     /// From where; from its present value otherwise.
@@ -116,7 +116,7 @@ pub enum Step {
     /// Parameters and initial values go evenly to others while time passes.
     Sweep {
         /// Which, all at once.
-        ways: Vec<Way>,
+        ways: Vec<SweepPath>,
         /// In what time.
         time: Micros,
     },

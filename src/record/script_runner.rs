@@ -14,7 +14,7 @@ use super::assertion::{self, Finding};
 use super::clock::Micros;
 use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
-use super::script::{Assert, PACE, Script, Step, Text, Way};
+use super::script::{Assert, PACE, Script, Step, Text, SweepPath};
 use crate::app::{Code, Drawn, Event, Key, ValueId};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
@@ -279,7 +279,7 @@ impl ScriptRunner {
     }
 
     /// What goes from where to where.
-    fn course(&self, way: &Way) -> Result<Course, Diagnostic> {
+    fn course(&self, way: &SweepPath) -> Result<Course, Diagnostic> {
         let target = self.target(&way.name)?;
         let of = |text: &Text| assertion::value(&self.lab.app, text);
         let present = || self.lab.app.lab.as_ref().and_then(|lab| lab.value(target));

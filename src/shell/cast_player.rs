@@ -85,7 +85,7 @@ impl CastPlayer {
     }
 
     /// Whether the line of controls is shown.
-    fn is_told(&self) -> bool {
+    fn is_reported(&self) -> bool {
         let by_itself = self.has_room() || self.held || self.is_over() || !self.awake.is_zero();
         self.wanted.unwrap_or(by_itself)
     }
@@ -135,7 +135,7 @@ impl CastPlayer {
     }
 
     fn press(&mut self, key: Key) -> ScreenRequest {
-        let told = self.is_told();
+        let told = self.is_reported();
         self.awake = self.awake.max(AWAKE);
         match key {
             Key { ctrl: true, code: Code::Char(c), .. } => match c {
@@ -298,7 +298,7 @@ impl Screen for CastPlayer {
         }
         let written = self.write();
         self.awake = self.awake.saturating_sub(elapsed);
-        let told = ((self.time / 1e6) as u64, self.is_over(), self.is_told());
+        let told = ((self.time / 1e6) as u64, self.is_over(), self.is_reported());
         let changed = written || told != self.told;
         self.told = told;
         changed
@@ -324,7 +324,7 @@ impl Screen for CastPlayer {
                 x += cell.width() as u16;
             }
         }
-        if area.height > 0 && self.is_told() {
+        if area.height > 0 && self.is_reported() {
             let rows = self.screen.size().1;
             let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };
             self.tell(Rect { y, height: 1, ..area }, buffer);

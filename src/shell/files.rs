@@ -90,7 +90,7 @@ pub(super) struct Watch {
 
 /// What has become of a watched file.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum News {
+pub(super) enum FileChange {
     /// It has changed, and holds this text now; or it was gone and is there again.
     Text { text: String, back: bool },
     /// It is not there any more.
@@ -111,13 +111,13 @@ impl Watch {
     }
 
     /// Time has passed: what has become of the file since it was looked at last, each once.
-    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<News> {
+    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<FileChange> {
         if self.place.as_deref() != Some(place) {
             let place = place.to_owned();
             *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
             // it may have changed between its loading and now
             let text = read(self.place.as_deref()?).ok()?;
-            return Some(News::Text { text, back: false });
+            return Some(FileChange::Text { text, back: false });
         }
         self.since = self.since.saturating_sub(elapsed);
         if !self.since.is_zero() {
@@ -126,7 +126,7 @@ impl Watch {
         self.since = LOOKS;
         let Some(stamp) = stamp(place) else {
             self.missed = self.missed.saturating_add(1);
-            return (self.missed == GONE).then_some(News::Gone);
+            return (self.missed == GONE).then_some(FileChange::Gone);
         };
         let back = self.missed >= GONE;
         if self.stamp == Some(stamp) && !back {
@@ -135,7 +135,7 @@ impl Watch {
         }
         let text = read(place).ok()?;
         (self.stamp, self.missed) = (Some(stamp), 0);
-        Some(News::Text { text, back })
+        Some(FileChange::Text { text, back })
     }
 }
 
@@ -211,7 +211,7 @@ mod tests {
         let place = folder.path().join("system.toml");
         fs::write(&place, "one").expect("it is written");
         let mut watch = Watch::default();
-        let text = |text: &str, back| Some(News::Text { text: text.to_owned(), back });
+        let text = |text: &str, back| Some(FileChange::Text { text: text.to_owned(), back });
         assert_eq!(watch.look(&place, Duration::ZERO), text("one", false));
         fs::write(&place, "longer").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS / 2), None, "it is not looked at all the time");
@@ -225,7 +225,7 @@ mod tests {
         // gone for long
         fs::remove_file(&place).expect("it goes");
         let looks: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
-        assert_eq!(looks, [News::Gone], "it is reported once");
+        assert_eq!(looks, [FileChange::Gone], "it is reported once");
         fs::write(&place, "again").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS), text("again", true));
         assert_eq!(watch.look(&place, LOOKS), None);

@@ -12,7 +12,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
-use super::files::{self, News, Watch};
+use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
 use super::fresh;
 use super::input::Input;
@@ -371,7 +371,7 @@ impl Session {
             && let Some(name) = self.app.loading().filter(|name| is_path(name))
         {
             // what is being loaded is no longer what stands there
-            if let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) {
+            if let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) {
                 self.log.info(format!("load {name} again"));
                 self.loader.load(name.to_owned());
             }
@@ -381,7 +381,7 @@ impl Session {
             && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
         {
             // a file that was wrong from the beginning
-            let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) else {
+            let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) else {
                 return false;
             };
             let effects = self.app.again();
@@ -394,11 +394,11 @@ impl Session {
         };
         match watch.look(&place, elapsed) {
             None => return false,
-            Some(News::Gone) => {
+            Some(FileChange::Gone) => {
                 self.log.info(format!("{} is gone", place.display()));
                 self.update(Event::FileThere(false));
             }
-            Some(News::Text { text, back }) => {
+            Some(FileChange::Text { text, back }) => {
                 if back {
                     self.update(Event::FileThere(true));
                 }
@@ -420,9 +420,9 @@ impl Session {
     }
 
     /// Writes why the motion cannot go on, once.
-    fn tell_of_faults(&mut self) {
+    fn report_faults(&mut self) {
         let fault = match self.app.snapshot().map(|snapshot| &snapshot.status) {
-            Some(Status::Faulted(fault)) => {
+            Some(Status::Failed(fault)) => {
                 Some(format!("at t = {}: {}", fault.time, fault.message))
             }
             _ => None,
@@ -605,7 +605,7 @@ impl Screen for Session {
 
     /// Time by itself changes nothing that is worth a frame, except that a notice goes.
     fn advance(&mut self, elapsed: Duration) -> bool {
-        self.tell_of_faults();
+        self.report_faults();
         self.keep_now_and_then(elapsed);
         let noticed = self.app.notice.is_some();
         self.update(Event::Tick(elapsed));

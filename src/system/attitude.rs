@@ -18,9 +18,9 @@ impl System {
         let mut turned = [[DoubleDouble::ZERO; 3]; 3];
         for (i, row) in turned.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let carried =
+                let auxiliary =
                     (0..3).fold(DoubleDouble::ZERO, |sum, k| sum + a(i, k) * product(k, j));
-                *entry = (a(i, j) * 3.0 - carried) * 0.5;
+                *entry = (a(i, j) * 3.0 - auxiliary) * 0.5;
             }
         }
         for (place, entry) in turned.iter().flatten().enumerate() {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::consistent_initial::Known;
 use super::constrained::{ActiveSet, Constrained};
-use super::fault::{Fault, FaultKind};
+use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::legendre::{self, Legendre, LegendreError};
@@ -13,7 +13,7 @@ use super::program::{Program, Singular};
 use super::rhs::{ProgramBuilder, Quadratures, Split};
 use super::terms::{Quantities, TermWatch, Terms};
 use super::value::Evaluator;
-use super::{Channel, Discontinuities, Form, Given, Observer, State};
+use super::{Channel, Discontinuities, Form, InitialOverride, Observer, State};
 use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
@@ -44,7 +44,7 @@ struct Shared {
     /// Where among the numbers carried along an attitude begins.
     attitude: Option<usize>,
     /// Of a state in the native form: the numbers carried along, as they start.
-    carried: Arc<Program>,
+    auxiliary: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
     initial: Arc<Program>,
     constraints: Option<Constrained>,
@@ -67,7 +67,7 @@ pub(super) struct MotionPrograms {
 
 /// What the file says of a rate at the start.
 fn known(coordinate: &model::Coordinate) -> Known {
-    if coordinate.rate_given { Known::Given } else { Known::LeftOut }
+    if coordinate.rate_given { Known::InitialOverride } else { Known::LeftOut }
 }
 
 /// Why a model cannot be compiled.
@@ -163,7 +163,7 @@ impl System {
             initial,
             constraints,
             attitude: builder.attitude(),
-            carried: builder.carried_start()?,
+            auxiliary: builder.auxiliary_start()?,
             known: coordinates.iter().map(known).collect(),
             energy,
             discontinuities: Discontinuities::of(model, builder)?,
@@ -187,7 +187,7 @@ impl System {
     /// The same and the numbers that are carried along beside the motion: all that rates of change
     /// depend on.
     pub fn driven_len(&self) -> usize {
-        self.moving() + self.shared.carried.outputs()
+        self.moving() + self.shared.auxiliary.outputs()
     }
 
     /// How many numbers a state has: those that rates depend on, and the integrals.
@@ -247,9 +247,9 @@ impl System {
     }
 
     /// The initial state at these parameters; `given` values take the place of the file's.
-    pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    pub fn initial(&self, start: f64, parameters: &[f64], given: &[InitialOverride]) -> Result<State, MotionError> {
         let mut state = self.begin(start, parameters, given)?;
-        let program = &self.shared.carried;
+        let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
             let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
             values.set_parameters(&self.inputs(parameters));
@@ -265,7 +265,7 @@ impl System {
     }
 
     /// The initial state but for the numbers carried along.
-    fn begin(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    fn begin(&self, start: f64, parameters: &[f64], given: &[InitialOverride]) -> Result<State, MotionError> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let values = self.initial_program(&inputs);
@@ -274,13 +274,13 @@ impl System {
         let mut known = self.shared.known.clone();
         for &given in given {
             match (given, self.form()) {
-                (Given::Position(i, x), _) => state[i] = DoubleDouble::written(x),
-                (Given::Velocity(i, x), Form::Velocity)
-                | (Given::Momentum(i, x), Form::Momentum) => {
+                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::written(x),
+                (InitialOverride::Velocity(i, x), Form::Velocity)
+                | (InitialOverride::Momentum(i, x), Form::Momentum) => {
                     (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
-                    known[i] = Known::Given;
+                    known[i] = Known::InitialOverride;
                 }
-                (Given::Velocity(i, x) | Given::Momentum(i, x), _) => {
+                (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
                     targets[i] = Some(DoubleDouble::written(x));
                     known[i] = Known::Momentum(DoubleDouble::written(x));
                 }
@@ -309,7 +309,7 @@ impl System {
 
     /// The same state in another form. Where several velocities belong to the momenta, those are
     /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
-    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
+    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, MotionError> {
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
         if state.form != form && self.has_branches() && form == self.form() {
@@ -326,7 +326,7 @@ impl System {
         legendre: &mut Legendre,
         state: &State,
         rates: Vec<DoubleDouble>,
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let targets: Vec<_> = (n..2 * n).map(|i| Some(state.exact(i))).collect();
         let mut numbers: Vec<DoubleDouble> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
@@ -355,7 +355,7 @@ impl System {
         state: &State,
         old: &[f64],
         new: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form != Form::Velocity {
             return Ok(state.clone());
         }
@@ -379,7 +379,7 @@ impl System {
         state: &State,
         form: Form,
         guess: Option<&State>,
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form == form {
             return Ok(state.clone());
         }
@@ -418,7 +418,7 @@ impl System {
         state: &State,
         near: &State,
         parameters: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let mut legendre = self.legendre(&self.inputs(parameters));
         self.convert_by(&mut legendre, state, self.form(), Some(near))
     }
@@ -432,11 +432,11 @@ impl System {
         }
         let quadratures = self.quadratures();
         let mut next = driven_len;
-        for (carried, place) in
+        for (auxiliary, place) in
             [(quadratures.action, driven_len), (quadratures.work, driven_len + 1)]
         {
             out[place] = DoubleDouble::ZERO;
-            if carried {
+            if auxiliary {
                 out[place] = state.exact(next);
                 next += 1;
             }
@@ -465,7 +465,7 @@ impl System {
         &self,
         state: &State,
         parameters: &[f64],
-    ) -> Result<DoubleDouble, Fault> {
+    ) -> Result<DoubleDouble, MotionError> {
         let program = self.energy_program();
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&program));
         values.set_parameters(&self.inputs(parameters));
@@ -477,11 +477,11 @@ impl System {
 
     /// A fault where a state in the system's own form has no finite energy: where its Lagrangian
     /// or Hamiltonian has no value, though its derivatives may have.
-    pub(crate) fn check_energy(&self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    pub(crate) fn check_energy(&self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         if self.energy_of(state, parameters)?.is_finite() {
             return Ok(());
         }
-        let kind = FaultKind::NotFinite("the energy".to_owned());
+        let kind = MotionErrorKind::NotFinite("the energy".to_owned());
         Err(self.fault(kind, state.time, &state.values))
     }
 
@@ -579,11 +579,11 @@ impl System {
     }
 
     /// A fault where a number of a state is not finite.
-    pub fn check_finite(&self, state: &State) -> Result<(), Fault> {
+    pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
         match state.values.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
             Some(i) => {
-                let name = FaultKind::NotFinite(self.name_of(i, state.form));
+                let name = MotionErrorKind::NotFinite(self.name_of(i, state.form));
                 Err(self.fault(name, state.time, &state.values))
             }
         }
@@ -604,10 +604,10 @@ impl System {
     }
 
     /// A fault at a state, told with its coordinates.
-    pub fn fault(&self, kind: FaultKind, time: f64, values: &[f64]) -> Fault {
+    pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
         let named = self.channels().iter().zip(values).take(self.degrees().min(4));
         let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
-        Fault { time, kind, place: place.collect() }
+        MotionError { time, kind, place: place.collect() }
     }
 
     /// The fault of a singular matrix, told with the coordinates the matrix depends on.
@@ -617,13 +617,13 @@ impl System {
         singular: Singular,
         time: f64,
         values: &[f64],
-    ) -> Fault {
+    ) -> MotionError {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
         let held = self.constraints() > 0;
         let kind =
-            if held { FaultKind::SingularConstraints(None) } else { FaultKind::SingularMass };
-        Fault { time, kind, place: place.take(4).collect() }
+            if held { MotionErrorKind::SingularConstraints(None) } else { MotionErrorKind::SingularMass };
+        MotionError { time, kind, place: place.take(4).collect() }
     }
 
     /// The fault of given momenta (or velocities) that do not say with which rates the motion
@@ -633,7 +633,7 @@ impl System {
         time: f64,
         solutions: &[Vec<DoubleDouble>],
         targets: &[Option<DoubleDouble>],
-    ) -> Fault {
+    ) -> MotionError {
         let n = self.degrees();
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         let first = if self.form() == Form::Momentum { 2 * n } else { n };
@@ -643,8 +643,8 @@ impl System {
             };
             unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
         };
-        let kind = FaultKind::SeveralStarts(solutions.iter().map(told).collect());
-        Fault { time, kind, place: Vec::new() }
+        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(told).collect());
+        MotionError { time, kind, place: Vec::new() }
     }
 
     /// The fault of a relation between velocities and momenta that was not solved.
@@ -653,10 +653,10 @@ impl System {
         why: LegendreError,
         time: f64,
         numbers: &[DoubleDouble],
-    ) -> Fault {
+    ) -> MotionError {
         let kind = match why {
-            LegendreError::Singular => FaultKind::SingularMass,
-            LegendreError::NotConverging => FaultKind::NoVelocities,
+            LegendreError::Singular => MotionErrorKind::SingularMass,
+            LegendreError::NotConverging => MotionErrorKind::NoVelocities,
         };
         let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
         self.fault(kind, time, &values)

@@ -23,7 +23,7 @@ const HALVINGS: u32 = 60;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Known {
     /// Its value, which stands in the state.
-    Given,
+    InitialOverride,
     /// Nothing: the constraints are to say.
     LeftOut,
     /// The momentum that goes with it.
@@ -52,7 +52,7 @@ pub(super) fn begin(
     known: &[Known],
 ) -> Result<(), InconsistentStart> {
     let n = known.len();
-    let unknown: Vec<usize> = (0..n).filter(|&i| !matches!(known[i], Known::Given)).collect();
+    let unknown: Vec<usize> = (0..n).filter(|&i| !matches!(known[i], Known::InitialOverride)).collect();
     let mut problem = Problem { conditions, momenta, time, known, unknown };
     let (missing, _) = problem.missing(state)?;
     let (_, free) = problem.step(&missing);
@@ -113,7 +113,7 @@ impl Problem<'_> {
     fn targets(&self) -> Vec<(usize, DoubleDouble)> {
         let target = |(i, known): (usize, &Known)| match known {
             Known::Momentum(p) => Some((i, *p)),
-            Known::Given | Known::LeftOut => None,
+            Known::InitialOverride | Known::LeftOut => None,
         };
         self.known.iter().enumerate().filter_map(target).collect()
     }

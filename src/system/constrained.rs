@@ -6,7 +6,7 @@
 
 use super::conditions::{Conditions, Programs, Span};
 use super::consistent_initial::{self, InconsistentStart, Known};
-use super::fault::{Fault, FaultKind};
+use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::projection::{Projection, ProjectionError};
@@ -148,7 +148,7 @@ impl ConstraintProjector {
     ///
     /// # Errors
     /// Where no state nearby keeps them, or their directions coincide.
-    pub fn project(&mut self, state: &mut State) -> Result<(), Fault> {
+    pub fn project(&mut self, state: &mut State) -> Result<(), MotionError> {
         self.load(state);
         let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
         if let Err(why) = outcome {
@@ -289,7 +289,7 @@ impl System {
         state: &State,
         target: &[DoubleDouble],
         parameters: &[f64],
-    ) -> Result<(State, Vec<f64>), Fault> {
+    ) -> Result<(State, Vec<f64>), MotionError> {
         let Some(mut projector) = self.projector(parameters) else {
             return Ok((state.clone(), vec![]));
         };
@@ -314,11 +314,11 @@ impl System {
         mut state: State,
         known: &[Known],
         parameters: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let Some(constrained) = self.constrained() else { return Ok(state) };
         let Some(conditions) = self.conditions(parameters, &state) else { return Ok(state) };
         let missed = |k: usize, part: f64| {
-            let kind = FaultKind::ConstraintMissed(constrained.names[k].clone(), part);
+            let kind = MotionErrorKind::ConstraintMissed(constrained.names[k].clone(), part);
             self.fault(kind, state.time, &state.values)
         };
         for k in 0..self.constraints() {
@@ -339,7 +339,7 @@ impl System {
             .iter()
             .zip(&constrained.touched)
             .map(|(&known, &touched)| match known {
-                Known::LeftOut if !touched => Known::Given,
+                Known::LeftOut if !touched => Known::InitialOverride,
                 other => other,
             })
             .collect();
@@ -350,11 +350,11 @@ impl System {
             InconsistentStart::Free(free) => {
                 let n = self.degrees();
                 let names = free.iter().map(|i| self.channels()[n + i].name.clone()).collect();
-                let kind = FaultKind::FreeVelocities(names);
-                Fault { time: state.time, kind, place: Vec::new() }
+                let kind = MotionErrorKind::FreeVelocities(names);
+                MotionError { time: state.time, kind, place: Vec::new() }
             }
             InconsistentStart::Contradiction => {
-                self.fault(FaultKind::Contradiction, state.time, &state.values)
+                self.fault(MotionErrorKind::Contradiction, state.time, &state.values)
             }
             InconsistentStart::LegendreError(why) => self.unsolved(why, state.time, &numbers),
         })?;
@@ -367,13 +367,13 @@ impl System {
         Ok(state)
     }
 
-    fn lost(&self, why: ProjectionError, state: &State) -> Fault {
+    fn lost(&self, why: ProjectionError, state: &State) -> MotionError {
         let kind = match (why, self.constrained()) {
-            (ProjectionError::Lost(k), Some(c)) => FaultKind::ConstraintLost(c.names[k].clone()),
+            (ProjectionError::Lost(k), Some(c)) => MotionErrorKind::ConstraintLost(c.names[k].clone()),
             (ProjectionError::Parted(k), Some(c)) => {
-                FaultKind::ConstraintParted(c.names[k].clone())
+                MotionErrorKind::ConstraintParted(c.names[k].clone())
             }
-            (ProjectionError::Singular, _) | (_, None) => FaultKind::SingularConstraints(None),
+            (ProjectionError::Singular, _) | (_, None) => MotionErrorKind::SingularConstraints(None),
         };
         self.fault(kind, state.time, &state.values)
     }

@@ -12,7 +12,7 @@ use super::program::Program;
 use super::resolution::{self, Resolution};
 use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
-use super::{Fault, FaultKind, Form, State, System};
+use super::{MotionError, MotionErrorKind, Form, State, System};
 use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Direction, Model};
 use crate::num::DoubleDouble;
@@ -180,7 +180,7 @@ impl EventFunctions {
     }
 
     /// The inputs for a state, which may have either form.
-    fn take_in(&mut self, state: &State) -> Result<(), Fault> {
+    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
         let form = self.system.form();
         if state.form == form {
             self.system.inputs_of(state, &mut self.inputs);
@@ -196,7 +196,7 @@ impl EventFunctions {
     }
 
     /// The value of every event's function at a state.
-    pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.take_in(state)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
             *rounded = x.high;
@@ -213,7 +213,7 @@ impl EventFunctions {
     }
 
     /// The value of one event's function, in all digits.
-    pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, Fault> {
+    pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
         self.take_in(state)?;
         let found = self.exact.evaluate(state.exact_time(), &self.inputs);
         found.map_err(|why| {
@@ -274,12 +274,12 @@ impl System {
     ///
     /// # Errors
     /// The fault, at this time.
-    pub fn check_intervals(&self, parameters: &[f64], time: f64) -> Result<(), Fault> {
+    pub fn check_intervals(&self, parameters: &[f64], time: f64) -> Result<(), MotionError> {
         let schedule = self.schedule(parameters);
         for (impulse, schedule) in self.discontinuities().impulses.iter().zip(schedule) {
             if let (true, None) = (impulse.periodic, schedule.interval) {
-                let kind = FaultKind::NoInterval(impulse.name.clone(), schedule.given.high);
-                return Err(Fault { time, kind, place: Vec::new() });
+                let kind = MotionErrorKind::NoInterval(impulse.name.clone(), schedule.given.high);
+                return Err(MotionError { time, kind, place: Vec::new() });
             }
         }
         Ok(())
@@ -294,7 +294,7 @@ impl System {
         impulse: usize,
         state: &State,
         parameters: &[f64],
-    ) -> Result<ImpulseOutcome, Fault> {
+    ) -> Result<ImpulseOutcome, MotionError> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let program = &self.discontinuities().change;
@@ -342,7 +342,7 @@ impl System {
         after: &mut State,
         (impulse, reaction): (&[DoubleDouble], &[f64]),
         parameters: &[f64],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         let Some(place) = self.work_place() else { return Ok(()) };
         let n = self.degrees();
         let work = if self.discontinuities().quadratic && self.form() == Form::Velocity {

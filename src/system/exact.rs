@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::program::Program;
 use super::value::Evaluator;
-use super::{Fault, System};
+use super::{MotionError, System};
 use crate::num::DoubleDouble;
 
 /// The rates of change of states in the native form of a system. Holds its own registers.
@@ -33,7 +33,7 @@ impl ExactRates {
     }
 
     /// Evaluates at a time and at the numbers of a state.
-    pub fn evaluate(&mut self, time: DoubleDouble, numbers: &[DoubleDouble]) -> Result<(), Fault> {
+    pub fn evaluate(&mut self, time: DoubleDouble, numbers: &[DoubleDouble]) -> Result<(), MotionError> {
         let outcome = self.values.evaluate(time, &numbers[..self.system.driven_len()]);
         outcome.map_err(|singular| {
             let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();

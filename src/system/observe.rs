@@ -2,7 +2,7 @@
 
 use super::legendre::Legendre;
 use super::value::Evaluator;
-use super::{Fault, Form, State, System};
+use super::{MotionError, Form, State, System};
 use crate::num::{DoubleDouble, Real};
 use std::sync::Arc;
 
@@ -59,7 +59,7 @@ impl Observer {
     /// The value of every channel, in order, into `out`, which is as long as the channels. The
     /// state may have either form. Values that do not exist there are not a number; only a state
     /// that has no velocities (or momenta), or no accelerations that are watched, is a fault.
-    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let precise = self.system.watch().precise.outputs();
         let (first, others) = out.split_at_mut(precise);
         self.look(state, first)?;
@@ -78,11 +78,11 @@ impl Observer {
     }
 
     /// The same for the columns only: `out` is as long as they are.
-    pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.look(state, out)
     }
 
-    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let n = self.system.degrees();
         self.take_in(state)?;
         let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);
@@ -101,7 +101,7 @@ impl Observer {
     }
 
     /// The inputs of the programs: the state in the native form, then action and work.
-    fn take_in(&mut self, state: &State) -> Result<(), Fault> {
+    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
         let form = self.system.form();
         if state.form == form {
             self.system.inputs_of(state, &mut self.inputs);

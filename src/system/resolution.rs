@@ -152,14 +152,14 @@ impl Resolution {
     fn grow(&mut self, time: f64) -> bool {
         let driven_len = self.system.driven_len();
         let quadratures = self.series.len() - driven_len;
-        let carried = self.system.carries();
+        let auxiliary = self.system.carries();
         for k in 0..=ORDER {
             for i in 0..driven_len {
                 self.jet.set_input(i, k, self.series.coefficient(i, k));
             }
             let mut next = driven_len;
-            for (place, carried) in (driven_len..).zip(carried) {
-                let known = carried && next < driven_len + quadratures;
+            for (place, auxiliary) in (driven_len..).zip(auxiliary) {
+                let known = auxiliary && next < driven_len + quadratures;
                 let c = if known { self.series.coefficient(next, k) } else { 0.0 };
                 next += usize::from(known);
                 self.jet.set_input(place, k, c);

@@ -9,7 +9,7 @@ use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::state::Form;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::{CarriedRates, CoordinateSymbols, Equations, Flow};
+use crate::mechanics::{AuxiliaryRates, CoordinateSymbols, Equations, Flow};
 
 /// Which integrals along the motion a state carries behind its coordinates and rates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -80,24 +80,24 @@ impl ProgramBuilder<'_> {
     pub(super) fn on_full_state(&mut self) -> Lowering<'_> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
-        bind_carried(&mut lowering, equations);
+        bind_auxiliary(&mut lowering, equations);
         lowering
     }
 
     /// Where among the numbers carried along an attitude begins.
     pub(super) fn attitude(&self) -> Option<usize> {
         let first = self.equations.beside.attitude_symbols?[0][0];
-        let mut carried = self.equations.beside.carried.iter().flat_map(|carried| &carried.symbols);
-        carried.position(|&symbol| symbol == first)
+        let mut auxiliary = self.equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols);
+        auxiliary.position(|&symbol| symbol == first)
     }
 
     /// The numbers carried along at the start, of a state in the native form.
-    pub(super) fn carried_start(&mut self) -> Result<Arc<Program>, Symbol> {
+    pub(super) fn auxiliary_start(&mut self) -> Result<Arc<Program>, Symbol> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
         let mut outputs = Vec::new();
-        for carried in &equations.beside.carried {
-            outputs.extend(lower_carried(&mut lowering, &carried.initial));
+        for auxiliary in &equations.beside.auxiliary {
+            outputs.extend(lower_auxiliary(&mut lowering, &auxiliary.initial));
         }
         lowering.finish(outputs)
     }
@@ -122,7 +122,7 @@ impl ProgramBuilder<'_> {
             }
             Flow::Poisson { rates } => lowering.lower_all(rates),
         };
-        outputs.extend(carried_rates(&mut lowering, equations));
+        outputs.extend(auxiliary_rates(&mut lowering, equations));
         outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
         lowering.finish(outputs)
     }
@@ -175,7 +175,7 @@ impl ProgramBuilder<'_> {
     pub(super) fn on_full_canonical_state(&mut self) -> Option<Lowering<'_>> {
         let equations = self.equations;
         let mut lowering = self.on_canonical_state()?;
-        bind_carried(&mut lowering, equations);
+        bind_auxiliary(&mut lowering, equations);
         Some(lowering)
     }
 
@@ -195,7 +195,7 @@ impl ProgramBuilder<'_> {
             }
             let mut outputs = velocities(&mut lowering, &equations.coordinates);
             outputs.extend(lowering.lower_all(momentum_rates));
-            outputs.extend(carried_rates(&mut lowering, equations));
+            outputs.extend(auxiliary_rates(&mut lowering, equations));
             outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
             lowering.finish(outputs)
         };
@@ -262,19 +262,19 @@ fn bind_state(
 }
 
 /// Makes the numbers carried along the next inputs.
-fn bind_carried(lowering: &mut Lowering<'_>, equations: &Equations) {
-    for &symbol in equations.beside.carried.iter().flat_map(|carried| &carried.symbols) {
+fn bind_auxiliary(lowering: &mut Lowering<'_>, equations: &Equations) {
+    for &symbol in equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols) {
         let register = lowering.input();
         lowering.bind(symbol, register);
     }
 }
 
-fn carried_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
-    let all = equations.beside.carried.iter();
-    all.flat_map(|carried| lower_carried(lowering, &carried.rates)).collect()
+fn auxiliary_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
+    let all = equations.beside.auxiliary.iter();
+    all.flat_map(|auxiliary| lower_auxiliary(lowering, &auxiliary.rates)).collect()
 }
 
-fn lower_carried(lowering: &mut Lowering<'_>, rates: &CarriedRates) -> Vec<Register> {
+fn lower_auxiliary(lowering: &mut Lowering<'_>, rates: &AuxiliaryRates) -> Vec<Register> {
     let mut outputs = lowering.lower_all(&rates.plain);
     let right = lowering.lower_all(&rates.right);
     outputs.extend(lowering.solve(&rates.matrix, &right));

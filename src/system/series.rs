@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::compiled::System;
-use super::fault::{Fault, FaultKind};
+use super::error::{MotionError, MotionErrorKind};
 use super::jet::{Jet, Side};
 use super::program::{Program, Singular};
 use super::solve::Factored;
@@ -114,7 +114,7 @@ impl Series {
     }
 
     /// Builds the series at a state of the native form.
-    pub fn build(&mut self, state: &State) -> Result<(), Fault> {
+    pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
         for (i, x) in self.origin.iter_mut().enumerate() {
             *x = state.exact(i);
@@ -126,20 +126,20 @@ impl Series {
                 Err(self.system.singular(program, singular, state.time, &state.values))
             }
             Err(Halt::Sticks) => {
-                Err(self.system.fault(FaultKind::Sticks, state.time, &state.values))
+                Err(self.system.fault(MotionErrorKind::Sticks, state.time, &state.values))
             }
             Err(Halt::Cancelled) => {
-                Err(self.system.fault(FaultKind::Cancelled, state.time, &state.values))
+                Err(self.system.fault(MotionErrorKind::Cancelled, state.time, &state.values))
             }
         }
     }
 
     /// Where something on the way leaves the range of `f64`, all is built once more in a wider one.
     fn grow(&mut self) -> Result<(), Halt> {
-        match self.grow_narrowly() {
+        match self.grow_in_range() {
             Ok(()) if self.is_finite() => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
-            _ => self.grow_widely(),
+            _ => self.grow_extended(),
         }
     }
 
@@ -149,7 +149,7 @@ impl Series {
             && (0..self.switches()).all(|i| finite(self.switch(i)))
     }
 
-    fn grow_widely(&mut self) -> Result<(), Halt> {
+    fn grow_extended(&mut self) -> Result<(), Halt> {
         let clock = Clock { time: self.time, scale: self.scale };
         let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
         let program = &self.system.motion().native;
@@ -172,7 +172,7 @@ impl Series {
         Ok(())
     }
 
-    fn grow_narrowly(&mut self) -> Result<(), Halt> {
+    fn grow_in_range(&mut self) -> Result<(), Halt> {
         let mut first = 0;
         let clock = Clock { time: self.time, scale: self.scale };
         let cancel = self.system.cancel();

@@ -73,7 +73,7 @@ impl State {
 
 /// An initial value that takes the place of the file's.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Given {
+pub enum InitialOverride {
     /// The coordinate of this index.
     Position(usize, f64),
     /// Its velocity; in a Hamiltonian system the momentum that goes with it is solved for.

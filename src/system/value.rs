@@ -52,7 +52,7 @@ impl<R: Real> Evaluator<R> {
         if R::UNBOUNDED || (outcome.is_ok() && self.is_finite()) || !self.left_the_range() {
             return outcome;
         }
-        self.evaluate_widely(time, inputs)
+        self.evaluate_extended(time, inputs)
     }
 
     fn is_finite(&self) -> bool {
@@ -71,7 +71,7 @@ impl<R: Real> Evaluator<R> {
         })
     }
 
-    fn evaluate_widely(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
+    fn evaluate_extended(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
         let wide = self.wide.get_or_insert_with(|| {
             let mut wide = Box::new(Evaluator::new(Arc::clone(&self.program)));
             wide.set_parameters(&self.parameters);

@@ -13,7 +13,7 @@ use super::RenderStyle;
 use super::colour::ColourDepth;
 use super::hit_test::Region;
 use super::theme::Role;
-use crate::app::Spot;
+use crate::app::HitTarget;
 use crate::printable;
 
 /// A buffer and how things look on it.
@@ -156,7 +156,7 @@ impl Canvas<'_> {
     }
 
     /// Says that an area is one spot.
-    pub(super) fn spot(&mut self, area: Rect, spot: Spot) {
+    pub(super) fn spot(&mut self, area: Rect, spot: HitTarget) {
         self.region(area, Region::Plain(spot));
     }
 

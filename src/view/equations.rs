@@ -19,7 +19,7 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let mut page = TextPage::default();
     writer.law(&mut page);
     writer.constraints(&mut page);
-    writer.happenings(&mut page);
+    writer.occurrences(&mut page);
     writer.motion(&mut page);
     writer.hamiltonian(&mut page);
     writer.conserved(&mut page);
@@ -109,7 +109,7 @@ impl Writer<'_> {
     }
 
     /// Impulses, and the events that are looked for.
-    fn happenings(&self, page: &mut TextPage) {
+    fn occurrences(&self, page: &mut TextPage) {
         if !self.model.impulses.is_empty() {
             page.heading("Impulses");
         }

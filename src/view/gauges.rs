@@ -15,7 +15,7 @@ use super::theme::Role;
 use super::values::window;
 use super::wrap::words;
 use crate::analysis::{Growth, Verdict};
-use crate::app::Spot;
+use crate::app::HitTarget;
 use crate::experiment::{Gauge, Snapshot};
 
 /// Columns of a verdict, a drift and a value.
@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         let here = selected == Some(first + place);
         let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
         for line in 0..height {
-            canvas.spot(row(area, place * height + line), Spot::Gauge(first + place));
+            canvas.spot(row(area, place * height + line), HitTarget::Gauge(first + place));
         }
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
@@ -171,7 +171,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
     drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
-    let strip = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
+    let sparkline = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
     let history = History {
         values: &values,
@@ -179,7 +179,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
         style: canvas.style(blame(gauge)),
         glyphs: canvas.look.glyphs,
     };
-    history.render(strip, canvas.buffer);
+    history.render(sparkline, canvas.buffer);
 }
 
 /// Name, value, drift and verdict where there is one row for them all.

@@ -15,7 +15,7 @@ use super::theme::Role;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::KEYS;
-use crate::app::{Action, App, Field, Lab, Overlay, Page, Pane, Purpose, Spot};
+use crate::app::{Action, App, Field, Lab, Overlay, Page, Pane, Purpose, HitTarget};
 use crate::experiment::{Snapshot, Status};
 
 /// The pages of a loaded system, with the key of each.
@@ -54,7 +54,7 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         // Each tab is a key and a name.
         for (pair, (_, _, page)) in tabs.chunks(2).zip(PAGES) {
             let long = pair.iter().map(|(text, _)| text.width()).sum::<usize>() as u16;
-            canvas.spot(columns(area, from, long), Spot::Page(page));
+            canvas.spot(columns(area, from, long), HitTarget::Page(page));
             from += long;
         }
     }
@@ -80,7 +80,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
         Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
         Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
-        Status::Faulted(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
+        Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
     };
     let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
     // The more important, the earlier: what does not fit is left out from the end.
@@ -143,7 +143,7 @@ pub(super) fn status_words(q: &Quantities<'_>) -> String {
         Status::Running => "running".to_owned(),
         Status::Paused => "paused".to_owned(),
         Status::Ended(event) => format!("ended by {event}"),
-        Status::Faulted(fault) => format!("stopped: {}", fault.message),
+        Status::Failed(fault) => format!("stopped: {}", fault.message),
     };
     let unit = q.lab.loaded.model.time_unit();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
@@ -213,7 +213,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     for hint in hints {
         let place = columns(area, start, area.width);
         let used = canvas.spans(place, &hint.spans);
-        canvas.spot(columns(place, 0, used), Spot::Hint(hint.action));
+        canvas.spot(columns(place, 0, used), HitTarget::Hint(hint.action));
         start += used + 3;
     }
 }
@@ -226,7 +226,7 @@ fn reads(app: &App) -> bool {
 /// What is reported in passing, or lasts until the file is right.
 fn told(app: &App) -> Option<(String, Role)> {
     // The editor tells in a place of its own.
-    if app.open_sheet().is_some() {
+    if app.open_buffer().is_some() {
         return None;
     }
     let notice = app

@@ -1,6 +1,6 @@
 //! Spots: what lies under a place of the screen, for the mouse.
 //!
-//! In: the application, the look, the area, a place. Out: a [`Spot`]. What is drawn says where it stands while it is
+//! In: the application, the look, the area, a place. Out: a [`HitTarget`]. What is drawn says where it stands while it is
 //! drawn, so the two cannot disagree. Never here: what a click does.
 
 use ratatui::buffer::Buffer;
@@ -9,7 +9,7 @@ use ratatui::layout::{Position, Rect};
 use super::canvas::Canvas;
 use super::plot::{Frame, Scale};
 use super::{RenderStyle, paint};
-use crate::app::{App, Hold, Spot, ValueId};
+use crate::app::{App, Drag, HitTarget, ValueId};
 
 /// What something on the screen is for the mouse, told while it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ pub(super) enum Region {
     /// It hides what was there before.
     Blank,
     /// The same spot wherever it is touched.
-    Plain(Spot),
+    Plain(HitTarget),
     /// The bar of a value.
     Bar(ValueId, Scale),
     /// The inside of a plot's axes.
@@ -31,7 +31,7 @@ pub(super) enum Region {
 pub struct HitMap {
     /// What lies where; the later lies over the earlier.
     regions: Vec<(Rect, Region)>,
-    hold: Option<Hold>,
+    hold: Option<Drag>,
 }
 
 /// What lies where on the screen of an application.
@@ -43,17 +43,17 @@ pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
 }
 
 /// What lies at one place of it.
-pub fn hit_test(app: &App, look: &RenderStyle, area: Rect, column: u16, row: u16) -> Option<Spot> {
+pub fn hit_test(app: &App, look: &RenderStyle, area: Rect, column: u16, row: u16) -> Option<HitTarget> {
     hit_targets(app, look, area).at(column, row)
 }
 
 impl HitMap {
     /// What lies at a place; while the mouse holds something, that, wherever the mouse is.
-    pub fn at(&self, column: u16, row: u16) -> Option<Spot> {
+    pub fn at(&self, column: u16, row: u16) -> Option<HitTarget> {
         let at = Position::new(column, row);
         let held = |region: &Region| match (self.hold, region) {
-            (Some(Hold::Bar(held)), Region::Bar(target, _)) => held == *target,
-            (Some(Hold::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
+            (Some(Drag::Bar(held)), Region::Bar(target, _)) => held == *target,
+            (Some(Drag::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
                 index == *i
             }
             _ => false,
@@ -67,7 +67,7 @@ impl HitMap {
 }
 
 /// The spot of a region at a place, which may be beside it.
-fn resolved(region: Region, area: Rect, at: Position) -> Option<Spot> {
+fn resolved(region: Region, area: Rect, at: Position) -> Option<HitTarget> {
     let middle = |at: u16, start: u16, length: u16| {
         (f64::from(at) - f64::from(start) + 0.5) / f64::from(length.max(1))
     };
@@ -78,9 +78,9 @@ fn resolved(region: Region, area: Rect, at: Position) -> Option<Spot> {
         Region::Bar(target, scale) => {
             let along = f64::from(at.x) - f64::from(area.x);
             let share = along / f64::from(area.width.saturating_sub(1).max(1));
-            Spot::Bar { target, value: scale.value(share.clamp(0.0, 1.0)) }
+            HitTarget::Bar { target, value: scale.value(share.clamp(0.0, 1.0)) }
         }
-        Region::Space(index) => Spot::Space { index, place },
-        Region::Plot(index, frame) => Spot::Plot { index, place, at: frame.at(at) },
+        Region::Space(index) => HitTarget::Space { index, place },
+        Region::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },
     })
 }

@@ -14,8 +14,8 @@ use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, phase, potential, series, space};
-use crate::app::{App, Field, Lab, Overlay, Pane, Plot, Spot, ValueId};
-use crate::experiment::{Fault, Status};
+use crate::app::{App, Field, Lab, Overlay, Pane, Plot, HitTarget, ValueId};
+use crate::experiment::{Failure, Status};
 
 /// Draws all panes that have a place.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
@@ -37,13 +37,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
                 let both = [Pane::Parameters, Pane::Initial];
                 let title = tabs(canvas, &both, pane);
                 list(canvas, place, (lab, pane), &title, field);
-                tab_spots(canvas, place, &title, &both);
+                tab_targets(canvas, place, &title, &both);
             }
             Slot::Lists(pane) => {
                 let all = [Pane::Parameters, Pane::Initial, Pane::Gauges];
                 let title = tabs(canvas, &all, pane);
                 list(canvas, place, (lab, pane), &title, field);
-                tab_spots(canvas, place, &title, &all);
+                tab_targets(canvas, place, &title, &all);
             }
             Slot::Law => {
                 let title = [canvas.span(Role::Title, "Law of motion")];
@@ -52,7 +52,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
             }
         }
     }
-    if let Some(Status::Faulted(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
+    if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
         stopped(canvas, area, fault);
     }
 }
@@ -79,14 +79,14 @@ fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
 }
 
 /// The names in a frame are spots; between two of them stands a line.
-fn tab_spots(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
+fn tab_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
     let mut from = 3;
     for (index, (text, _)) in title.iter().enumerate() {
         let long = text.width() as u16;
         if let (0, Some(pane)) = (index % 2, panes.get(index / 2)) {
             let place =
                 columns(row(frame, 0), from, long.min(frame.width.saturating_sub(from + 2)));
-            canvas.spot(place, Spot::Pane(*pane));
+            canvas.spot(place, HitTarget::Pane(*pane));
         }
         from += long;
     }
@@ -110,7 +110,7 @@ fn list(
 ) {
     let focused = lab.focus == pane;
     let inner = canvas.pane(area, title, focused);
-    canvas.spot(area, Spot::Pane(pane));
+    canvas.spot(area, HitTarget::Pane(pane));
     let values = |kind, selected| Values { lab, kind, selected, focused, field };
     match pane {
         Pane::Parameters => {
@@ -154,7 +154,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
         title.insert(0, canvas.span(role, "! "));
     }
     let inner = canvas.pane(area, &title, focused);
-    canvas.spot(area, Spot::Pane(Pane::Plot(index)));
+    canvas.spot(area, HitTarget::Pane(Pane::Plot(index)));
     let frame = match plot {
         Plot::Space(eye) => {
             space::draw(canvas, inner, &q, eye);
@@ -162,9 +162,9 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
             None
         }
         Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
-        Plot::Time { y, lens } => Some(series::draw(canvas, inner, &q, (y, *lens))),
-        Plot::Potential { lens, .. } => {
-            potential.map(|shown| potential::draw(canvas, inner, &q, (&shown, *lens)))
+        Plot::Time { y, viewport } => Some(series::draw(canvas, inner, &q, (y, *viewport))),
+        Plot::Potential { viewport, .. } => {
+            potential.map(|shown| potential::draw(canvas, inner, &q, (&shown, *viewport)))
         }
     };
     if let Some(frame) = frame {
@@ -173,7 +173,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
 }
 
 /// A box over the panes that says why the motion cannot go on.
-fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Fault) {
+fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
     let width = area.width.saturating_sub(4).min(70);
     let text = canvas.text(&capitalised(&fault.message));
     let lines = words(&text, usize::from(width.saturating_sub(4)));

@@ -48,7 +48,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             page.value(&q.name(index), &value, &channel.unit, Vec::new());
         }
     }
-    happenings(&mut page, q);
+    occurrences(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -64,8 +64,8 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
 }
 
 /// Each event and impulse: how often it has happened, and when last.
-fn happenings(page: &mut TextPage, q: &Quantities<'_>) {
-    let event_log = &q.snapshot.happenings;
+fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
+    let event_log = &q.snapshot.occurrences;
     if event_log.is_empty() {
         return;
     }

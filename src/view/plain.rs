@@ -66,7 +66,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             gauge.reason
         ));
     }
-    news(snapshot, q, &mut say);
+    notifications(snapshot, q, &mut say);
     say("Pictures:".to_owned());
     for pane in lab.panes().filter(|pane| matches!(pane, Pane::Plot(_))) {
         say(lab.name_of(pane));
@@ -80,22 +80,22 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
 }
 
 /// What happened and what was reported, the newest first.
-fn news(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
+fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
         say("Told, the newest first:".to_owned());
         notices.into_iter().for_each(&mut *say);
     }
-    let happened = snapshot.happenings.count();
+    let happened = snapshot.occurrences.count();
     if happened > 0 {
         say(format!("Happened, {happened}; the newest first:"));
-        for happening in snapshot.happenings.iter().rev().take(MOST) {
-            say(format!("{} at t = {}", happening.name, brief(happening.time, 6, q.look.glyphs)));
+        for occurrence in snapshot.occurrences.iter().rev().take(MOST) {
+            say(format!("{} at t = {}", occurrence.name, brief(occurrence.time, 6, q.look.glyphs)));
         }
     }
 }
 
-/// Of very many happenings the newest are read.
+/// Of very many occurrences the newest are read.
 const MOST: usize = 10;
 
 /// A value with its name, its meaning, its unit and its range.

@@ -12,7 +12,7 @@ use super::canvas::{Canvas, Span, row};
 use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
-use crate::app::{Eye, Lab};
+use crate::app::{CameraPose, Lab};
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use crate::num::math;
@@ -33,7 +33,7 @@ const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 const LONGEST: f64 = 0.25;
 
 /// The heading.
-pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &Eye) -> Vec<Span> {
+pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &CameraPose) -> Vec<Span> {
     let model = &lab.loaded.model;
     let view = eye.view.and_then(|view| model.views.get(view));
     // A view's title speaks of the frame that the file gave it.
@@ -51,7 +51,7 @@ pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &Eye) -> Vec<Span> {
 }
 
 /// The picture inside the frame.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &Eye) {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &CameraPose) {
     if area.is_empty() {
         return;
     }
@@ -60,7 +60,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist = Artist { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
+    let mut artist = ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
@@ -103,7 +103,7 @@ fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
 }
 
 /// Draws shape after shape.
-struct Artist<'a> {
+struct ScenePainter<'a> {
     raster: Raster,
     frame: Frame,
     camera: Camera,
@@ -113,7 +113,7 @@ struct Artist<'a> {
     bodies: usize,
 }
 
-impl Artist<'_> {
+impl ScenePainter<'_> {
     fn shape(&mut self, shape: &Shape) {
         let theme = &self.q.look.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);

@@ -13,7 +13,7 @@ use super::plot::Scale;
 use super::sparkline::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};
-use crate::app::{Field, Lab, Purpose, Spot, ValueId, ValueInfo};
+use crate::app::{Field, Lab, Purpose, HitTarget, ValueId, ValueInfo};
 use crate::model;
 
 /// Columns of a number.
@@ -96,7 +96,7 @@ impl Values<'_> {
         let Some(facts) = self.lab.facts(target) else { return };
         let value = self.lab.value(target);
         let glyphs = canvas.look.glyphs;
-        canvas.spot(area, Spot::Value(target));
+        canvas.spot(area, HitTarget::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
         canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);

@@ -11,7 +11,7 @@ use arc_swap::ArcSwapOption;
 use super::Runnable;
 use super::pace::Pace;
 use super::slice::Slice;
-use crate::experiment::{Command, Fault, Progress, Snapshot, Status};
+use crate::experiment::{Command, Failure, Progress, Snapshot, Status};
 
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
@@ -153,13 +153,13 @@ impl WorkerLoop<'_> {
             Ok(result) => Some(result),
             Err(panic) => {
                 self.subject = None;
-                self.tell_panic(panic.as_ref());
+                self.report_panic(panic.as_ref());
                 None
             }
         }
     }
 
-    fn tell_panic(&self, panic: &(dyn Any + Send)) {
+    fn report_panic(&self, panic: &(dyn Any + Send)) {
         let last = self.slot.load_full().filter(|last| last.epoch == self.epoch);
         let last = last.map_or_else(|| Snapshot::empty(self.epoch), |last| (*last).clone());
         let reason = panic
@@ -170,7 +170,7 @@ impl WorkerLoop<'_> {
         let message = format!(
             "the integrator stopped by a defect of the program ({reason}); load the system again"
         );
-        let status = Status::Faulted(Fault { time: last.time, message });
+        let status = Status::Failed(Failure { time: last.time, message });
         self.slot.store(Some(Arc::new(Snapshot { status, ..last })));
     }
 }

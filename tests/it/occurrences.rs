@@ -19,7 +19,7 @@ fn file(text: &str) -> Experiment {
 
 /// Names and times of what happened.
 fn passed(experiment: &Experiment) -> Vec<(String, f64)> {
-    experiment.happenings().iter().map(|h| (h.name.clone(), h.time)).collect()
+    experiment.occurrences().iter().map(|h| (h.name.clone(), h.time)).collect()
 }
 
 fn times(experiment: &Experiment, name: &str) -> Vec<f64> {
@@ -143,8 +143,8 @@ change = { p_x1 = '3', p_y1 = '1' }
         assert!((found - right).abs() < 1e-15, "{found} is not {right}");
     }
     // p_x2 = Λ ∂f/∂x2 = Λ · 2 (x2 − x1)
-    let OccurrenceKind::CompiledImpulse { jump, reaction } =
-        &dumbbell.happenings().iter().next().unwrap().kind
+    let OccurrenceKind::Impulse { jump, reaction } =
+        &dumbbell.occurrences().iter().next().unwrap().kind
     else {
         panic!("no impulse")
     };
@@ -185,7 +185,7 @@ fn a_ball_bounces_at_the_times_of_its_parabolas() {
     // Σ ends at t = 1 + 2 e/(1 − e) = 9, and no motion leads beyond
     let progress = ball.advance(10.0, PLENTY);
     assert_eq!(progress, Progress::Stuck);
-    let Status::Faulted(fault) = ball.status() else { panic!("it went on") };
+    let Status::Failed(fault) = ball.status() else { panic!("it went on") };
     assert!((fault.time - 9.0).abs() < 1e-6, "{}", fault.time);
     assert!(fault.message.contains("piles up"), "{}", fault.message);
     assert!(value(&ball, "x").abs() < 1e-9, "it did not fall through the floor");
@@ -225,7 +225,7 @@ action = 'release:sphere'
     particle.execute(Command::Reset);
     run(&mut particle, 0.5);
     assert!(value(&particle, "lambda_sphere") > 0.0);
-    assert!(particle.happenings().is_empty());
+    assert!(particle.occurrences().is_empty());
 }
 
 #[test]
@@ -383,7 +383,7 @@ fn a_function_faster_than_the_clock_is_a_fault() {
         let mut free = file(&text);
         free.advance(10_000.000_001, 10_000);
         assert_eq!(
-            matches!(free.status(), Status::Faulted(_)),
+            matches!(free.status(), Status::Failed(_)),
             told,
             "{speed}: {:?}",
             free.status()
@@ -409,7 +409,7 @@ fn an_impulse_waits_for_its_key() {
         format!("{FREE}[[impulses]]\nname = 'push'\nchange = {{ p_x = '2' }}\nabout = 'a push'\n");
     let mut free = file(&text);
     run(&mut free, 3.0);
-    assert!(free.happenings().is_empty());
+    assert!(free.occurrences().is_empty());
     free.execute(Command::ApplyImpulse(0));
     free.execute(Command::ApplyImpulse(7));
     assert_eq!((value(&free, "x"), value(&free, "x'")), (3.0, 3.0));
@@ -519,7 +519,7 @@ fn an_event_where_the_run_or_a_impulse_has_its_time_is_not_late() {
     let names: Vec<_> = passed(&free).into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["wall", "push"]);
     run(&mut free, 3.0);
-    assert_eq!((value(&free, "x"), free.happenings().count()), (-2.0, 2));
+    assert_eq!((value(&free, "x"), free.occurrences().count()), (-2.0, 2));
     let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
     let mut free = file(&text);
     free.advance(2.0, PLENTY);

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
 use phaselab::expr::Pool;
-use phaselab::integrate::{Occurrence, OccurrenceKind as happening};
+use phaselab::integrate::{Occurrence, OccurrenceKind as occurrence};
 use phaselab::mechanics;
 use phaselab::model::{Channel, Coordinate, Model};
 use phaselab::system::{ChannelKind, System};
@@ -160,7 +160,7 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
 
 /// Holds what happened against what is known; times are measured by themselves, jumps by the sizes
 /// of what jumps, reactions by the largest of them.
-fn happenings(
+fn occurrences(
     experiment: &mut Experiment,
     expected: &Expected,
     events: &[Happened],
@@ -174,7 +174,7 @@ fn happenings(
         }
     }
     let model = Arc::clone(experiment.model());
-    let mut found: Vec<Occurrence> = experiment.happenings().iter().cloned().collect();
+    let mut found: Vec<Occurrence> = experiment.occurrences().iter().cloned().collect();
     if found.len() != events.len() {
         let names: Vec<String> = found.iter().map(|h| format!("{} {}", h.name, h.time)).collect();
         return Err(format!("{} events, not {}: {names:?}", found.len(), events.len()));
@@ -192,7 +192,7 @@ fn happenings(
         let time = *time;
         worst.look(time, &known.t, of_digits(&known.t), || format!("time of {name}, {time}"))?;
         let (jumps, reactions) = match what {
-            happening::CompiledImpulse { jump, reaction } => (jump.as_slice(), reaction.as_slice()),
+            occurrence::Impulse { jump, reaction } => (jump.as_slice(), reaction.as_slice()),
             _ => (&[][..], &[][..]),
         };
         if jumps.len() != known.jump.len() || reactions.len() != known.reaction.len() {
@@ -246,7 +246,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let degrees = experiment.model().coordinates.len();
     for known in &expected.reference {
         while experiment.advance(known.at, 1_000_000) == Progress::Underway {}
-        if let Status::Faulted(fault) = experiment.status() {
+        if let Status::Failed(fault) = experiment.status() {
             return Err(fault.message);
         }
         if experiment.time() != known.at {
@@ -264,7 +264,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
         }
     }
     if let Some(events) = &expected.events {
-        happenings(&mut experiment, &expected, events, &mut worst)?;
+        occurrences(&mut experiment, &expected, events, &mut worst)?;
     }
     Ok(worst)
 }

@@ -25,7 +25,7 @@ pub(super) fn write(
     page.motion(model);
     page.multipliers();
     page.vakonomic(model);
-    page.happenings(model);
+    page.occurrences(model);
     page.energy();
     page.conserved(model);
     page.changing(classes);
@@ -190,7 +190,7 @@ impl Page<'_> {
         }
     }
 
-    fn happenings(&mut self, model: &Model) {
+    fn occurrences(&mut self, model: &Model) {
         if !model.impulses.is_empty() {
             self.line("");
             self.line("Impulses");

@@ -43,7 +43,7 @@ pub(super) fn check(
         return if step < finest { refuse("steps of", step) } else { Ok(()) };
     }
     // what is wrong with the start is reported when the run begins
-    if matches!(experiment.status(), Status::Faulted(_)) {
+    if matches!(experiment.status(), Status::Failed(_)) {
         return Ok(());
     }
     let Ok(mut motion) = Propagator::new(system, method, setup.settings, &setup.parameters) else {

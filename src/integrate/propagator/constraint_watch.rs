@@ -8,7 +8,7 @@
 use super::Propagator;
 use crate::integrate::{Settings, Stepper, Stepping, method_named};
 use crate::num::math;
-use crate::system::{ConstraintProjector, Directions, Fault, FaultKind, Form, Passage, State};
+use crate::system::{ConstraintProjector, Directions, MotionError, MotionErrorKind, Form, Passage, State};
 
 /// Between two looks whose directions are closer than this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;
@@ -107,25 +107,25 @@ impl Propagator {
     }
 
     /// A fault that a singular configuration explains is reported as that, and with what leads past it.
-    pub(super) fn explained(&mut self, fault: Fault) -> Fault {
+    pub(super) fn explained(&mut self, fault: MotionError) -> MotionError {
         let may_be = matches!(
             fault.kind,
-            FaultKind::SingularConstraints(None)
-                | FaultKind::SingularMass
-                | FaultKind::ConstraintLost(_)
-                | FaultKind::NoConvergence(_)
-                | FaultKind::NotFinite(_)
-                | FaultKind::StepUnderflow(_)
-                | FaultKind::ClockStands(_)
+            MotionErrorKind::SingularConstraints(None)
+                | MotionErrorKind::SingularMass
+                | MotionErrorKind::ConstraintLost(_)
+                | MotionErrorKind::NoConvergence(_)
+                | MotionErrorKind::NotFinite(_)
+                | MotionErrorKind::StepUnderflow(_)
+                | MotionErrorKind::ClockStands(_)
         );
         let Some(projector) = self.projector.as_mut().filter(|_| may_be) else { return fault };
-        let singular = matches!(fault.kind, FaultKind::SingularConstraints(_));
+        let singular = matches!(fault.kind, MotionErrorKind::SingularConstraints(_));
         let state = self.stepper.state();
         if !singular && !projector.is_nearly_singular(state, self.watch.regular.as_ref()) {
             return fault;
         }
         let passage = self.way_past(fault.time);
-        Fault { kind: FaultKind::SingularConstraints(passage), ..fault }
+        MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault }
     }
 
     /// A fixed step with which the motion is led past a time, if there is one.

@@ -5,7 +5,7 @@
 use super::Propagator;
 use crate::integrate::event_location::LocatedEvent;
 use crate::model::Action;
-use crate::system::{Fault, FaultKind, State};
+use crate::system::{MotionError, MotionErrorKind, State};
 
 /// Something that happened.
 #[derive(Clone, PartialEq, Debug)]
@@ -28,7 +28,7 @@ pub enum OccurrenceKind {
     /// The constraint of this index was let go.
     Release(usize),
     /// An impulse fell.
-    CompiledImpulse {
+    Impulse {
         /// Δp of each coordinate, or the jump of each variable.
         jump: Vec<f64>,
         /// Λ of each constraint.
@@ -37,7 +37,7 @@ pub enum OccurrenceKind {
 }
 
 impl Propagator {
-    pub(super) fn apply_scheduled(&mut self, impulse: usize) -> Result<Occurrence, Fault> {
+    pub(super) fn apply_scheduled(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let time = self.impulse_schedule.apply_scheduled(impulse, self.clear);
         self.look_exactly(time)?;
         self.impulse_at(impulse, None)
@@ -47,19 +47,19 @@ impl Propagator {
     ///
     /// # Errors
     /// Where no motion has the momenta the impulse gives.
-    pub fn apply_impulse_now(&mut self, impulse: usize) -> Result<Occurrence, Fault> {
+    pub fn apply_impulse_now(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         self.impulse_at(impulse, None)
     }
 
     /// Strikes the present state.
-    fn impulse_at(&mut self, impulse: usize, event: Option<usize>) -> Result<Occurrence, Fault> {
+    fn impulse_at(&mut self, impulse: usize, event: Option<usize>) -> Result<Occurrence, MotionError> {
         let mut before = self.own()?;
         let time = before.time;
         if let Some(projector) = &mut self.projector {
             projector.project(&mut before)?;
         }
         let after_impulse = self.system.apply_impulse(impulse, &before, &self.parameters)?;
-        let kind = OccurrenceKind::CompiledImpulse {
+        let kind = OccurrenceKind::Impulse {
             jump: after_impulse.jump,
             reaction: after_impulse.reaction,
         };
@@ -77,7 +77,7 @@ impl Propagator {
     }
 
     /// An event is passed, and what it does is done.
-    pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, Fault> {
+    pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, MotionError> {
         self.look_exactly(found.exact)?;
         self.check_accumulation(found)?;
         let trigger = self.system.discontinuities().events[found.event].clone();
@@ -99,7 +99,7 @@ impl Propagator {
     }
 
     /// Lets a constraint go at the present, which is `state` in the system's own form.
-    pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), Fault> {
+    pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), MotionError> {
         self.system = self.system.release(constraint, state, &self.parameters);
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
@@ -113,12 +113,12 @@ impl Propagator {
     }
 
     /// An event that comes again and again without end stops the motion with a reason.
-    fn check_accumulation(&mut self, found: LocatedEvent) -> Result<(), Fault> {
+    fn check_accumulation(&mut self, found: LocatedEvent) -> Result<(), MotionError> {
         let time = found.exact.high;
         if !self.accumulation[found.event].record(time, self.start) {
             return Ok(());
         }
         let name = self.system.discontinuities().events[found.event].name.clone();
-        Err(self.system.fault(FaultKind::PilesUp(name), time, &self.state.values))
+        Err(self.system.fault(MotionErrorKind::PilesUp(name), time, &self.state.values))
     }
 }

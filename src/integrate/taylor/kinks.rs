@@ -9,7 +9,7 @@
 
 use super::super::roots::{first_crossing, value_and_slope};
 use crate::num::{DoubleDouble, math};
-use crate::system::{ExactRates, Fault, Series, Side, State};
+use crate::system::{ExactRates, MotionError, Series, Side, State};
 
 /// Switches that cross within this part of a step of each other cross together.
 const TOGETHER: f64 = 1e-12;
@@ -63,7 +63,7 @@ impl Kinks {
         series: &mut Series,
         rates: &mut ExactRates,
         state: &State,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         *self = Kinks::default();
         if series.switches() == 0 {
             return Ok(());

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use super::Check;
-use super::names::tell_twice;
+use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
 use crate::model::{Allowed, Constraint, Scope, multiplier_name};
@@ -27,7 +27,7 @@ impl Check<'_> {
             let same = taken.iter().find(|(known, _)| *known == multiplier);
             let first = same.and_then(|(_, first)| first.name.as_ref());
             if let Some(first) = first.filter(|first| first.get_ref() == name.get_ref()) {
-                tell_twice(name, first.span(), "a constraint", self.mistakes);
+                report_twice(name, first.span(), "a constraint", self.mistakes);
             } else if let Some(first) = first {
                 let message =
                     format!("a constraint before this one has the multiplier `{multiplier}` too");

@@ -7,9 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
-use crate::model::{
-    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope,
-};
+use crate::model::{Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope};
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };
@@ -46,7 +44,7 @@ impl Check<'_> {
 
     /// When something is to happen.
     fn expected_event(&mut self, written: &DraftOccurrence) -> Option<ExpectedEvent> {
-        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         let nth = match &written.nth {
             None => Some(1),
             Some(nth) => self.whole(nth, 1, "`nth` counts from 1 in whole numbers"),
@@ -66,7 +64,7 @@ impl Check<'_> {
 
     /// How often something is to happen.
     fn expected_count(&mut self, written: &DraftCount) -> Option<ExpectedCount> {
-        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         self.not_before_the_start(written.until.as_ref());
         let is = written.is.as_ref()?;
         let count = self.whole(is, 0, "`is` counts in whole numbers from 0");
@@ -104,7 +102,7 @@ impl Check<'_> {
     }
 
     /// The name of an event or impulse, or a complaint.
-    fn happening(&mut self, name: &Spanned<String>) -> Option<String> {
+    fn occurrence(&mut self, name: &Spanned<String>) -> Option<String> {
         let impulses = self.model.impulses.iter().map(|impulse| impulse.name.as_str());
         let events = self.model.events.iter().map(|event| event.name.as_str());
         let known: Vec<&str> = events.chain(impulses).collect();

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Check;
-use super::names::tell_twice;
+use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
@@ -19,7 +19,7 @@ impl Check<'_> {
         for frame in written {
             if let Some(name) = &frame.name {
                 match before.iter().find(|known| known.get_ref() == name.get_ref()) {
-                    Some(first) => tell_twice(name, first.span(), "a frame", self.mistakes),
+                    Some(first) => report_twice(name, first.span(), "a frame", self.mistakes),
                     None => before.push(name),
                 }
             }

@@ -99,7 +99,7 @@ impl Names {
             let message = format!("`{written}` cannot name {kind}: it is {meaning}");
             mistakes.push(Diagnostic::error(name.span(), message).with_help("choose another name"));
         } else if let Some((first, place)) = self.taken.get(written) {
-            tell_twice(name, place.clone(), first, mistakes);
+            report_twice(name, place.clone(), first, mistakes);
         } else {
             self.taken.insert(written.to_owned(), (kind, name.span()));
         }
@@ -142,7 +142,7 @@ impl Names {
 }
 
 /// Complains of a name that something has already.
-pub(super) fn tell_twice(
+pub(super) fn report_twice(
     name: &Spanned<String>,
     first: SourceRange,
     kind: &str,

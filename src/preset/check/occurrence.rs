@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Check;
-use super::names::tell_twice;
+use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
@@ -24,7 +24,7 @@ impl Check<'_> {
         for (name, kind) in all {
             match before.iter().find(|(known, _)| known.get_ref() == name.get_ref()) {
                 Some((first, what)) => {
-                    tell_twice(name, first.span(), what, self.mistakes);
+                    report_twice(name, first.span(), what, self.mistakes);
                 }
                 None => before.push((name, kind)),
             }

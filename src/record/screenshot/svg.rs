@@ -16,7 +16,7 @@ const MARGIN: f64 = 8.0;
 
 /// What of a cell's look a drawing shows.
 #[derive(Clone, Copy, PartialEq)]
-struct Ink {
+struct GlyphStyle {
     colour: Rgb,
     bold: bool,
     italic: bool,
@@ -80,14 +80,14 @@ fn field(cell: &Cell, palette: &Palette) -> Option<Rgb> {
     named(cell.bg)
 }
 
-fn ink(cell: &Cell, palette: &Palette) -> Ink {
+fn ink(cell: &Cell, palette: &Palette) -> GlyphStyle {
     let has = |modifier| cell.modifier.contains(modifier);
     let colour = if has(Modifier::REVERSED) {
         named(cell.bg).unwrap_or(palette.background)
     } else {
         named(cell.fg).unwrap_or(palette.foreground)
     };
-    Ink {
+    GlyphStyle {
         colour,
         bold: has(Modifier::BOLD),
         italic: has(Modifier::ITALIC),
@@ -117,7 +117,7 @@ fn shapes(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
         if drawn.is_empty() {
             continue;
         }
-        let Ink { colour, dim, .. } = ink(&run[0], palette);
+        let GlyphStyle { colour, dim, .. } = ink(&run[0], palette);
         let faint = if dim { " opacity=\"0.6\"" } else { "" };
         let _ = write!(out, "<g fill=\"{}\"{faint}>", hex(colour));
         for (column, shape) in drawn {
@@ -169,7 +169,7 @@ fn words(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
         if !is_word(&run[0]) {
             continue;
         }
-        let Ink { colour, bold, italic, underlined, dim } = ink(&run[0], palette);
+        let GlyphStyle { colour, bold, italic, underlined, dim } = ink(&run[0], palette);
         let base = y as f64 * CELL.1 + 12.5;
         let text: String = run.iter().map(Cell::symbol).collect();
         let _ = write!(

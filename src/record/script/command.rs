@@ -4,7 +4,7 @@
 
 use super::key;
 use super::line::Line;
-use super::{Assert, Measure, Relation, Said, Step, Text, Way, Word};
+use super::{Assert, Measure, Relation, Said, Step, Text, SweepPath, Word};
 use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -171,7 +171,7 @@ fn set(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 }
 
 fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    let mut ways: Vec<Way> = Vec::new();
+    let mut ways: Vec<SweepPath> = Vec::new();
     loop {
         let name = line.name("the name of a parameter or an initial value")?;
         if let Some(first) = ways.iter().find(|way| way.name.text == name.text) {
@@ -182,7 +182,7 @@ fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
         let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
         expect(line, "to")?;
         let to = line.until(&["and", "in"], "a value")?;
-        ways.push(Way { name, from, to });
+        ways.push(SweepPath { name, from, to });
         if !line.take("and") {
             break;
         }

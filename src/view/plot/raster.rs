@@ -94,7 +94,7 @@ impl Marker {
 
 /// One cell: its dots, and who gave it its style.
 #[derive(Clone, Copy, Debug, Default)]
-struct Spot {
+struct Cell {
     /// One bit per dot, row by row, the left dot of a row first.
     dots: u8,
     /// Those of the layer that gives the style; ASCII, which cannot show all that cross, shows these.
@@ -111,7 +111,7 @@ struct Spot {
 pub struct Raster {
     area: Rect,
     glyphs: Glyphs,
-    spots: Vec<Spot>,
+    spots: Vec<Cell>,
 }
 
 impl Raster {
@@ -120,7 +120,7 @@ impl Raster {
         let area =
             Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
         let cells = usize::from(area.width) * usize::from(area.height);
-        Self { area, glyphs, spots: vec![Spot::default(); cells] }
+        Self { area, glyphs, spots: vec![Cell::default(); cells] }
     }
 
     /// The dots set so far.
@@ -237,7 +237,7 @@ impl Raster {
             &mut self.spots[usize::from(row) * usize::from(self.area.width) + usize::from(column)];
         let rank = (pen.layer, true, pen.fresh);
         if rank >= spot.rank {
-            *spot = Spot { sign: Some(sign), rank, style: pen.style, ..*spot };
+            *spot = Cell { sign: Some(sign), rank, style: pen.style, ..*spot };
         }
     }
 

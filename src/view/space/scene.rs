@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::body::Outline;
 use super::reference_frame::ReferenceFrame;
-use crate::app::Eye;
+use crate::app::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
 use crate::view::plot::Bounds;
@@ -28,7 +28,7 @@ impl Scene {
     /// picture does not shrink while the first swing goes on.
     pub(super) fn of(
         q: &Quantities<'_>,
-        eye: Eye,
+        eye: CameraPose,
         reference_frame: Option<&ReferenceFrame>,
     ) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY };

@@ -107,7 +107,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
         Some(Overlay::Workbench) => "the editor".to_owned(),
     };
     fact("over it", over);
-    let bench = app.open_sheet();
+    let bench = app.open_buffer();
     fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
@@ -143,12 +143,12 @@ fn facts(app: &App) -> Vec<(String, String)> {
                 fact(&about("zoom"), eye.zoom.to_string());
                 fact(&about("frame"), format!("{:?}", eye.frame));
             }
-            Plot::Phase { lens, .. } | Plot::Time { lens, .. } | Plot::Potential { lens, .. } => {
-                fact(&about("zoom"), format!("{:?}", lens.zoom));
-                fact(&about("pan"), format!("{:?}", lens.pan));
-                fact(&about("log"), lens.log.to_string());
-                fact(&about("one to one"), lens.equal.to_string());
-                fact(&about("cursor"), format!("{:?}", lens.cursor));
+            Plot::Phase { viewport, .. } | Plot::Time { viewport, .. } | Plot::Potential { viewport, .. } => {
+                fact(&about("zoom"), format!("{:?}", viewport.zoom));
+                fact(&about("pan"), format!("{:?}", viewport.pan));
+                fact(&about("log"), viewport.log.to_string());
+                fact(&about("one to one"), viewport.equal.to_string());
+                fact(&about("cursor"), format!("{:?}", viewport.cursor));
             }
         }
     }
@@ -315,8 +315,8 @@ fn a_notice_goes_by_itself() {
 fn a_fault_is_answered_by_a_reset_and_not_by_play() {
     let mut app = in_lab();
     let mut faulted = snapshot(&pendulum(), 2.0);
-    let fault = phaselab::experiment::Fault { time: 2.0, message: "collision".to_owned() };
-    faulted.status = Status::Faulted(fault);
+    let fault = phaselab::experiment::Failure { time: 2.0, message: "collision".to_owned() };
+    faulted.status = Status::Failed(fault);
     app.update(Event::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
     assert!(app.notice.is_some_and(|notice| notice.text.contains("reset")));

@@ -15,7 +15,7 @@ use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 
 fn sheet(app: &App) -> &SourceBuffer {
-    app.open_sheet().expect("the editor is open")
+    app.open_buffer().expect("the editor is open")
 }
 
 /// What the shell would answer to a check.
@@ -88,8 +88,8 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     let lab = app.lab.as_ref().unwrap();
     assert!(lab.zoomed);
     assert_eq!(lab.plots.len(), before.len());
-    let lens = |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
-    assert_eq!(lens(&lab.plots), lens(&before));
+    let viewport = |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
+    assert_eq!(viewport(&lab.plots), viewport(&before));
     assert!(lab.loaded.system.channels().iter().any(|channel| channel.name == "new"));
 }
 

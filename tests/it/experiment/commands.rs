@@ -1,7 +1,7 @@
 //! What each command does.
 
 use phaselab::experiment::{Command, Experiment, Status};
-use phaselab::system::Given;
+use phaselab::system::InitialOverride;
 
 use super::{build, gauge, run, shipped, value};
 
@@ -185,7 +185,7 @@ L = "1/2*x'^2 + k/x"
 
 fn fault(experiment: &Experiment) -> Option<f64> {
     match experiment.status() {
-        Status::Faulted(fault) => {
+        Status::Failed(fault) => {
             assert!(!fault.message.is_empty());
             Some(fault.time)
         }
@@ -223,7 +223,7 @@ fn a_parameter_can_lead_out_of_a_fault() {
 #[test]
 fn a_motion_that_cannot_begin_waits_for_better_values() {
     let text = FALL.replace("1/2*x'^2", "1/2*k*x'^2").replace("k = 1.0", "k = 0.0");
-    let given = Given::Momentum(0, 3.0);
+    let given = InitialOverride::Momentum(0, 3.0);
     let mut system = build(&text, |setup| setup.given.push(given));
     assert!(fault(&system).is_some());
     assert!(system.snapshot().values.iter().all(|x| x.is_nan()));

@@ -67,7 +67,7 @@ pub(crate) enum Outcome {
     /// Completed and accurate.
     Accurate,
     /// A fault with its place, where the motion indeed cannot go on or be reported.
-    Faulted,
+    Failed,
     /// The method does not fit and says so.
     Unfit,
     /// The judge cannot tell.
@@ -180,7 +180,7 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
         }
     };
     let reached = match experiment.status() {
-        Status::Faulted(fault) => End::Fault(fault.message),
+        Status::Failed(fault) => End::Fault(fault.message),
         _ => reached,
     };
     let snapshot = experiment.snapshot();
@@ -275,13 +275,13 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         Ok(known) => known,
         Err(Lost::AtStart) => {
             return match told.end {
-                End::Fault(_) => Outcome::Faulted,
+                End::Fault(_) => Outcome::Failed,
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
         Err(why) => {
             return match (told.end, why) {
-                (End::Fault(_), _) => Outcome::Faulted,
+                (End::Fault(_), _) => Outcome::Failed,
                 (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
                 (_, Lost::TooLong) => Outcome::Undecided("too long"),
                 (_, _) => Outcome::Undecided("a kink that holds"),
@@ -294,7 +294,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         End::Fault(message) if default => {
             return failed(Kind::GivesUp, message);
         }
-        End::Fault(_) => return Outcome::Faulted,
+        End::Fault(_) => return Outcome::Failed,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
             let message = format!("{} steps to t = {}", told.steps, told.time);
             return failed(Kind::Slow, message);

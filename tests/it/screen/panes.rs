@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Lens, Notification, Plot};
+use phaselab::app::{App, Event, Viewport, Notification, Plot};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
 use phaselab::model::{Shape, ViewKind};
@@ -183,7 +183,7 @@ fn status_and_fault_are_reported() {
     app.update(Event::Snapshot(Arc::new(seen.clone())));
     assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
     let message = "the bob left the world".to_owned();
-    seen.status = Status::Faulted(phaselab::experiment::Fault { time: 2.0, message });
+    seen.status = Status::Failed(phaselab::experiment::Failure { time: 2.0, message });
     app.update(Event::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in
@@ -198,7 +198,7 @@ fn the_cursor_reads_the_cell_it_stands_on() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab c");
     let plot = &app.lab.as_ref().unwrap().plots[1];
-    assert!(matches!(plot, Plot::Phase { lens: Lens { cursor: Some([0.5, 0.5]), .. }, .. }));
+    assert!(matches!(plot, Plot::Phase { viewport: Viewport { cursor: Some([0.5, 0.5]), .. }, .. }));
     let buffer = screen(&app, &rich(), (120, 40));
     let (x, y) = find(&buffer, "┼").unwrap();
     assert!((40..80).contains(&x) && y < 24, "in the phase portrait");
@@ -241,7 +241,7 @@ fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
     let impulse =
         |time: f64| Occurrence { name: "push".to_owned(), time, kind: OccurrenceKind::Mark };
-    seen.happenings = [0.5, 1.0, 1.0005].map(impulse).into_iter().collect();
+    seen.occurrences = [0.5, 1.0, 1.0005].map(impulse).into_iter().collect();
     let mut app = in_lab();
     let look = rich();
     let signs = |buffer: &ratatui::buffer::Buffer| {
@@ -464,9 +464,9 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
     app.update(Event::Snapshot(Arc::new(before)));
     app.update(Event::Tick(Duration::from_secs(6)));
     app.update(Event::Snapshot(Arc::new(seen)));
-    for news in ["the bob passed", "the bob came back"] {
+    for notifications in ["the bob passed", "the bob came back"] {
         let rows = rows(&screen(&app, &rich(), (80, 24)));
-        assert!(rows[21].contains(news), "{rows:#?}");
+        assert!(rows[21].contains(notifications), "{rows:#?}");
         assert!(rows[23].contains("? help") && rows[23].contains("q quit"), "{rows:#?}");
         app.update(Event::Tick(Duration::from_millis(2100)));
     }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use phaselab::app::{App, Event, LoadError};
-use phaselab::experiment::{Fault, Snapshot, Status, Trail, Verdict};
+use phaselab::experiment::{Failure, Snapshot, Status, Trail, Verdict};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -67,7 +67,7 @@ fn all_states() -> Vec<App> {
 fn stopped() -> App {
     let mut app = in_lab();
     let mut odd = snapshot(&pendulum(), 2.0);
-    odd.status = Status::Faulted(Fault { time: 2.0, message: "the step became too small".into() });
+    odd.status = Status::Failed(Failure { time: 2.0, message: "the step became too small".into() });
     odd.time = f64::NAN;
     odd.values = odd.values.iter().map(|_| f64::NAN).collect();
     odd.bounds = odd.bounds.iter().map(|_| (f64::NEG_INFINITY, f64::INFINITY)).collect();

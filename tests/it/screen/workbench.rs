@@ -53,7 +53,7 @@ proptest! {
             app.update(Event::Drawn(shown));
             press(&mut app, word);
         }
-        let sheet = app.open_sheet().unwrap();
+        let sheet = app.open_buffer().unwrap();
         let Caret { row, column } = sheet.editor.cursor();
         let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
         let buffer = screen(&app, &rich(), (width, height));
@@ -84,7 +84,7 @@ fn a_mistake_is_underlined_marked_and_told_below() {
 }
 
 fn sheet_line(app: &App, row: usize) -> String {
-    app.open_sheet().unwrap().editor.lines()[row].clone()
+    app.open_buffer().unwrap().editor.lines()[row].clone()
 }
 
 fn plain() -> RenderStyle {
@@ -139,7 +139,7 @@ proptest! {
             app.update(Event::Drawn(shown));
             press(&mut app, word);
         }
-        let sheet = app.open_sheet().unwrap();
+        let sheet = app.open_buffer().unwrap();
         let Caret { row, column } = sheet.editor.cursor();
         let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ');
         let buffer = screen(&app, &plain(), (width, height));

@@ -18,7 +18,7 @@ pub(super) struct Polyline<'a, 'p> {
     size: [i32; 2],
     /// How many dots one turn of each axis takes, where it is periodic.
     turns: [Option<f64>; 2],
-    tip: Tip<Ink<'p>>,
+    tip: Tip<DotStyle<'p>>,
     at: Option<[f64; 2]>,
     /// The first point of a line, until there is a second.
     lone: Option<([f64; 2], &'p Pen)>,
@@ -93,7 +93,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
         let [a, b] = [a, b].map(|point| [0, 1].map(|i| point[i] / f64::from(grid[i])));
         // The axis along which the line runs, and its pattern with it.
         let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
-        let ink = Ink { pen, sign, along, grid };
+        let ink = DotStyle { pen, sign, along, grid };
         let raster = &mut *self.raster;
         self.tip.follow((a, b), last, ink, |dot, ink| ink.put(raster, dot));
         if !whole {
@@ -118,14 +118,14 @@ impl<'a, 'p> Polyline<'a, 'p> {
 
 /// What a dot of a line is put down with.
 #[derive(Clone, Copy)]
-struct Ink<'p> {
+struct DotStyle<'p> {
     pen: &'p Pen,
     sign: Option<char>,
     along: usize,
     grid: [i32; 2],
 }
 
-impl Ink<'_> {
+impl DotStyle<'_> {
     /// Inks a dot of a line unless it falls in a gap of the pattern.
     fn put(&self, raster: &mut Raster, dot: [i32; 2]) {
         if self.sign.is_some() || self.pen.dash.covers(dot[self.along]) {

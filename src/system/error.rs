@@ -6,11 +6,11 @@ use crate::printable;
 
 /// Something on the way that no number can stand for.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
-pub struct Fault {
+pub struct MotionError {
     /// When.
     pub time: f64,
     /// What happened.
-    pub kind: FaultKind,
+    pub kind: MotionErrorKind,
     /// Where: coordinates as shown, with their values.
     pub place: Vec<(String, f64)>,
 }
@@ -26,7 +26,7 @@ pub struct Passage {
 
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
-pub enum FaultKind {
+pub enum MotionErrorKind {
     /// A pivot of the mass matrix vanishes.
     SingularMass,
     /// The constraints are dependent there, or together with the mass matrix singular; how it is
@@ -69,79 +69,79 @@ pub enum FaultKind {
     Sticks,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let time = printable::number(self.time);
         match &self.kind {
-            FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
-            FaultKind::SingularConstraints(_) => {
+            MotionErrorKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
+            MotionErrorKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
             }
-            FaultKind::ConstraintParted(name) => write!(
+            MotionErrorKind::ConstraintParted(name) => write!(
                 f,
                 "the constraint `{name}`, which repeated those before it where the motion began, \
                  contradicts them at t = {time}"
             )?,
-            FaultKind::ConstraintLost(name) => {
+            MotionErrorKind::ConstraintLost(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
             }
-            FaultKind::ConstraintMissed(name, part) => write!(
+            MotionErrorKind::ConstraintMissed(name, part) => write!(
                 f,
                 "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
             )?,
-            FaultKind::Contradiction => f.write_str(
+            MotionErrorKind::Contradiction => f.write_str(
                 "the velocities and momenta given at the start contradict the constraints",
             )?,
-            FaultKind::FreeVelocities(names) => write!(
+            MotionErrorKind::FreeVelocities(names) => write!(
                 f,
                 "the constraints do not say with which velocities the motion starts: give {}",
                 names.join(", ")
             )?,
-            FaultKind::SeveralStarts(starts) => write!(
+            MotionErrorKind::SeveralStarts(starts) => write!(
                 f,
                 "what is given belongs to several starts ({}): give one of these instead",
                 starts.join("; ")
             )?,
-            FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
-            FaultKind::NoVelocities => {
+            MotionErrorKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
+            MotionErrorKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
             }
-            FaultKind::NoConvergence(step) => {
+            MotionErrorKind::NoConvergence(step) => {
                 write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
             }
-            FaultKind::StepUnderflow(_) => {
+            MotionErrorKind::StepUnderflow(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
-            FaultKind::ClockStands(spacing) => write!(
+            MotionErrorKind::ClockStands(spacing) => write!(
                 f,
                 "the clock cannot go on from t = {time}: its digits are {} apart there",
                 short(*spacing)
             )?,
-            FaultKind::NoInterval(name, interval) => {
+            MotionErrorKind::NoInterval(name, interval) => {
                 write!(f, "the impulse `{name}` cannot strike every {}", short(*interval))?;
             }
-            FaultKind::TooManySteps(step, until) => write!(
+            MotionErrorKind::TooManySteps(step, until) => write!(
                 f,
                 "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
             )?,
-            FaultKind::PilesUp(name) => {
+            MotionErrorKind::PilesUp(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
-            FaultKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
-            FaultKind::Rough => {
+            MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
+            MotionErrorKind::Rough => {
                 write!(
                     f,
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
                 )?;
             }
-            FaultKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
+            MotionErrorKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
         }
         for (name, value) in &self.place {
             write!(f, ", {name} = {}", short(*value))?;
         }
         f.write_str(match &self.kind {
-            FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
-            FaultKind::SingularConstraints(passage) => {
+            MotionErrorKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            MotionErrorKind::SingularConstraints(passage) => {
                 f.write_str(": their directions depend on each other there, or one has none")?;
                 let Some(Passage { method, step }) = passage else { return Ok(()) };
                 return write!(
@@ -150,27 +150,27 @@ impl fmt::Display for Fault {
                     short(*step)
                 );
             }
-            FaultKind::ConstraintParted(_) => {
+            MotionErrorKind::ConstraintParted(_) => {
                 ": the motion began at a singular configuration of the constraints"
             }
-            FaultKind::ConstraintLost(_) => ": no configuration nearby meets it",
-            FaultKind::ConstraintMissed(..)
-            | FaultKind::FreeVelocities(_)
-            | FaultKind::SeveralStarts(_)
-            | FaultKind::Cancelled => "",
-            FaultKind::Contradiction => ": give fewer of them",
-            FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
-            FaultKind::NoVelocities => ": the momenta may lie outside their range",
-            FaultKind::NoConvergence(_) => ": try a smaller step",
-            FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
-            FaultKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
-            FaultKind::NoInterval(..) => ": its interval must be above zero",
-            FaultKind::TooManySteps(..) => ": try a larger step",
-            FaultKind::PilesUp(_) => ": give the file an event that stops it before",
-            FaultKind::Rough => {
+            MotionErrorKind::ConstraintLost(_) => ": no configuration nearby meets it",
+            MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::FreeVelocities(_)
+            | MotionErrorKind::SeveralStarts(_)
+            | MotionErrorKind::Cancelled => "",
+            MotionErrorKind::Contradiction => ": give fewer of them",
+            MotionErrorKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
+            MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
+            MotionErrorKind::NoConvergence(_) => ": try a smaller step",
+            MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
+            MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
+            MotionErrorKind::TooManySteps(..) => ": try a larger step",
+            MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
+            MotionErrorKind::Rough => {
                 ": the rates of change have no limit there; --method dop853 may pass it"
             }
-            FaultKind::Sticks => ": both sides of a kink push towards it",
+            MotionErrorKind::Sticks => ": both sides of a kink push towards it",
         })
     }
 }

@@ -10,7 +10,7 @@
 //! Equations II, IV.5.
 
 use crate::num::{DoubleDouble, Real};
-use crate::system::{ExactRates, Fault, FaultKind, State};
+use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 
 /// The part of the wanted step that is tried first, and the part that is left after each failure.
 const FIRST: f64 = 1.0 / 64.0;
@@ -58,7 +58,7 @@ impl Scheme {
 }
 
 /// Takes such steps.
-pub(super) struct Bridge {
+pub(super) struct CollocationStep {
     scheme: Scheme,
     stages: [Vec<DoubleDouble>; 3],
     numbers: Vec<DoubleDouble>,
@@ -66,16 +66,16 @@ pub(super) struct Bridge {
     two: Vec<DoubleDouble>,
 }
 
-impl std::fmt::Debug for Bridge {
+impl std::fmt::Debug for CollocationStep {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("Bridge")
     }
 }
 
-impl Bridge {
-    pub(super) fn new(len: usize) -> Bridge {
+impl CollocationStep {
+    pub(super) fn new(len: usize) -> CollocationStep {
         let blank = || vec![DoubleDouble::ZERO; len];
-        Bridge {
+        CollocationStep {
             scheme: Scheme::new(),
             stages: [blank(), blank(), blank()],
             numbers: blank(),
@@ -93,7 +93,7 @@ impl Bridge {
         (wanted, least): (f64, f64),
         toward: Option<&[DoubleDouble]>,
         out: &mut State,
-    ) -> Result<Option<f64>, Fault> {
+    ) -> Result<Option<f64>, MotionError> {
         let (mut step, mut wanted) = (wanted * FIRST, wanted);
         let mut found = None;
         for _ in 0..TRIALS {
@@ -122,7 +122,7 @@ impl Bridge {
         after: DoubleDouble,
         toward: Option<&[DoubleDouble]>,
         out: &mut State,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         self.take_two(rates, from, after, toward)?;
         self.put(from, after, out);
         Ok(())
@@ -145,7 +145,7 @@ impl Bridge {
         step: f64,
         wanted: f64,
         toward: Option<&[DoubleDouble]>,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let start = numbers_of(from);
         if !self.take(rates, from.exact_time(), &start, DoubleDouble::from(step), toward)? {
             return Ok(false);
@@ -167,7 +167,7 @@ impl Bridge {
         from: &State,
         step: DoubleDouble,
         toward: Option<&[DoubleDouble]>,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let (time, first) = (from.exact_time(), step * PART);
         if !self.take(rates, time, &numbers_of(from), first, toward)? {
             return Ok(false);
@@ -186,7 +186,7 @@ impl Bridge {
         start: &[DoubleDouble],
         step: DoubleDouble,
         toward: Option<&[DoubleDouble]>,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let outcome = rates.evaluate(time, start);
         let known = outcome.is_ok();
         for i in 0..start.len() {
@@ -209,7 +209,7 @@ impl Bridge {
                 }
                 match rates.evaluate(time + step * at[s], &self.numbers) {
                     Ok(()) => {}
-                    Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+                    Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                     Err(_) => return Ok(false),
                 }
                 for i in 0..start.len() {

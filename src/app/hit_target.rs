@@ -1,13 +1,13 @@
 //! Spots: what a place on the screen shows, for the mouse.
 //!
-//! In: nothing. Out: [`Spot`]s, which `view` finds, and [`Hold`], what the mouse holds on to. Never here: where anything
+//! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Drag`], what the mouse holds on to. Never here: where anything
 //! stands on the screen, or what a click does.
 
 use super::{Action, Page, Pane, ValueId};
 
 /// What is under the mouse. Places are parts of a picture's width from the left and of its height from below.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spot {
+pub enum HitTarget {
     /// The name of a page in the line of headings.
     Page(Page),
     /// A key's hint.
@@ -55,7 +55,7 @@ pub enum Spot {
 
 /// What the mouse holds while its button is down: it goes with the mouse, wherever that goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hold {
+pub enum Drag {
     /// The knob of a value's bar.
     Bar(ValueId),
     /// A picture.

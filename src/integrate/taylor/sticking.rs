@@ -6,7 +6,7 @@
 //! energy; that is asked of many directions, and of the one in which everything else pulls.
 
 use crate::num::{DoubleDouble, Real};
-use crate::system::{ExactRates, Fault, FaultKind, Form, State, System};
+use crate::system::{ExactRates, MotionError, MotionErrorKind, Form, State, System};
 
 /// Velocities below this part of what a typical step changes them by count as zero where friction
 /// takes away even more.
@@ -31,7 +31,7 @@ const BETWEEN: usize = 16;
 const ROUNDS: usize = 200;
 
 /// What comes of rest.
-pub(super) enum Rest {
+pub(super) enum Sticking {
     /// It stays so, in this state; with the rates of what is carried along.
     Stays(State, Vec<DoubleDouble>),
     /// It sets out from this state, with these rates.
@@ -47,10 +47,10 @@ pub(super) fn of(
     parameters: &[f64],
     state: &State,
     stride: f64,
-) -> Result<Rest, Fault> {
+) -> Result<Sticking, MotionError> {
     let n = system.degrees();
     if state.form != Form::Velocity || n > MOST || rates.depends_on_time() || n == 0 {
-        return Ok(Rest::Unknown);
+        return Ok(Sticking::Unknown);
     }
     let mut still = state.clone();
     for i in n..2 * n {
@@ -62,16 +62,16 @@ pub(super) fn of(
     some[0] = 1.0;
     let fastest = state.values[n..2 * n].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     asked.size = if fastest > 0.0 { fastest } else { 1e-9 };
-    let Some(pull) = asked.accelerations(&some)? else { return Ok(Rest::Unknown) };
+    let Some(pull) = asked.accelerations(&some)? else { return Ok(Sticking::Unknown) };
     let strength = pull.iter().fold(0.0_f64, |m, a| m.max(a.high.abs()));
     if strength == 0.0 || fastest > SLOW * strength * stride {
-        return Ok(Rest::Unknown);
+        return Ok(Sticking::Unknown);
     }
     asked.size = TRIAL * strength * stride;
     // friction is odd in the direction: the mean is everything else
-    let Some(there) = asked.accelerations(&some)? else { return Ok(Rest::Unknown) };
+    let Some(there) = asked.accelerations(&some)? else { return Ok(Sticking::Unknown) };
     let back: Vec<f64> = some.iter().map(|x| -x).collect();
-    let Some(back) = asked.accelerations(&back)? else { return Ok(Rest::Unknown) };
+    let Some(back) = asked.accelerations(&back)? else { return Ok(Sticking::Unknown) };
     let others: Vec<f64> = there.iter().zip(&back).map(|(a, b)| (*a + *b).high * 0.5).collect();
     let mut directions = all_directions(n);
     if others.iter().any(|x| x.abs() > 1e-14 * strength) {
@@ -81,29 +81,29 @@ pub(super) fn of(
     for direction in &directions {
         match asked.gains(direction)? {
             Some(gain) => stays &= gain < 0.0,
-            None => return Ok(Rest::Unknown),
+            None => return Ok(Sticking::Unknown),
         }
     }
     if stays {
         return asked.carried(&some);
     }
     if fastest > NOTHING * strength * stride {
-        return Ok(Rest::Unknown);
+        return Ok(Sticking::Unknown);
     }
     // it sets out in the direction in which it is then accelerated
     let mut direction = others;
     for _ in 0..ROUNDS {
-        let Some(found) = asked.accelerations(&direction)? else { return Ok(Rest::Unknown) };
+        let Some(found) = asked.accelerations(&direction)? else { return Ok(Sticking::Unknown) };
         let next: Vec<f64> = found.iter().map(|x| x.high).collect();
         if next.iter().zip(&direction).map(|(a, b)| a * b).sum::<f64>() <= 0.0 {
-            return Ok(Rest::Unknown);
+            return Ok(Sticking::Unknown);
         }
         direction = next;
     }
-    let Some(accelerations) = asked.accelerations(&direction)? else { return Ok(Rest::Unknown) };
+    let Some(accelerations) = asked.accelerations(&direction)? else { return Ok(Sticking::Unknown) };
     let mut toward = vec![DoubleDouble::ZERO; state.values.len()];
     toward[n..2 * n].copy_from_slice(&accelerations);
-    Ok(Rest::SetsOut(asked.still, toward))
+    Ok(Sticking::SetsOut(asked.still, toward))
 }
 
 struct Asked<'a> {
@@ -131,12 +131,12 @@ impl Asked<'_> {
     }
 
     /// The accelerations there, if they are finite.
-    fn accelerations(&mut self, direction: &[f64]) -> Result<Option<Vec<DoubleDouble>>, Fault> {
+    fn accelerations(&mut self, direction: &[f64]) -> Result<Option<Vec<DoubleDouble>>, MotionError> {
         let state = self.moving(direction);
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         match self.rates.evaluate(state.exact_time(), &numbers) {
             Ok(()) => {}
-            Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+            Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
             Err(_) => return Ok(None),
         }
         let found: Vec<DoubleDouble> = (self.n..2 * self.n).map(|i| self.rates.rate(i)).collect();
@@ -145,14 +145,14 @@ impl Asked<'_> {
 
     /// The end of a motion: the rates of what is carried along, at rest or as velocities go to
     /// zero.
-    fn carried(mut self, some: &[f64]) -> Result<Rest, Fault> {
+    fn carried(mut self, some: &[f64]) -> Result<Sticking, MotionError> {
         let moving = self.system.moving();
         let len = self.still.values.len();
         let mut rates = vec![DoubleDouble::ZERO; len];
         let mut looks = [vec![DoubleDouble::ZERO; len], vec![DoubleDouble::ZERO; len]];
         for look in &mut looks {
             if self.accelerations(some)?.is_none() {
-                return Ok(Rest::Unknown);
+                return Ok(Sticking::Unknown);
             }
             for (i, x) in look.iter_mut().enumerate() {
                 *x = self.rates.rate(i);
@@ -166,11 +166,11 @@ impl Asked<'_> {
             rates[i] = if falls { DoubleDouble::ZERO } else { after };
         }
         let known = rates.iter().all(|x| x.is_finite());
-        Ok(if known { Rest::Stays(self.still, rates) } else { Rest::Unknown })
+        Ok(if known { Sticking::Stays(self.still, rates) } else { Sticking::Unknown })
     }
 
     /// How a small velocity in a direction gains kinetic energy, up to a factor.
-    fn gains(&mut self, direction: &[f64]) -> Result<Option<f64>, Fault> {
+    fn gains(&mut self, direction: &[f64]) -> Result<Option<f64>, MotionError> {
         let Some(accelerations) = self.accelerations(direction)? else { return Ok(None) };
         let moving = self.moving(direction);
         let momenta = self.system.convert(&moving, Form::Momentum, self.parameters)?;
