@@ -31,8 +31,8 @@ pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracke
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use equations::{
-    Supplements, Auxiliary, AuxiliaryRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
-    NoClosedForm, Reason, Separable, Vakonomic,
+    Auxiliary, AuxiliaryRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
+    NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use frames::Apparent;
 pub use invariants::casimir_rate;
@@ -70,12 +70,14 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
     };
-    equations.supplements.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.supplements.body =
+        model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
     equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
-        equations.supplements.vakonomic = Some(vakonomic::vakonomic(&mut equations, model, comparison));
+        equations.supplements.vakonomic =
+            Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
     if !equations.supplements.auxiliary.is_empty() {
         let why = "numbers are carried along that do not follow from H";

@@ -14,8 +14,8 @@ mod conditions;
 mod consistent_initial;
 mod constrained;
 mod discontinuities;
-mod exact;
 mod error;
+mod exact;
 mod inertia;
 mod jet;
 mod kkt;
@@ -40,8 +40,8 @@ pub use constrained::{ConstraintProjector, Directions};
 pub use discontinuities::{
     CompiledEvent, CompiledImpulse, Discontinuities, EventFunctions, ImpulseOutcome, Schedule,
 };
-pub use exact::ExactRates;
 pub use error::{MotionError, MotionErrorKind, Passage};
+pub use exact::ExactRates;
 pub use jet::{Jet, Side};
 pub use observe::Observer;
 pub use program::{Program, Singular};

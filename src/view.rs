@@ -21,10 +21,10 @@ mod canvas;
 mod cursor;
 mod detail;
 mod equations;
-mod highlight;
 mod gauges;
 mod header_footer;
 mod help;
+mod highlight;
 mod hit_test;
 mod lab_page;
 mod layout;
@@ -48,7 +48,7 @@ mod wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::app::{App, Drawn, Lab, Overlay, Page, HitTarget};
+use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 use canvas::{Canvas, row};
 pub use detail::Detail;
 use glyphs::Glyphs;
@@ -103,7 +103,7 @@ fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
-    let over = app.over.as_ref();
+    let over = app.overlay.as_ref();
     if let Some(Overlay::Help { .. }) = over {
         let page = help::document(look, app.places_below());
         return text(canvas, area, "Keys", page, app.scroll);

@@ -197,7 +197,9 @@ impl std::fmt::Display for Short {
 /// Where in the file to look for the reason of a start that is none.
 fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
-        MotionErrorKind::ConstraintMissed(name, _) => model.constraints.iter().find(|c| c.name == *name),
+        MotionErrorKind::ConstraintMissed(name, _) => {
+            model.constraints.iter().find(|c| c.name == *name)
+        }
         MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
         _ => None,
     };

@@ -22,7 +22,7 @@ impl PendingChanges {
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
         self.method.take_if(|wish| *wish == snapshot.method.name);
         self.settings.take_if(|wish| *wish == snapshot.setup.settings);
-        self.given.take_if(|wish| *wish == snapshot.setup.given);
+        self.given.take_if(|wish| *wish == snapshot.setup.overrides);
     }
 }
 
@@ -71,7 +71,7 @@ impl Lab {
     }
 
     fn given(&self) -> Vec<InitialOverride> {
-        let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.given.clone());
+        let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.overrides.clone());
         self.asked.given.clone().unwrap_or_else(fact)
     }
 
@@ -176,7 +176,9 @@ impl Lab {
 
     /// What goes where when one side of a change is made so: `g 9.81 → 3.2`.
     fn words(&self, change: &Change, side: Side) -> String {
-        let named = |target| self.value_info(target).map_or_else(String::new, |value_info| value_info.shown);
+        let named = |target| {
+            self.value_info(target).map_or_else(String::new, |value_info| value_info.shown)
+        };
         let went = |what: &str, [from, to]: [String; 2]| format!("{what} {from} → {to}");
         match change {
             Change::Parameter { index, numbers } => {

@@ -5,7 +5,7 @@
 
 use super::plot::Viewport;
 use super::{
-    App, Choice, Choosing, Effect, CameraPose, Field, Item, Lab, Menu, Overlay, Pane, Plot, Purpose,
+    App, CameraPose, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Plot, Purpose,
 };
 use crate::integrate::METHODS;
 use crate::model::ViewKind;
@@ -180,7 +180,10 @@ impl App {
                     let (min, max, _) = value_info.range?;
                     let outside = !(min..=max).contains(&value);
                     outside.then(|| {
-                        format!("{} is now beyond its usual range, {min} to {max}.", value_info.shown)
+                        format!(
+                            "{} is now beyond its usual range, {min} to {max}.",
+                            value_info.shown
+                        )
                     })
                 });
                 let effects = lab.change(target, value);

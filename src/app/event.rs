@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Act, Checked, Key, SaveError, HitTarget};
+use super::{Act, Checked, HitTarget, Key, SaveError};
 use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;

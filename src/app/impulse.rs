@@ -43,7 +43,9 @@ impl App {
             [] if lab.loaded.model.impulses.is_empty() => {
                 self.notify("This system has no impulses.")
             }
-            [] => self.notify("The impulses of this system act by themselves; none waits for a key."),
+            [] => {
+                self.notify("The impulses of this system act by themselves; none waits for a key.")
+            }
             [Item { choice: Choice::Impulse(only), .. }] => self.apply_impulse(*only),
             lines => {
                 let menu = Menu::new("Impulse", Choosing::Impulse, lines.to_vec());

@@ -95,8 +95,7 @@ pub enum Choice {
 impl Menu {
     /// A list on its first line.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let plain =
-            matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
+        let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
         let filter = (!plain).then(Input::default);
         Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
     }

@@ -201,12 +201,16 @@ impl Lab {
                 ValueId::Parameter(_) => "type",
                 ValueId::Initial(_) => "type the initial",
             };
-            let unit =
-                if value_info.unit.is_empty() { String::new() } else { format!(" in {}", value_info.unit) };
+            let unit = if value_info.unit.is_empty() {
+                String::new()
+            } else {
+                format!(" in {}", value_info.unit)
+            };
             let (meaning, about) = match target {
-                ValueId::Parameter(_) if !value_info.about.is_empty() => {
-                    (format!(", {}", value_info.about), format!("{}, a parameter{unit}", value_info.name))
-                }
+                ValueId::Parameter(_) if !value_info.about.is_empty() => (
+                    format!(", {}", value_info.about),
+                    format!("{}, a parameter{unit}", value_info.name),
+                ),
                 _ => (String::new(), format!("{}: {}", value_info.name, value_info.about)),
             };
             Some(Item {

@@ -5,7 +5,9 @@
 use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
-use super::{Action, App, Effect, Viewport, Notification, Overlay, Page, Pane, Plot, Purpose, Direction};
+use super::{
+    Action, App, Direction, Effect, Notification, Overlay, Page, Pane, Plot, Purpose, Viewport,
+};
 use crate::experiment::{Command, Status};
 use crate::integrate::{METHODS, Stepping};
 
@@ -56,8 +58,12 @@ impl App {
         match action {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
-                Some(Status::Failed(_)) => self.notify("It cannot go on from here: reset it with r."),
-                Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
+                Some(Status::Failed(_)) => {
+                    self.notify("It cannot go on from here: reset it with r.")
+                }
+                Some(Status::Ended(_)) => {
+                    self.notify("The motion has ended: begin it again with r.")
+                }
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
@@ -128,8 +134,11 @@ impl App {
             Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
             Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, Plot::Phase { .. })) => self.with_viewport(|viewport| viewport.equal = !viewport.equal),
-                _ => self.notify("Only where one quantity stands against another can units be equal."),
+                Some((_, Plot::Phase { .. })) => {
+                    self.with_viewport(|viewport| viewport.equal = !viewport.equal)
+                }
+                _ => self
+                    .notify("Only where one quantity stands against another can units be equal."),
             },
             Action::Cursor => self.with_viewport(|viewport| {
                 viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
@@ -172,7 +181,8 @@ impl App {
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
         let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
-            return self.notify("No picture shows the motion in space; v chooses what a pane shows.");
+            return self
+                .notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
         lab.redraw(picture, |plot, _| {
             if let Plot::Space(eye) = plot {

@@ -214,9 +214,16 @@ impl Plot {
         let mut plot = self.clone();
         match &mut plot {
             Self::Space(eye) => (eye.yaw, eye.pitch, eye.zoom) = (0.0, 0.0, 1.0),
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 let cursor = viewport.cursor.map(|_| [0.0; 2]);
-                *viewport = Viewport { log: viewport.log, equal: viewport.equal, cursor, ..Viewport::WHOLE };
+                *viewport = Viewport {
+                    log: viewport.log,
+                    equal: viewport.equal,
+                    cursor,
+                    ..Viewport::WHOLE
+                };
             }
         }
         plot
@@ -235,7 +242,9 @@ impl Plot {
                 eye.yaw = (eye.yaw - right * PI / 24.0).rem_euclid(TAU);
                 eye.pitch = (eye.pitch + up * PI / 24.0).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 viewport.shift([right, up]);
             }
         }
@@ -246,7 +255,9 @@ impl Plot {
         let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
         match self {
             Self::Space(eye) => nearer(&mut eye.zoom),
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 let chosen = match axes {
                     Axes::Both => &mut viewport.zoom[..],
                     Axes::Across => &mut viewport.zoom[..1],
@@ -264,7 +275,9 @@ impl Plot {
                 eye.yaw = (eye.yaw - by[0] * PI).rem_euclid(TAU);
                 eye.pitch = (eye.pitch - by[1] * PI).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 viewport.pan = [0, 1].map(|k| viewport.pan[k] - by[k]);
             }
         }
@@ -288,9 +301,9 @@ impl Plot {
     pub(super) fn viewport(&mut self) -> Option<&mut Viewport> {
         match self {
             Self::Space(_) => None,
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
-                Some(viewport)
-            }
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => Some(viewport),
         }
     }
 
@@ -298,7 +311,9 @@ impl Plot {
     pub(super) fn home(&mut self, loaded: &Loaded) {
         match self {
             Self::Space(eye) => *eye = eye.at_first(loaded),
-            Self::Phase { viewport, .. } | Self::Time { viewport, .. } | Self::Potential { viewport, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 *viewport = Viewport::WHOLE;
             }
         }

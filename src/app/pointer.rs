@@ -3,8 +3,8 @@
 //! In: an act, the spot it happened at. Out: the changed state and the effects. Never here: bytes, or where a spot is.
 
 use super::change::place;
-use super::mouse::Act;
 use super::hit_target::{Drag, HitTarget};
+use super::mouse::Act;
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, Plot, ValueId};
 use crate::system::{ChannelKind, InitialOverride};
 

@@ -7,8 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    App, Effect, CameraPose, Lab, Viewport, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
-    SourceBuffer,
+    App, CameraPose, Effect, Lab, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
+    SourceBuffer, Viewport,
 };
 use crate::experiment::{Checkpoint, Command};
 
@@ -116,7 +116,9 @@ impl SavedPlot {
             Plot::Phase { x, y, viewport } => {
                 Self::Phase { x: quantity(x), y: quantity(y), viewport: *viewport }
             }
-            Plot::Potential { view, viewport } => Self::Potential { view: *view, viewport: *viewport },
+            Plot::Potential { view, viewport } => {
+                Self::Potential { view: *view, viewport: *viewport }
+            }
             Plot::Time { y, viewport } => {
                 Self::Time { y: y.iter().map(quantity).collect(), viewport: *viewport }
             }

@@ -118,7 +118,8 @@ pub(super) fn initial(
         all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
-        let has = |wanted: InitialOverride| all.iter().any(|g| label(model, g) == label(model, &wanted));
+        let has =
+            |wanted: InitialOverride| all.iter().any(|g| label(model, g) == label(model, &wanted));
         if has(InitialOverride::Velocity(i, 0.0)) && has(InitialOverride::Momentum(i, 0.0)) {
             let name = &c.name;
             let message =

@@ -154,10 +154,7 @@ mod tests {
         let wide = |k: usize| Occurrence {
             name: "kick".to_owned(),
             time: k as f64,
-            kind: OccurrenceKind::Impulse {
-                jump: vec![1.0; 2000],
-                reaction: vec![1.0; 2000],
-            },
+            kind: OccurrenceKind::Impulse { jump: vec![1.0; 2000], reaction: vec![1.0; 2000] },
         };
         let each = size(&[wide(0)]);
         let fits = BYTES / (CHUNK * each) * CHUNK;

@@ -59,7 +59,12 @@ impl Setup {
 
 /// What is given in place of the file's initial values once the one of an index (coordinates first, then velocities or
 /// momenta) is given too.
-pub fn with_override(system: &System, before: &[InitialOverride], index: usize, value: f64) -> Vec<InitialOverride> {
+pub fn with_override(
+    system: &System,
+    before: &[InitialOverride],
+    index: usize,
+    value: f64,
+) -> Vec<InitialOverride> {
     let n = system.degrees();
     let overrides = match (index < n, system.form()) {
         (true, _) => InitialOverride::Position(index, value),

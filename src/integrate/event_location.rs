@@ -147,7 +147,11 @@ impl EventLocator {
 
     /// A constraint was let go at a state: functions that did not jump with it stand where `known`
     /// has them.
-    pub(super) fn inherit(&mut self, mut known: EventLocator, state: &State) -> Result<(), MotionError> {
+    pub(super) fn inherit(
+        &mut self,
+        mut known: EventLocator,
+        state: &State,
+    ) -> Result<(), MotionError> {
         known.event_functions.look(state, &mut known.values)?;
         self.event_functions.look(state, &mut self.values)?;
         for (i, (old, new)) in known.values.iter().zip(&self.values).enumerate() {

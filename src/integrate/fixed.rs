@@ -6,7 +6,7 @@ use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
 use crate::num::{DoubleDouble, math};
-use crate::system::{MotionError, MotionErrorKind, Form, State, System};
+use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
 /// The step where none is asked for, as a part of the motion's [pace](pace::of).
 const PART_OF_PACE: f64 = 1.0 / 10.0;

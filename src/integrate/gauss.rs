@@ -20,7 +20,7 @@ use super::fixed::{FixedStep, Scheme};
 use super::method::{Method, MethodError, Preserves, Stepping};
 use super::roundoff;
 use crate::num::DoubleDouble;
-use crate::system::{MotionError, MotionErrorKind, Form, Rates, State, System};
+use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
 
 /// How often the iteration may be repeated.
 const PASSES: usize = 120;

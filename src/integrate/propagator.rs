@@ -12,7 +12,7 @@ use super::impulse_schedule::ImpulseSchedule;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{ConstraintProjector, MotionError, MotionErrorKind, Form, State, System};
+use crate::system::{ConstraintProjector, Form, MotionError, MotionErrorKind, State, System};
 use constraint_watch::Watch;
 pub use occurrence::{Occurrence, OccurrenceKind};
 
@@ -217,7 +217,12 @@ impl Propagator {
     ///
     /// # Errors
     /// Where the motion cannot go on.
-    pub fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, MotionError> {
+    pub fn reach(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<Reached, MotionError> {
         loop {
             if self.ended {
                 return Ok(Reached::Ended);

@@ -10,7 +10,7 @@ use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
 use super::stability::Modes;
 use crate::num::math;
-use crate::system::{MotionError, Form, Rates, State, System};
+use crate::system::{Form, MotionError, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
     name: "rk4",

@@ -8,7 +8,7 @@
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
-use crate::system::{MotionError, Form, Rates, State, System};
+use crate::system::{Form, MotionError, Rates, State, System};
 
 /// What a system must be for it.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";

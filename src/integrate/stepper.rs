@@ -2,7 +2,7 @@
 
 use super::Unstable;
 use crate::num::DoubleDouble;
-use crate::system::{MotionError, Form, State};
+use crate::system::{Form, MotionError, State};
 
 /// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
 /// motion is known anywhere inside it.

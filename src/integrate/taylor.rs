@@ -12,17 +12,17 @@
 mod branches;
 mod collocation_step;
 mod kinks;
-mod sticking;
 mod step_size;
+mod sticking;
 
 use collocation_step::CollocationStep;
 use kinks::Kinks;
-use sticking::Rest;
+use sticking::Sticking;
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
-use crate::system::{ExactRates, MotionError, MotionErrorKind, Form, Series, Side, State, System};
+use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, Side, State, System};
 
 /// The tolerance where none is asked for. It lies far below the last digit shown, so that what
 /// is shown carries the error of one rounding at the end and not of all on the way.
@@ -232,14 +232,14 @@ impl Taylor {
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
         if found.is_none() {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
-                Rest::Unknown => return Ok(false),
-                Rest::Stays(state, rates) => {
+                Sticking::Unknown => return Ok(false),
+                Sticking::Stays(state, rates) => {
                     self.state = state;
                     self.begin = self.state.time;
                     self.resting = Some(rates);
                     return Ok(true);
                 }
-                Rest::SetsOut(state, rates) => {
+                Sticking::SetsOut(state, rates) => {
                     (from, toward) = (state, Some(rates));
                     let (rates, toward) = (&mut self.rates, toward.as_deref());
                     found =

@@ -16,7 +16,8 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let Some(attitude) = &model.attitude else { return };
     match &attitude.source {
         AttitudeSource::Euler(angles) => {
-            equations.supplements.attitude = Some(rigid_body::attitude(&mut equations.pool, *angles));
+            equations.supplements.attitude =
+                Some(rigid_body::attitude(&mut equations.pool, *angles));
         }
         AttitudeSource::Rate { omega, start } => {
             let omega = omega.map(|e| equations.open(e));

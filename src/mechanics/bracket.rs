@@ -66,8 +66,12 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
         let why = "the action is an integral along the motion, no function of its state";
         return Err(NoClosedForm(why.to_owned()));
     }
-    let auxiliary: Vec<Symbol> =
-        equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()).collect();
+    let auxiliary: Vec<Symbol> = equations
+        .supplements
+        .auxiliary
+        .iter()
+        .flat_map(|auxiliary| auxiliary.symbols.clone())
+        .collect();
     if equations.pool.depends_on_any(e, &auxiliary) {
         let why = "what is carried along beside the motion is no function of its state";
         return Err(NoClosedForm(why.to_owned()));
@@ -195,7 +199,9 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedFor
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
     others.push(equations.symbols.action);
-    others.extend(equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()));
+    others.extend(
+        equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()),
+    );
     if equations.pool.depends_on_any(e, &others) {
         return Err(NoClosedForm("it is not known as a function of q, q̇ and t".to_owned()));
     }

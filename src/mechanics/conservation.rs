@@ -150,7 +150,8 @@ fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Cla
     let opened = equations.open(observable);
     let accelerations = equations.coordinates.iter().map(|c| c.acceleration);
     let multipliers = equations.constraints.iter().map(|c| c.multiplier);
-    let auxiliary = equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
+    let auxiliary =
+        equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
     let unknown: Vec<Symbol> = accelerations.chain(multipliers).chain(auxiliary).collect();
     if !equations.is_lagrangian() || equations.pool.depends_on_any(opened, &unknown) {
         return (Class::Unknown, why);

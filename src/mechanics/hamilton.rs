@@ -1,7 +1,7 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{Supplements, CoordinateSymbols, Equations, Flow, NoClosedForm, Separable};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Separable, Supplements};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
 use crate::expr::{Expr, Pool, Symbol, Zero};

@@ -282,7 +282,8 @@ impl Equations {
         let g = self.pool.substitute(observable, &map);
         let fast = self.coordinates.iter().flat_map(|c| [c.velocity, c.acceleration]);
         let others = self.constraints.iter().map(|c| c.multiplier);
-        let auxiliary = self.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
+        let auxiliary =
+            self.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
         let others: Vec<Symbol> =
             fast.chain(others).chain(auxiliary).chain([self.symbols.action]).collect();
         if self.pool.depends_on_any(g, &others) {

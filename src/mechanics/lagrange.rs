@@ -2,7 +2,7 @@
 //! M q̈ = f + Aᵀλ.
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
-use super::equations::{Supplements, CoordinateSymbols, Equations, Flow};
+use super::equations::{CoordinateSymbols, Equations, Flow, Supplements};
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;

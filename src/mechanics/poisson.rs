@@ -1,7 +1,7 @@
 //! Motion by brackets of variables that are no coordinates and momenta: ẋ = {x, H} + force.
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
-use super::equations::{Supplements, CoordinateSymbols, Equations, Flow, NoClosedForm};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Supplements};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;

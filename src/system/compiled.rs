@@ -247,7 +247,12 @@ impl System {
     }
 
     /// The initial state at these parameters; `given` values take the place of the file's.
-    pub fn initial(&self, start: f64, parameters: &[f64], given: &[InitialOverride]) -> Result<State, MotionError> {
+    pub fn initial(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let mut state = self.begin(start, parameters, given)?;
         let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
@@ -265,7 +270,12 @@ impl System {
     }
 
     /// The initial state but for the numbers carried along.
-    fn begin(&self, start: f64, parameters: &[f64], given: &[InitialOverride]) -> Result<State, MotionError> {
+    fn begin(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let values = self.initial_program(&inputs);
@@ -309,7 +319,12 @@ impl System {
 
     /// The same state in another form. Where several velocities belong to the momenta, those are
     /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
-    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, MotionError> {
+    pub fn convert(
+        &self,
+        state: &State,
+        form: Form,
+        parameters: &[f64],
+    ) -> Result<State, MotionError> {
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
         if state.form != form && self.has_branches() && form == self.form() {
@@ -477,7 +492,11 @@ impl System {
 
     /// A fault where a state in the system's own form has no finite energy: where its Lagrangian
     /// or Hamiltonian has no value, though its derivatives may have.
-    pub(crate) fn check_energy(&self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+    pub(crate) fn check_energy(
+        &self,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<(), MotionError> {
         if self.energy_of(state, parameters)?.is_finite() {
             return Ok(());
         }
@@ -621,8 +640,11 @@ impl System {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
         let held = self.constraints() > 0;
-        let kind =
-            if held { MotionErrorKind::SingularConstraints(None) } else { MotionErrorKind::SingularMass };
+        let kind = if held {
+            MotionErrorKind::SingularConstraints(None)
+        } else {
+            MotionErrorKind::SingularMass
+        };
         MotionError { time, kind, place: place.take(4).collect() }
     }
 

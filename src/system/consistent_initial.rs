@@ -52,7 +52,8 @@ pub(super) fn begin(
     known: &[Known],
 ) -> Result<(), InconsistentStart> {
     let n = known.len();
-    let unknown: Vec<usize> = (0..n).filter(|&i| !matches!(known[i], Known::InitialOverride)).collect();
+    let unknown: Vec<usize> =
+        (0..n).filter(|&i| !matches!(known[i], Known::InitialOverride)).collect();
     let mut problem = Problem { conditions, momenta, time, known, unknown };
     let (missing, _) = problem.missing(state)?;
     let (_, free) = problem.step(&missing);

@@ -369,11 +369,15 @@ impl System {
 
     fn lost(&self, why: ProjectionError, state: &State) -> MotionError {
         let kind = match (why, self.constrained()) {
-            (ProjectionError::Lost(k), Some(c)) => MotionErrorKind::ConstraintLost(c.names[k].clone()),
+            (ProjectionError::Lost(k), Some(c)) => {
+                MotionErrorKind::ConstraintLost(c.names[k].clone())
+            }
             (ProjectionError::Parted(k), Some(c)) => {
                 MotionErrorKind::ConstraintParted(c.names[k].clone())
             }
-            (ProjectionError::Singular, _) | (_, None) => MotionErrorKind::SingularConstraints(None),
+            (ProjectionError::Singular, _) | (_, None) => {
+                MotionErrorKind::SingularConstraints(None)
+            }
         };
         self.fault(kind, state.time, &state.values)
     }

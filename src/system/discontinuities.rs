@@ -12,7 +12,7 @@ use super::program::Program;
 use super::resolution::{self, Resolution};
 use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
-use super::{MotionError, MotionErrorKind, Form, State, System};
+use super::{Form, MotionError, MotionErrorKind, State, System};
 use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Direction, Model};
 use crate::num::DoubleDouble;

@@ -73,7 +73,9 @@ impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let time = printable::number(self.time);
         match &self.kind {
-            MotionErrorKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
+            MotionErrorKind::SingularMass => {
+                write!(f, "the mass matrix is singular at t = {time}")?
+            }
             MotionErrorKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
             }
@@ -102,7 +104,9 @@ impl fmt::Display for MotionError {
                 "what is given belongs to several starts ({}): give one of these instead",
                 starts.join("; ")
             )?,
-            MotionErrorKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
+            MotionErrorKind::NotFinite(name) => {
+                write!(f, "{name} is no longer finite at t = {time}")?
+            }
             MotionErrorKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
             }

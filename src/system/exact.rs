@@ -33,7 +33,11 @@ impl ExactRates {
     }
 
     /// Evaluates at a time and at the numbers of a state.
-    pub fn evaluate(&mut self, time: DoubleDouble, numbers: &[DoubleDouble]) -> Result<(), MotionError> {
+    pub fn evaluate(
+        &mut self,
+        time: DoubleDouble,
+        numbers: &[DoubleDouble],
+    ) -> Result<(), MotionError> {
         let outcome = self.values.evaluate(time, &numbers[..self.system.driven_len()]);
         outcome.map_err(|singular| {
             let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();

@@ -2,7 +2,7 @@
 
 use super::legendre::Legendre;
 use super::value::Evaluator;
-use super::{MotionError, Form, State, System};
+use super::{Form, MotionError, State, System};
 use crate::num::{DoubleDouble, Real};
 use std::sync::Arc;
 

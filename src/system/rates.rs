@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::legendre::{Legendre, LegendreError};
 use super::program::Program;
 use super::value::Evaluator;
-use super::{MotionError, Form, State, System};
+use super::{Form, MotionError, State, System};
 use crate::num::DoubleDouble;
 
 /// The rate of change of every number of a state, as a function of time and these numbers. Holds
@@ -136,7 +136,12 @@ impl Rates {
 
     /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
     /// numbers that do not move are left alone.
-    pub fn evaluate(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
+    pub fn evaluate(
+        &mut self,
+        time: f64,
+        numbers: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), MotionError> {
         let numbers = &numbers[..self.system.driven_len()];
         let inputs = match &mut self.solver {
             None => numbers,

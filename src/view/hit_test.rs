@@ -43,7 +43,13 @@ pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
 }
 
 /// What lies at one place of it.
-pub fn hit_test(app: &App, look: &RenderStyle, area: Rect, column: u16, row: u16) -> Option<HitTarget> {
+pub fn hit_test(
+    app: &App,
+    look: &RenderStyle,
+    area: Rect,
+    column: u16,
+    row: u16,
+) -> Option<HitTarget> {
     hit_targets(app, look, area).at(column, row)
 }
 

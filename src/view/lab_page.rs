@@ -14,12 +14,12 @@ use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, phase, potential, series, space};
-use crate::app::{App, Field, Lab, Overlay, Pane, Plot, HitTarget, ValueId};
+use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, Plot, ValueId};
 use crate::experiment::{Failure, Status};
 
 /// Draws all panes that have a place.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
-    let field = match &app.over {
+    let field = match &app.overlay {
         Some(Overlay::Field(field)) => Some(field),
         _ => None,
     };

@@ -6,13 +6,13 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
-use super::highlight::found_in;
 use super::help::named;
+use super::highlight::found_in;
 use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words, words_in};
-use crate::app::{Choice, Fit, Item, Menu, HitTarget};
+use crate::app::{Choice, Fit, HitTarget, Item, Menu};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {

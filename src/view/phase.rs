@@ -59,7 +59,8 @@ pub(super) fn draw(
     let look = canvas.look;
     let landscape = q.lab.landscape(plot);
     let window = |axis: usize| landscape.map(|l| l.window[axis]);
-    let axes = Axes::new(q.axis(*x, window(0), (*viewport, 0)), q.axis(*y, window(1), (*viewport, 1)));
+    let axes =
+        Axes::new(q.axis(*x, window(0), (*viewport, 0)), q.axis(*y, window(1), (*viewport, 1)));
     let axes = if viewport.equal { axes.equal() } else { axes };
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);

@@ -13,7 +13,7 @@ use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
 use super::{phase, potential, series, space};
-use crate::app::{App, Fit, Picker, Plot, HitTarget};
+use crate::app::{App, Fit, HitTarget, Picker, Plot};
 use crate::preset::{Entry, Origin};
 
 /// Columns of the list where something stands beside it.

@@ -13,7 +13,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use crate::app::{Viewport, Potential};
+use crate::app::{Potential, Viewport};
 
 /// The layers of the picture, the lowest first.
 const ALLOWED: u8 = 0;

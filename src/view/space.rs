@@ -60,11 +60,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist = ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
+    let mut artist =
+        ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
-    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.beside.frames.get(frame));
+    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     legend(canvas, area, &forces);

@@ -6,7 +6,7 @@ use phaselab::experiment::{Experiment, Progress, Setup, Status, choose_method};
 use phaselab::expr::{Expr, Zero};
 use phaselab::mechanics::{self, Equations};
 use phaselab::model::Model;
-use phaselab::system::{MotionError, MotionErrorKind, InitialOverride, System};
+use phaselab::system::{InitialOverride, MotionError, MotionErrorKind, System};
 
 use crate::build::{constrain, lagrangian, read};
 
@@ -324,7 +324,10 @@ fn velocities_left_out_follow_from_the_constraints() {
     );
     start(&mut model, &[("0", None), ("0", None)]);
     let free = initial(&model, &[]).unwrap_err();
-    assert!(matches!(&free, MotionErrorKind::FreeVelocities(names) if names.len() == 1), "{free:?}");
+    assert!(
+        matches!(&free, MotionErrorKind::FreeVelocities(names) if names.len() == 1),
+        "{free:?}"
+    );
 }
 
 #[test]
@@ -335,7 +338,8 @@ fn a_velocity_that_happens_to_be_free_at_the_start_is_not_guessed() {
     start(&mut model, &[("1", None), ("0", None), ("0", None)]);
     let free = initial(&model, &[]).unwrap_err();
     assert_eq!(free, MotionErrorKind::FreeVelocities(vec!["y'".to_owned()]));
-    let state = initial(&model, &[InitialOverride::Velocity(1, 2.0)]).expect("nothing is left to choose");
+    let state =
+        initial(&model, &[InitialOverride::Velocity(1, 2.0)]).expect("nothing is left to choose");
     assert_eq!(state, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
 }
 

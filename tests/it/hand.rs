@@ -59,8 +59,9 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
         };
         let free = loaded.model.constraints.is_empty();
         // variables of a Poisson system have no velocity of their own
-        let possible =
-            |given: &InitialOverride| !loaded.model.is_poisson() || matches!(given, InitialOverride::Position(..));
+        let possible = |given: &InitialOverride| {
+            !loaded.model.is_poisson() || matches!(given, InitialOverride::Position(..))
+        };
         let given: Vec<InitialOverride> =
             (0..system.degrees()).filter(|_| free).flat_map(swing).filter(possible).collect();
         let mut values = vec![f64::NAN; system.channels().len()];

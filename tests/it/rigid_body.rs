@@ -8,7 +8,9 @@ use phaselab::analysis::flaws;
 use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
-use phaselab::model::{Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, Solid, Turn};
+use phaselab::model::{
+    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, Solid, Turn,
+};
 use phaselab::num::DoubleDouble;
 use phaselab::preset;
 use phaselab::system::System;

@@ -8,7 +8,9 @@
 use super::Propagator;
 use crate::integrate::{Settings, Stepper, Stepping, method_named};
 use crate::num::math;
-use crate::system::{ConstraintProjector, Directions, MotionError, MotionErrorKind, Form, Passage, State};
+use crate::system::{
+    ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
+};
 
 /// Between two looks whose directions are closer than this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;

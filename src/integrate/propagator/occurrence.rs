@@ -52,17 +52,19 @@ impl Propagator {
     }
 
     /// Strikes the present state.
-    fn impulse_at(&mut self, impulse: usize, event: Option<usize>) -> Result<Occurrence, MotionError> {
+    fn impulse_at(
+        &mut self,
+        impulse: usize,
+        event: Option<usize>,
+    ) -> Result<Occurrence, MotionError> {
         let mut before = self.own()?;
         let time = before.time;
         if let Some(projector) = &mut self.projector {
             projector.project(&mut before)?;
         }
         let after_impulse = self.system.apply_impulse(impulse, &before, &self.parameters)?;
-        let kind = OccurrenceKind::Impulse {
-            jump: after_impulse.jump,
-            reaction: after_impulse.reaction,
-        };
+        let kind =
+            OccurrenceKind::Impulse { jump: after_impulse.jump, reaction: after_impulse.reaction };
         if let Some(crossings) = &mut self.crossings {
             crossings.after_impulse(&before, &after_impulse.after, event)?;
         }

@@ -6,7 +6,7 @@
 //! energy; that is asked of many directions, and of the one in which everything else pulls.
 
 use crate::num::{DoubleDouble, Real};
-use crate::system::{ExactRates, MotionError, MotionErrorKind, Form, State, System};
+use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
 /// Velocities below this part of what a typical step changes them by count as zero where friction
 /// takes away even more.
@@ -100,7 +100,9 @@ pub(super) fn of(
         }
         direction = next;
     }
-    let Some(accelerations) = asked.accelerations(&direction)? else { return Ok(Sticking::Unknown) };
+    let Some(accelerations) = asked.accelerations(&direction)? else {
+        return Ok(Sticking::Unknown);
+    };
     let mut toward = vec![DoubleDouble::ZERO; state.values.len()];
     toward[n..2 * n].copy_from_slice(&accelerations);
     Ok(Sticking::SetsOut(asked.still, toward))
@@ -131,7 +133,10 @@ impl Asked<'_> {
     }
 
     /// The accelerations there, if they are finite.
-    fn accelerations(&mut self, direction: &[f64]) -> Result<Option<Vec<DoubleDouble>>, MotionError> {
+    fn accelerations(
+        &mut self,
+        direction: &[f64],
+    ) -> Result<Option<Vec<DoubleDouble>>, MotionError> {
         let state = self.moving(direction);
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         match self.rates.evaluate(state.exact_time(), &numbers) {

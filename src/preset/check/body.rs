@@ -5,7 +5,9 @@ use toml::Spanned;
 use super::Check;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
-use crate::model::{Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn};
+use crate::model::{
+    Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn,
+};
 use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 
 impl Check<'_> {

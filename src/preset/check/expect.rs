@@ -7,7 +7,9 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
-use crate::model::{Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope};
+use crate::model::{
+    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope,
+};
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };

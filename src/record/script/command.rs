@@ -4,7 +4,7 @@
 
 use super::key;
 use super::line::Line;
-use super::{Assert, Measure, Relation, Said, Step, Text, SweepPath, Word};
+use super::{Assert, Measure, Relation, Said, Step, SweepPath, Text, Word};
 use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;

@@ -39,7 +39,8 @@ impl Pen {
     pub(super) fn clear(&mut self, out: &mut Vec<u8>) {
         out.extend(b"\x1b[0m\x1b[2J");
         self.at = None;
-        self.ink = Some(CellStyle { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
+        self.ink =
+            Some(CellStyle { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
     }
 
     /// Writes a cell of a screen so many columns wide.

@@ -4,7 +4,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::{Dash, PaletteColour, Palette, Shade};
+use super::{Dash, Palette, PaletteColour, Shade};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// Makes the ramps of a palette at a depth.

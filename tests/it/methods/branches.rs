@@ -1,7 +1,7 @@
 //! Where p = ∂L/∂q̇ is not one-to-one: a motion stays on the branch its velocity is on.
 
 use phaselab::integrate::Settings;
-use phaselab::system::{MotionErrorKind, Form, InitialOverride};
+use phaselab::system::{Form, InitialOverride, MotionErrorKind};
 
 use crate::build::{hamiltonian, lagrangian};
 
@@ -55,7 +55,8 @@ fn where_the_branch_ends_the_motion_does() {
 #[test]
 fn momenta_that_belong_to_several_velocities_are_refused() {
     let case = branched(1.5);
-    let start = |p: f64| case.system.initial(0.0, &case.parameters, &[InitialOverride::Momentum(0, p)]);
+    let start =
+        |p: f64| case.system.initial(0.0, &case.parameters, &[InitialOverride::Momentum(0, p)]);
     let message = start(0.1).expect_err("three roots").to_string();
     for root in ["0.9456492739235914", "0.10103125788101082", "1.046680531804602"] {
         assert!(message.contains(root), "{message}");

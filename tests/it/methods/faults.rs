@@ -1,7 +1,7 @@
 //! What a method cannot do, and how it says so.
 
 use phaselab::integrate::{METHODS, Settings, Stepping};
-use phaselab::system::{MotionErrorKind, Form};
+use phaselab::system::{Form, MotionErrorKind};
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
 

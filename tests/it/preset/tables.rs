@@ -1,7 +1,10 @@
 //! The tables beside the law: what they may say, and what the model then holds.
 
 use phaselab::expr::{Expr, Rank};
-use phaselab::model::{Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Shape, Solid, Turn, multiplier_name};
+use phaselab::model::{
+    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Shape, Solid,
+    Turn, multiplier_name,
+};
 
 use super::good::{checked, model, text, with};
 

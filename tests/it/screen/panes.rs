@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Viewport, Notification, Plot};
+use phaselab::app::{App, Event, Notification, Plot, Viewport};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
 use phaselab::model::{Shape, ViewKind};
@@ -198,7 +198,10 @@ fn the_cursor_reads_the_cell_it_stands_on() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab c");
     let plot = &app.lab.as_ref().unwrap().plots[1];
-    assert!(matches!(plot, Plot::Phase { viewport: Viewport { cursor: Some([0.5, 0.5]), .. }, .. }));
+    assert!(matches!(
+        plot,
+        Plot::Phase { viewport: Viewport { cursor: Some([0.5, 0.5]), .. }, .. }
+    ));
     let buffer = screen(&app, &rich(), (120, 40));
     let (x, y) = find(&buffer, "┼").unwrap();
     assert!((40..80).contains(&x) && y < 24, "in the phase portrait");

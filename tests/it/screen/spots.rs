@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Act, App, Event, Drag, Overlay, Page, Pane, Plot, HitTarget, ValueId};
+use phaselab::app::{Act, App, Drag, Event, HitTarget, Overlay, Page, Pane, Plot, ValueId};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
@@ -64,7 +64,7 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
             match spot {
                 HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
-                    let shown = app.lab.as_ref().unwrap().facts(target).unwrap().shown;
+                    let shown = app.lab.as_ref().unwrap().value_info(target).unwrap().shown;
                     named(&rich().glyphs.text(&shown));
                 }
                 // Every second row of a gauge holds its numbers.
@@ -98,7 +98,9 @@ fn every_pane_answers_in_its_own_frame() {
             let focus = app.lab.as_ref().unwrap().focus;
             let belongs = |spot: &HitTarget| match *spot {
                 HitTarget::Pane(pane) => pane == focus,
-                HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => focus == Pane::Plot(index),
+                HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => {
+                    focus == Pane::Plot(index)
+                }
                 HitTarget::Value(ValueId::Parameter(_)) => focus == Pane::Parameters,
                 HitTarget::Bar { target: ValueId::Parameter(_), .. } => focus == Pane::Parameters,
                 HitTarget::Value(ValueId::Initial(_)) => focus == Pane::Initial,
@@ -152,7 +154,9 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
     let spots = all(&real.app, size);
     let pick = |want: [f64; 2]| {
         let far = |spot: &HitTarget| match spot {
-            HitTarget::Plot { index: 1, at, .. } => (at[0] - want[0]).abs() + (at[1] - want[1]).abs(),
+            HitTarget::Plot { index: 1, at, .. } => {
+                (at[0] - want[0]).abs() + (at[1] - want[1]).abs()
+            }
             _ => f64::INFINITY,
         };
         spots.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
@@ -205,7 +209,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     }
     // Beside the bar the knob stops at its end.
     act(&mut real, size, Act::Drag, (119, 0));
-    let (_, max, _) = real.lab().facts(ValueId::Parameter(1)).unwrap().range.unwrap();
+    let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Act::Release, (119, 0));
     assert_eq!(real.app.hold, None);
@@ -276,7 +280,8 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         match (&before[picture], &after[picture], grabbed) {
             (Plot::Space(a), Plot::Space(b), _) => assert!(a.yaw != b.yaw && a.pitch != b.pitch),
             (_, Plot::Phase { .. }, HitTarget::Plot { at: from, .. }) => {
-                let Some(HitTarget::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1)) else {
+                let Some(HitTarget::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1))
+                else {
                     panic!("nothing there")
                 };
                 assert!((from[0] - to[0]).abs() < 0.2, "{from:?} {to:?}");
@@ -310,7 +315,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.lab().focus, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
-    assert!(matches!(real.app.over, Some(Overlay::Help { .. })));
+    assert!(matches!(real.app.overlay, Some(Overlay::Help { .. })));
     act(&mut real, size, Act::WheelDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");
@@ -318,7 +323,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.seen().method.name, "leapfrog");
     real.press(":");
     click(&mut real, size, (0, 5));
-    assert!(real.app.over.is_none(), "beside a list it closes");
+    assert!(real.app.overlay.is_none(), "beside a list it closes");
     real.press("Tab");
     let place = on(&real, "Parameters");
     click(&mut real, size, place);
@@ -333,9 +338,9 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let place = places(&real.app, size, |spot| *spot == value)[0];
     click(&mut real, size, place);
     assert_eq!(real.lab().selected(), Some(ValueId::Parameter(2)));
-    assert!(real.app.over.is_none());
+    assert!(real.app.overlay.is_none());
     click(&mut real, size, place);
-    assert!(matches!(&real.app.over, Some(Overlay::Field(_))));
+    assert!(matches!(&real.app.overlay, Some(Overlay::Field(_))));
 }
 
 #[test]
@@ -358,7 +363,9 @@ fn the_wheel_scrolls_text_and_lists() {
     assert_eq!(app.picker.selected, before - 1);
     let systems: Vec<usize> = all(&app, (80, 24))
         .into_iter()
-        .filter_map(|(_, spot)| if let HitTarget::System(place) = spot { Some(place) } else { None })
+        .filter_map(
+            |(_, spot)| if let HitTarget::System(place) = spot { Some(place) } else { None },
+        )
         .collect();
     let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
     app.update(Event::Mouse(Act::Press, HitTarget::System(other)));
@@ -369,7 +376,7 @@ fn the_wheel_scrolls_text_and_lists() {
     let spot = at(&app, (80, 24), (20, 8)).unwrap();
     assert!(matches!(spot, HitTarget::Line(_)), "{spot:?}");
     app.update(Event::Mouse(Act::WheelDown, spot));
-    let Some(Overlay::Menu(menu)) = &app.over else { panic!("the palette is gone") };
+    let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
 

@@ -2,7 +2,7 @@
 
 use phaselab::integrate::METHODS;
 use phaselab::integrate::Settings;
-use phaselab::system::{MotionErrorKind, Form, InitialOverride, State};
+use phaselab::system::{Form, InitialOverride, MotionErrorKind, State};
 
 use super::{compile, parameters};
 
@@ -173,8 +173,12 @@ L = "x'*atan(x') - 1/2*ln(1 + x'^2)"
     // p = atan(x') stays below π/2
     let outcome = system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 2.0)]);
     let fault = outcome.expect_err("there is no such velocity");
-    assert!(matches!(fault.kind, MotionErrorKind::NoVelocities | MotionErrorKind::SingularMass), "{fault}");
-    let state = system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 1.5)]).expect("is");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::NoVelocities | MotionErrorKind::SingularMass),
+        "{fault}"
+    );
+    let state =
+        system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 1.5)]).expect("is");
     close(state.values[1], 1.5_f64.tan());
 }
 

@@ -139,7 +139,10 @@ fn a_collision_is_a_fault_and_not_an_endless_loop() {
     // the time of fall from rest: π/2 · √(r³/2)
     let fall = std::f64::consts::FRAC_PI_2 / 2.0_f64.sqrt();
     assert!((fault.time - fall).abs() < 1e-9, "{fault}");
-    assert!(matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{fault}"
+    );
     assert!(run.steps < 2000);
 }
 
@@ -151,7 +154,10 @@ fn leaving_the_domain_of_a_function_is_a_fault() {
             .as_str(),
     );
     let fault = run.try_to(10.0).expect_err("the potential ends at x = 0");
-    assert!(matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{fault}"
+    );
 }
 
 #[test]
