@@ -45,7 +45,7 @@ pub use editor::{Caret, Editor};
 pub use event::{Drawn, Effect, Event, LoadError, Loaded};
 pub use field::{Field, Purpose};
 pub use fuzzy::Fit;
-pub use hit_target::{Drag, HitTarget};
+pub use hit_target::{Grab, HitTarget};
 pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
 pub use notification::Notification;
@@ -100,7 +100,7 @@ pub struct App {
     /// What is to be reported after that.
     notifications: notification::NotificationQueue,
     /// What the mouse holds on to.
-    pub hold: Option<Drag>,
+    pub hold: Option<Grab>,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,

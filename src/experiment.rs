@@ -275,7 +275,7 @@ impl Experiment {
     }
 
     fn initial_state(&self) -> Result<State, system::MotionError> {
-        let Setup { start, parameters, given, .. } = &self.setup;
+        let Setup { start, parameters, overrides: given, .. } = &self.setup;
         self.motion.whole().initial(*start, parameters, given)
     }
 

@@ -13,12 +13,11 @@ mod picture;
 mod scope;
 mod unit;
 
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
-pub use claim::{
-    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, SourceRange,
-};
+pub use claim::{Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable};
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
 pub use occurrence::{Action, Direction, Event, Impulse};

@@ -144,6 +144,6 @@ pub fn perform_demo(
     let palette = look.theme.palette();
     let mut demo = Demo::new(performance, look);
     let ending = perform(&mut demo, request.pace(&variable))?;
-    let text = |picture| still::write(&picture, palette, still::Form::Ansi, "");
+    let text = |picture| screenshot::write(&picture, palette, screenshot::Form::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
 }

@@ -52,7 +52,7 @@ use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 use canvas::{Canvas, row};
 pub use detail::Detail;
 use glyphs::Glyphs;
-pub use hit_test::{HitTest, spot, spots};
+pub use hit_test::{HitMap, hit_targets, hit_test};
 use layout::{LEAST, Screen};
 use quantity::Quantities;
 use text_page::TextPage;
@@ -103,7 +103,7 @@ fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
-    let over = app.over.as_ref();
+    let over = app.overlay.as_ref();
     if let Some(Overlay::Help { .. }) = over {
         let page = help::document(look, app.places_below());
         return text(canvas, area, "Keys", page, app.scroll);

@@ -13,8 +13,8 @@ use tui_input::Input;
 use super::Loaded;
 use super::editor::{Caret, Editor};
 use super::field::edit;
+use crate::diagnostic::TEXT_LIMIT;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::preset::TEXT_LIMIT;
 
 /// For how long typing rests before the text is checked.
 const REST: Duration = Duration::from_millis(150);

@@ -22,7 +22,7 @@ impl PendingChanges {
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
         self.method.take_if(|wish| *wish == snapshot.method.name);
         self.settings.take_if(|wish| *wish == snapshot.setup.settings);
-        self.given.take_if(|wish| *wish == snapshot.setup.given);
+        self.given.take_if(|wish| *wish == snapshot.setup.overrides);
     }
 }
 
@@ -71,7 +71,7 @@ impl Lab {
     }
 
     fn given(&self) -> Vec<InitialOverride> {
-        let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.given.clone());
+        let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.overrides.clone());
         self.asked.given.clone().unwrap_or_else(fact)
     }
 

@@ -1,6 +1,6 @@
 //! Spots: what a place on the screen shows, for the mouse.
 //!
-//! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Drag`], what the mouse holds on to. Never here: where anything
+//! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Grab`], what the mouse holds on to. Never here: where anything
 //! stands on the screen, or what a click does.
 
 use super::{Action, Page, Pane, ValueId};
@@ -55,7 +55,7 @@ pub enum HitTarget {
 
 /// What the mouse holds while its button is down: it goes with the mouse, wherever that goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Drag {
+pub enum Grab {
     /// The knob of a value's bar.
     Bar(ValueId),
     /// A picture.

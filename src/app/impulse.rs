@@ -24,7 +24,7 @@ impl Lab {
         let line = |index: usize| {
             let impulse = &self.loaded.model.impulses[index];
             Item {
-                label: format!("strike: {}", impulse.name),
+                label: format!("impulse: {}", impulse.name),
                 about: impulse.about.clone(),
                 keys: String::new(),
                 refusal: None,
@@ -36,26 +36,26 @@ impl Lab {
 }
 
 impl App {
-    /// Strikes the one impulse there is, or asks which.
+    /// Applies the one impulse there is, or asks which.
     pub(super) fn apply_one_impulse(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         match lab.impulse_lines().as_slice() {
             [] if lab.loaded.model.impulses.is_empty() => {
-                self.notify("This system has no impulses to strike.")
+                self.notify("This system has no impulses.")
             }
             [] => {
-                self.notify("The impulses of this system fall by themselves; none waits for a key.")
+                self.notify("The impulses of this system act by themselves; none waits for a key.")
             }
             [Item { choice: Choice::Impulse(only), .. }] => self.apply_impulse(*only),
             lines => {
-                let menu = Menu::new("Strike", Choosing::Impulse, lines.to_vec());
+                let menu = Menu::new("Impulse", Choosing::Impulse, lines.to_vec());
                 self.overlay = Some(Overlay::Menu(menu));
                 Vec::new()
             }
         }
     }
 
-    /// Strikes the impulse of this index.
+    /// Applies the impulse of this index.
     pub(super) fn apply_impulse(&mut self, index: usize) -> Vec<Effect> {
         match self.snapshot().map(|s| &s.status) {
             Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),

@@ -236,7 +236,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
-    row(Place::Lab, &[c('b')], Action::ApplyImpulse, "strike", "strike an impulse of the file that waits for a key"),
+    row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse of the file that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "look at the motion in space from the next frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 

@@ -5,7 +5,7 @@
 use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::change::place;
-use super::hit_target::{Drag, HitTarget};
+use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, Plot, ValueId};
 use crate::system::{ChannelKind, InitialOverride};
 
@@ -70,13 +70,13 @@ impl App {
             HitTarget::Bar { target, value } => {
                 lab.choose(target);
                 lab.history.begin_group();
-                self.hold = Some(Drag::Bar(target));
+                self.hold = Some(Grab::Bar(target));
                 return self.pull(target, value);
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus = Pane::Plot(index);
                 lab.history.begin_group();
-                self.hold = Some(Drag::Picture { index, place, moved: false });
+                self.hold = Some(Grab::Picture { index, place, moved: false });
             }
             _ => {}
         }
@@ -85,14 +85,14 @@ impl App {
 
     fn drag(&mut self, spot: HitTarget) -> Vec<Effect> {
         match (self.hold, spot) {
-            (Some(Drag::Bar(held)), HitTarget::Bar { target, value }) if held == target => {
+            (Some(Grab::Bar(held)), HitTarget::Bar { target, value }) if held == target => {
                 self.pull(target, value)
             }
             (
-                Some(Drag::Picture { index: held, place: from, .. }),
+                Some(Grab::Picture { index: held, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
             ) if held == index && place != from => {
-                self.hold = Some(Drag::Picture { index, place, moved: true });
+                self.hold = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 if let Some(lab) = &mut self.lab {
                     lab.redraw(index, |plot, _| plot.drag(by));
@@ -107,7 +107,7 @@ impl App {
         let held = self.hold.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (held, spot) {
-            (Some(Drag::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
+            (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.beginning_at(index, at) {
                     Some(_) if !lab.loaded.model.constraints.is_empty() => {
                         let why =

@@ -79,7 +79,7 @@ impl Lab {
         let rows = equations.constraints.iter().enumerate();
         let multipliers = rows.map(|(k, row)| (row.multiplier, ChannelKind::Multiplier(k)));
         let energy = [(equations.symbols.energy, ChannelKind::Energy)];
-        let entries = equations.beside.attitude_symbols.iter().flatten().flatten().enumerate();
+        let entries = equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate();
         let attitude = entries.map(|(i, symbol)| (*symbol, ChannelKind::Attitude(i)));
         let mut known = of_coordinate.chain(multipliers).chain(energy).chain(attitude);
         let kind = known.find(|(s, _)| *s == symbol);
@@ -88,7 +88,7 @@ impl Lab {
         if let Some(place) = place {
             return snapshot.values[place];
         }
-        let body = equations.beside.body.as_ref();
+        let body = equations.supplements.body.as_ref();
         let constants = body_values(model, &equations.pool, body, &snapshot.parameters);
         constants.into_iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| value)
     }

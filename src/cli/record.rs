@@ -91,9 +91,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     let written = match arguments.format {
-        Format::V3 => cast::write(&recording, Version::Three, &mut out).map(|_| ()),
-        Format::V2 => cast::write(&recording, Version::Two, &mut out).map(|_| ()),
-        Format::Account => out.write_all(account::write(&recording).as_bytes()),
+        Format::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
+        Format::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
+        Format::Account => out.write_all(transcript::write(&recording).as_bytes()),
     };
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;
@@ -122,8 +122,8 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
         }
     };
     let palette = recording.look.theme.palette();
-    let text = still::write(screen, palette, form, &recording.title);
-    let written = if form == still::Form::Ansi { Form::Coloured } else { Form::Text };
+    let text = screenshot::write(screen, palette, form, &recording.title);
+    let written = if form == screenshot::Form::Ansi { Form::Coloured } else { Form::Text };
     let mut out = Output::open(Some(path), written)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()

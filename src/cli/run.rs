@@ -141,7 +141,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {
         parameters,
-        given,
+        overrides: given,
         method: method.name.to_owned(),
         settings,
         end: Some(times.end()),

@@ -1,14 +1,16 @@
-//! The text of one preset, from the binary or from disk: read within limits, kept with the name it
+//! The text of one file, from the binary or from disk: read within limits, kept with the name it
 //! is reported under. Not here: what the text means.
 
 use std::io;
 use std::path::Path;
 
-use super::{Checked, Diagnostic, TEXT_LIMIT, read_with, report};
-use crate::cancel::Cancel;
+use super::{Diagnostic, report};
 use crate::{file, printable};
 
-/// A preset's text with its name.
+/// The most bytes a file may have.
+pub const TEXT_LIMIT: usize = 1 << 20;
+
+/// A text with the name of its file.
 #[derive(Clone, Debug)]
 pub struct Document {
     /// What reports call it: the path of a file, fit to be shown; `presets/…` for a shipped one.
@@ -75,25 +77,6 @@ impl Document {
         self.unreadable.as_ref()
     }
 
-    /// Reads the preset in it.
-    ///
-    /// # Errors
-    /// All its mistakes, see [`read`](super::read).
-    pub fn read(&self) -> Result<Checked, Vec<Diagnostic>> {
-        self.read_with(&Cancel::new())
-    }
-
-    /// The same, with a token by which this and all that is made of the model can be stopped.
-    ///
-    /// # Errors
-    /// All its mistakes, see [`read`](super::read).
-    pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
-        match &self.unreadable {
-            Some(mistake) => Err(vec![mistake.clone()]),
-            None => read_with(&self.text, cancel),
-        }
-    }
-
     /// The line and the column of a byte of the text, both counted from 1, the column in
     /// characters.
     pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
@@ -110,7 +93,7 @@ impl Document {
 }
 
 /// The refusal of a file beyond the limit.
-pub(super) fn too_long(bytes: u64) -> Diagnostic {
+pub fn too_long(bytes: u64) -> Diagnostic {
     let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
     Diagnostic::error(0..0, message)
 }

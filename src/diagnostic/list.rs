@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::Checked;
-use crate::diagnostic::SourceRange;
-use crate::model::Model;
+/// A range of bytes in the text of a file.
+pub type SourceRange = std::ops::Range<usize>;
 
 /// How bad a mistake is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -67,7 +66,7 @@ const MOST: usize = 100;
 /// The mistakes of one file, and what TOML's own mistakes may have swallowed: what only seems to
 /// be missing because of them is not complained of.
 #[derive(Default, Debug)]
-pub(super) struct Diagnostics {
+pub struct Diagnostics {
     list: Vec<Diagnostic>,
     left_out: usize,
     /// Keys that TOML lost.
@@ -80,7 +79,7 @@ pub(super) struct Diagnostics {
 
 impl Diagnostics {
     /// Takes note of a mistake.
-    pub(super) fn push(&mut self, mut mistake: Diagnostic) {
+    pub fn push(&mut self, mut mistake: Diagnostic) {
         shorten(&mut mistake.message);
         if let Some(help) = &mut mistake.help {
             shorten(help);
@@ -108,34 +107,34 @@ impl Diagnostics {
     }
 
     /// Takes note that something called `key` is not there, unless TOML's mistakes explain it.
-    pub(super) fn missing(&mut self, key: &str, mistake: Diagnostic) {
+    pub fn missing(&mut self, key: &str, mistake: Diagnostic) {
         if !self.lost_keys.contains(key) {
             self.push(mistake);
         }
     }
 
     /// A key that TOML lost on the way.
-    pub(super) fn lose_key(&mut self, key: &str) {
+    pub fn lose_key(&mut self, key: &str) {
         self.lost_keys.insert(key.to_owned());
     }
 
     /// A value that TOML could not read.
-    pub(super) fn lose_value(&mut self, place: SourceRange) {
+    pub fn lose_value(&mut self, place: SourceRange) {
         self.lost_values.push(place);
     }
 
     /// TOML lost its way: what it read of the rest may be anything.
-    pub(super) fn lose_track(&mut self) {
+    pub fn lose_track(&mut self) {
         self.lost_track = true;
     }
 
     /// Whether too little is left of the file to say more of it.
-    pub(super) fn lost_track(&self) -> bool {
+    pub fn lost_track(&self) -> bool {
         self.lost_track
     }
 
     /// All of them, in the order of their places.
-    pub(super) fn into_list(mut self) -> Vec<Diagnostic> {
+    pub fn into_list(mut self) -> Vec<Diagnostic> {
         self.sort();
         if self.left_out > 0 {
             let place = self.list.last().map_or(0..0, |m| m.place.clone());
@@ -145,20 +144,15 @@ impl Diagnostics {
         self.list
     }
 
-    /// Whether there is a mistake that makes the file unusable.
-    pub(super) fn any_error(&self) -> bool {
-        self.list.iter().any(|m| m.severity == Severity::Error)
+    /// All of them where none makes the file unusable, in the order of their places.
+    pub fn into_warnings(mut self) -> Vec<Diagnostic> {
+        self.sort();
+        self.list
     }
 
-    /// The verdict on the file.
-    pub(super) fn conclude(mut self, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
-        match model {
-            Some(model) if !self.any_error() => {
-                self.sort();
-                Ok(Checked { model, warnings: self.list })
-            }
-            _ => Err(self.into_list()),
-        }
+    /// Whether there is a mistake that makes the file unusable.
+    pub fn any_error(&self) -> bool {
+        self.list.iter().any(|m| m.severity == Severity::Error)
     }
 
     fn sort(&mut self) {

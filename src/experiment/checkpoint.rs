@@ -15,7 +15,7 @@ use super::gauges::Gauges;
 use super::{Experiment, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
-use crate::system::{Channel, ChannelKind, Failure, Form, InitialOverride, State, System};
+use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
 
 /// A motion that is on its constraints to this part of their terms may be taken up as it is.
 const KEPT_WITHIN: f64 = 1e-9;
@@ -136,7 +136,7 @@ impl Checkpoint {
             .map(|(p, &value)| Changed { name: p.name.clone(), value, of_file: p.value });
         Checkpoint {
             parameters: parameters.collect(),
-            initial: setup.given.iter().filter_map(|given| named(model, *given)).collect(),
+            initial: setup.overrides.iter().filter_map(|given| named(model, *given)).collect(),
             method: (setup.method != of_file.method).then(|| setup.method.clone()),
             step: setup.settings.step.filter(|_| setup.settings.step != of_file.settings.step),
             tolerance: setup
@@ -340,7 +340,7 @@ impl Experiment {
         }
         for named in &moment.initial {
             match given(&self.model, named) {
-                Some(given) => setup.given.push(given),
+                Some(given) => setup.overrides.push(given),
                 None => lost.push(named.name.clone()),
             }
         }
@@ -361,7 +361,7 @@ impl Experiment {
     }
 
     /// Puts the present where it was: to the last bit where the system has the same state, else as far as names agree.
-    fn take_present(&mut self, present: &MotionState) -> Result<(), Failure> {
+    fn take_present(&mut self, present: &MotionState) -> Result<(), MotionError> {
         let exact = present.fits(&self.model, self.system()) && self.take_exactly(present);
         if !exact {
             let state = self.state_of(present)?;
@@ -398,7 +398,7 @@ impl Experiment {
     }
 
     /// The state with the same coordinates and velocities (for a Hamiltonian: momenta), where there are such.
-    fn state_of(&self, present: &MotionState) -> Result<State, Failure> {
+    fn state_of(&self, present: &MotionState) -> Result<State, MotionError> {
         let poisson = self.model.is_poisson();
         let fits = |given: &InitialOverride| match given {
             InitialOverride::Position(..) => true,

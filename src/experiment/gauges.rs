@@ -112,7 +112,8 @@ impl Gauges {
             }
         }
         places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
-        for (i, symbol) in equations.beside.attitude_symbols.iter().flatten().flatten().enumerate()
+        for (i, symbol) in
+            equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate()
         {
             places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
         }

@@ -8,7 +8,7 @@ use crate::expr::Symbol;
 use crate::integrate::{
     self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Unstable,
 };
-use crate::system::{Failure, Observer, State, System, TermWatch};
+use crate::system::{MotionError, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.
 pub(super) struct ObservedMotion {
@@ -80,7 +80,7 @@ impl ObservedMotion {
     }
 
     /// Begins at a state.
-    pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), Failure> {
+    pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = Watch::of(self.inner.system(), parameters);
@@ -94,7 +94,7 @@ impl ObservedMotion {
         parameters: &[f64],
         start: f64,
         released: &[usize],
-    ) -> Result<(), Failure> {
+    ) -> Result<(), MotionError> {
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = Watch::of(self.inner.system(), parameters);
@@ -107,7 +107,7 @@ impl ObservedMotion {
     }
 
     /// Goes on from a state at the present time.
-    pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), Failure> {
+    pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.inner.go_on(state, parameters)?;
         self.observer.set_parameters(parameters);
         self.watch.terms.set_parameters(parameters);
@@ -123,7 +123,7 @@ impl ObservedMotion {
         limit: f64,
         budget: &mut u64,
         (gauges, spacing): (&mut Gauges, f64),
-    ) -> Result<Reached, Failure> {
+    ) -> Result<Reached, MotionError> {
         loop {
             let (before, mut one) = (self.inner.steps(), (*budget).min(1));
             let reached = self.inner.reach(time, limit, &mut one)?;
@@ -177,13 +177,13 @@ impl ObservedMotion {
     }
 
     /// Strikes the present.
-    pub(super) fn strike(&mut self, impulse: usize) -> Result<Occurrence, Failure> {
+    pub(super) fn strike(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let occurrence = self.inner.apply_impulse_now(impulse)?;
         self.take_in(&occurrence)?;
         Ok(occurrence)
     }
 
-    fn take_in(&mut self, occurrence: &Occurrence) -> Result<(), Failure> {
+    fn take_in(&mut self, occurrence: &Occurrence) -> Result<(), MotionError> {
         if matches!(occurrence.kind, OccurrenceKind::Release(_)) {
             let parameters = self.observer.parameters().to_vec();
             self.observer = self.inner.system().observer(&parameters);
@@ -192,18 +192,18 @@ impl ObservedMotion {
     }
 
     /// Moves the present to the end of what was computed before a fault.
-    pub(super) fn reach_end(&mut self) -> Result<(), Failure> {
+    pub(super) fn reach_end(&mut self) -> Result<(), MotionError> {
         self.inner.reach_computed()?;
         self.look()
     }
 
-    fn look(&mut self) -> Result<(), Failure> {
+    fn look(&mut self) -> Result<(), MotionError> {
         self.residuals = self.inner.residuals();
         self.observer.observe(self.inner.state(), &mut self.values)
     }
 
     /// Every channel's value just before the last impulse.
-    pub(super) fn values_before(&mut self) -> Result<Vec<f64>, Failure> {
+    pub(super) fn values_before(&mut self) -> Result<Vec<f64>, MotionError> {
         let mut values = vec![f64::NAN; self.values.len()];
         self.observer.observe(self.inner.before(), &mut values)?;
         Ok(values)

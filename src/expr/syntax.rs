@@ -4,6 +4,7 @@
 
 use super::function::{FUNCTIONS, FunctionId};
 use super::pool::{Expr, Pool};
+use crate::diagnostic::nearest;
 use crate::num::Number;
 
 /// A range of bytes in the source text of one expression.
@@ -215,18 +216,4 @@ fn check_call(
         return None;
     }
     Some(function)
-}
-
-/// The candidate most like a misspelt word, if any is near enough to be meant: at most a third of
-/// the letters differ, and not all of them. Words of more than 64 letters are not compared.
-pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let folded = word.to_lowercase();
-    let longer = |c: &str| word.chars().count().max(c.chars().count());
-    candidates
-        .into_iter()
-        .filter(|c| longer(c) <= 64)
-        .map(|c| (strsim::damerau_levenshtein(&folded, &c.to_lowercase()), c))
-        .filter(|&(distance, c)| distance <= (longer(c) / 3).max(1) && distance < longer(c))
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, c)| c)
 }

@@ -17,7 +17,7 @@ mod sticking;
 
 use collocation_step::CollocationStep;
 use kinks::Kinks;
-use sticking::Rest;
+use sticking::Sticking;
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
@@ -232,14 +232,14 @@ impl Taylor {
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
         if found.is_none() {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
-                Rest::Unknown => return Ok(false),
-                Rest::Stays(state, rates) => {
+                Sticking::Unknown => return Ok(false),
+                Sticking::Stays(state, rates) => {
                     self.state = state;
                     self.begin = self.state.time;
                     self.resting = Some(rates);
                     return Ok(true);
                 }
-                Rest::SetsOut(state, rates) => {
+                Sticking::SetsOut(state, rates) => {
                     (from, toward) = (state, Some(rates));
                     let (rates, toward) = (&mut self.rates, toward.as_deref());
                     found =

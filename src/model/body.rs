@@ -1,6 +1,7 @@
 //! A rigid body put together from pieces, how it stands, and the frames it is seen from.
 
-use super::{Point, SourceRange};
+use super::Point;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol};
 
 /// A rigid body.

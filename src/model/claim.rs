@@ -2,8 +2,7 @@
 
 use crate::expr::Expr;
 
-/// A range of bytes in the file, to point at when a claim turns out false.
-pub type SourceRange = std::ops::Range<usize>;
+use crate::diagnostic::SourceRange;
 
 /// A named quantity to be watched.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! A condition on the motion, kept by a force of its own.
 
-use super::SourceRange;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Rank, Symbol};
 
 /// expression = 0, kept by λ times its gradient.

@@ -1,6 +1,6 @@
 //! A generalised coordinate with its four symbols.
 
-use super::SourceRange;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Rank, Symbol, latex_of_unicode, unicode_name};
 
 /// A generalised coordinate.

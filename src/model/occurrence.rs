@@ -1,7 +1,7 @@
 //! What happens to a motion at single moments: impulses that are given, and crossings that are looked
 //! for.
 
-use super::SourceRange;
+use crate::diagnostic::SourceRange;
 use crate::expr::Expr;
 
 /// An impulse: p jumps, q does not.

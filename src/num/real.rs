@@ -5,7 +5,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::double_double::DoubleDouble;
-use super::wide::ExtendedRange;
+use super::extended_range::ExtendedRange;
 use crate::num::math;
 
 /// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the

@@ -23,7 +23,6 @@ use toml::de::DeTable;
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
-use crate::diagnostic::SourceRange;
 use crate::model::Info;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};

@@ -270,7 +270,7 @@ impl ScriptRunner {
         let parameters = (0..lab.count(ValueId::Parameter)).map(ValueId::Parameter);
         let targets = parameters.chain((0..lab.count(ValueId::Initial)).map(ValueId::Initial));
         let named: Vec<(ValueId, String)> =
-            targets.filter_map(|t| Some((t, lab.facts(t)?.name))).collect();
+            targets.filter_map(|t| Some((t, lab.value_info(t)?.name))).collect();
         let found = named.iter().find(|(_, known)| *known == name.text).map(|(target, _)| *target);
         found.ok_or_else(|| {
             let names = named.iter().map(|(_, name)| name.as_str());

@@ -11,7 +11,8 @@ use std::time::{Duration, SystemTime};
 use super::regular;
 use super::whole::Whole;
 use crate::app::SaveError;
-use crate::preset::{Catalog, TEXT_LIMIT, is_path};
+use crate::diagnostic::TEXT_LIMIT;
+use crate::preset::{Catalog, is_path};
 
 /// How often a watched file is looked at.
 const LOOKS: Duration = Duration::from_millis(500);

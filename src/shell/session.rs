@@ -14,7 +14,7 @@ use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
 use super::files::{self, FileChange, Watch};
-use super::frame_loop::{Pace, Page, ScreenRequest};
+use super::frame_loop::{Pace, Screen, ScreenRequest};
 use super::fresh;
 use super::job::{Job, Told};
 use super::loader::Loader;
@@ -454,7 +454,7 @@ impl Session {
         plain(&mut screen);
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
-            let drawing = still::write(&screen, palette, still::Form::Svg, &title);
+            let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
             put(product::stem(&stem), "svg", drawing.as_bytes())
         });
     }
@@ -580,7 +580,7 @@ fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
     }
 }
 
-impl Page for Session {
+impl Screen for Session {
     fn input(&mut self, event: TerminalEvent) -> ScreenRequest {
         let event = match event {
             TerminalEvent::Key(key) => Event::Key(key),
@@ -591,7 +591,7 @@ impl Page for Session {
                     self.app.drop_hold();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
-                match view::spot(&self.app, &self.look, area, mouse.column, mouse.row) {
+                match view::hit_test(&self.app, &self.look, area, mouse.column, mouse.row) {
                     Some(spot) => Event::Mouse(mouse.kind, spot),
                     None => return ScreenRequest::Nothing,
                 }

@@ -28,7 +28,7 @@ impl Inertia {
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<Option<Inertia>, Symbol> {
-        let (Some(body), Some(whole)) = (&model.body, &builder.equations.beside.body) else {
+        let (Some(body), Some(whole)) = (&model.body, &builder.equations.supplements.body) else {
             return Ok(None);
         };
         let mut lowering = builder.lowering();

@@ -62,7 +62,7 @@ impl ObservableList {
             let shown = known.map_or(c.name.as_str(), |info| &info.unicode);
             list.add(ChannelKind::Conserved(i), &c.name, shown, c.expression);
         }
-        if let Some(matrix) = equations.beside.attitude_symbols {
+        if let Some(matrix) = equations.supplements.attitude_symbols {
             for (i, symbol) in matrix.into_iter().flatten().enumerate() {
                 let e = equations.pool.variable(symbol);
                 let name = equations.pool.symbol_info(symbol).unicode.clone();
@@ -92,7 +92,7 @@ impl ObservableList {
                 list.add_hidden("", e);
             }
         }
-        for seen in equations.beside.frames.iter().flatten() {
+        for seen in equations.supplements.frames.iter().flatten() {
             let forces = [seen.centrifugal, seen.coriolis, seen.euler, seen.dragging];
             for e in seen.at.into_iter().chain(forces.into_iter().flatten()) {
                 list.add_hidden("", e);

@@ -86,9 +86,9 @@ impl ProgramBuilder<'_> {
 
     /// Where among the numbers carried along an attitude begins.
     pub(super) fn attitude(&self) -> Option<usize> {
-        let first = self.equations.beside.attitude_symbols?[0][0];
+        let first = self.equations.supplements.attitude_symbols?[0][0];
         let mut auxiliary =
-            self.equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols);
+            self.equations.supplements.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols);
         auxiliary.position(|&symbol| symbol == first)
     }
 
@@ -97,7 +97,7 @@ impl ProgramBuilder<'_> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
         let mut outputs = Vec::new();
-        for auxiliary in &equations.beside.auxiliary {
+        for auxiliary in &equations.supplements.auxiliary {
             outputs.extend(lower_auxiliary(&mut lowering, &auxiliary.initial));
         }
         lowering.finish(outputs)
@@ -264,14 +264,14 @@ fn bind_state(
 
 /// Makes the numbers carried along the next inputs.
 fn bind_auxiliary(lowering: &mut Lowering<'_>, equations: &Equations) {
-    for &symbol in equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols) {
+    for &symbol in equations.supplements.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols) {
         let register = lowering.input();
         lowering.bind(symbol, register);
     }
 }
 
 fn auxiliary_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
-    let all = equations.beside.auxiliary.iter();
+    let all = equations.supplements.auxiliary.iter();
     all.flat_map(|auxiliary| lower_auxiliary(lowering, &auxiliary.rates)).collect()
 }
 

@@ -180,11 +180,11 @@ fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
 /// What is being typed, told or focused, and at the right the most useful keys.
 pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
-    if let Some(Overlay::Field(field)) = &app.over {
+    if let Some(Overlay::Field(field)) = &app.overlay {
         return open_field(canvas, area, app, field);
     }
     let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
-    let meaning = match (&app.over, &app.lab, app.page) {
+    let meaning = match (&app.overlay, &app.lab, app.page) {
         (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),
         (None, Some(lab), Page::Lab) => meaning(canvas, lab),
         _ => String::new(),
@@ -220,7 +220,8 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 
 /// Whether the page of plain reading is open, on which nothing may lie over the text.
 fn reads(app: &App) -> bool {
-    app.page == Page::Plain && !matches!(app.over, Some(Overlay::Help { .. } | Overlay::Message(_)))
+    app.page == Page::Plain
+        && !matches!(app.overlay, Some(Overlay::Help { .. } | Overlay::Message(_)))
 }
 
 /// What is reported in passing, or lasts until the file is right.
@@ -270,7 +271,7 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
             format!("{name} ({}): {}", gauge.reason, finding(gauge, canvas.look.glyphs))
         });
     }
-    let Some(facts) = lab.selected().and_then(|target| lab.facts(target)) else {
+    let Some(facts) = lab.selected().and_then(|target| lab.value_info(target)) else {
         return String::new();
     };
     let name = glyphs.pick(&facts.shown, &facts.name);
@@ -307,7 +308,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
 /// What is typed, and what is wrong with it.
 fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
     let facts = match (&app.lab, field.purpose) {
-        (Some(lab), Purpose::Value(target)) => lab.facts(target),
+        (Some(lab), Purpose::Value(target)) => lab.value_info(target),
         _ => None,
     };
     let glyphs = canvas.look.glyphs;

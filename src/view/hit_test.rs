@@ -9,7 +9,7 @@ use ratatui::layout::{Position, Rect};
 use super::canvas::Canvas;
 use super::plot::{Frame, Scale};
 use super::{RenderStyle, paint};
-use crate::app::{App, Drag, HitTarget, ValueId};
+use crate::app::{App, Grab, HitTarget, ValueId};
 
 /// What something on the screen is for the mouse, told while it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -28,32 +28,38 @@ pub(super) enum Region {
 
 /// All that a screen shows, to be asked by place.
 #[derive(Clone, Debug)]
-pub struct HitTest {
+pub struct HitMap {
     /// What lies where; the later lies over the earlier.
     regions: Vec<(Rect, Region)>,
-    hold: Option<Drag>,
+    hold: Option<Grab>,
 }
 
 /// What lies where on the screen of an application.
-pub fn spots(app: &App, look: &RenderStyle, area: Rect) -> HitTest {
+pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
     let mut buffer = Buffer::empty(area);
     let mut canvas = Canvas { buffer: &mut buffer, look, regions: Some(Vec::new()), cursor: None };
     paint(&mut canvas, app, area);
-    HitTest { regions: canvas.regions.unwrap_or_default(), hold: app.hold }
+    HitMap { regions: canvas.regions.unwrap_or_default(), hold: app.hold }
 }
 
 /// What lies at one place of it.
-pub fn spot(app: &App, look: &RenderStyle, area: Rect, column: u16, row: u16) -> Option<HitTarget> {
-    spots(app, look, area).at(column, row)
+pub fn hit_test(
+    app: &App,
+    look: &RenderStyle,
+    area: Rect,
+    column: u16,
+    row: u16,
+) -> Option<HitTarget> {
+    hit_targets(app, look, area).at(column, row)
 }
 
-impl HitTest {
+impl HitMap {
     /// What lies at a place; while the mouse holds something, that, wherever the mouse is.
     pub fn at(&self, column: u16, row: u16) -> Option<HitTarget> {
         let at = Position::new(column, row);
         let held = |region: &Region| match (self.hold, region) {
-            (Some(Drag::Bar(held)), Region::Bar(target, _)) => held == *target,
-            (Some(Drag::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
+            (Some(Grab::Bar(held)), Region::Bar(target, _)) => held == *target,
+            (Some(Grab::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
                 index == *i
             }
             _ => false,

@@ -19,7 +19,7 @@ use crate::experiment::{Failure, Status};
 
 /// Draws all panes that have a place.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
-    let field = match &app.over {
+    let field = match &app.overlay {
         Some(Overlay::Field(field)) => Some(field),
         _ => None,
     };

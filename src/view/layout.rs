@@ -148,7 +148,8 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 /// Rows for what the selected parameter means: as many as the longest text needs, at least two, at most four.
 fn meaning(lab: &Lab, width: u16) -> u16 {
     let room = usize::from(width.saturating_sub(5));
-    let facts = (0..lab.count(ValueId::Parameter)).filter_map(|i| lab.facts(ValueId::Parameter(i)));
+    let facts =
+        (0..lab.count(ValueId::Parameter)).filter_map(|i| lab.value_info(ValueId::Parameter(i)));
     let longest = facts.map(|facts| words(&facts.about, room).len() as u16).max();
     (longest.unwrap_or(0) + 1).clamp(2, 4)
 }

@@ -26,7 +26,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     }
     say(status_words(q));
     let focus = lab.name_of(lab.focus);
-    let chosen = lab.selected().and_then(|target| lab.facts(target));
+    let chosen = lab.selected().and_then(|target| lab.value_info(target));
     let selected = chosen.map_or_else(String::new, |f| format!(", {} selected", name(q, &f)));
     say(format!("Focus: {focus}{selected}."));
     for (title, kind) in [
@@ -101,7 +101,7 @@ const MOST: usize = 10;
 /// A value with its name, its meaning, its unit and its range.
 fn value(q: &Quantities<'_>, target: ValueId) -> String {
     let lab: &Lab = q.lab;
-    let Some(facts) = lab.facts(target) else { return String::new() };
+    let Some(facts) = lab.value_info(target) else { return String::new() };
     let number = match target {
         ValueId::Parameter(index) => q.snapshot.parameters.get(index),
         ValueId::Initial(index) => q.snapshot.initial.get(index),

@@ -65,7 +65,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
-    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.beside.frames.get(frame));
+    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     legend(canvas, area, &forces);

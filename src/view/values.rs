@@ -68,7 +68,7 @@ impl Values<'_> {
     /// What the selected value means, as far as rows are left over.
     fn about(&self, area: Rect, count: usize) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
-        let facts = self.lab.facts((self.kind)(self.selected));
+        let facts = self.lab.value_info((self.kind)(self.selected));
         let text = facts.map_or_else(String::new, |facts| facts.about);
         let width = usize::from(area.width.saturating_sub(3));
         let all = words(&text, width).len();
@@ -80,7 +80,7 @@ impl Values<'_> {
     fn columns(&self, canvas: &Canvas<'_>, count: usize) -> Columns {
         let glyphs = canvas.look.glyphs;
         let facts: Vec<ValueInfo> =
-            (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
+            (0..count).filter_map(|i| self.lab.value_info((self.kind)(i))).collect();
         let widest = |text: &dyn Fn(&ValueInfo) -> String, most: u16| {
             let wide = facts.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
             wide.unwrap_or(0).min(most)
@@ -93,7 +93,7 @@ impl Values<'_> {
 
     fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &Columns)) {
         let target = (self.kind)(index);
-        let Some(facts) = self.lab.facts(target) else { return };
+        let Some(facts) = self.lab.value_info(target) else { return };
         let value = self.lab.value(target);
         let glyphs = canvas.look.glyphs;
         canvas.spot(area, HitTarget::Value(target));

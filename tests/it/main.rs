@@ -21,7 +21,7 @@ mod plot;
 mod poisson;
 mod preset;
 mod property;
-mod readme;
+mod documents;
 mod record;
 mod reference;
 mod rigid_body;

@@ -19,7 +19,7 @@ pub(super) struct Numbers<'a> {
 impl<'a> Numbers<'a> {
     /// Those of the file's body, if it has one.
     pub(super) fn of(model: &Model, equations: &'a Equations) -> Option<Numbers<'a>> {
-        let (names, whole) = (model.body.as_ref()?.names, equations.beside.body.as_ref()?);
+        let (names, whole) = (model.body.as_ref()?.names, equations.supplements.body.as_ref()?);
         let parameters = model.parameter_values();
         let values = body_values(model, &equations.pool, Some(whole), &parameters);
         let value = |symbol| {

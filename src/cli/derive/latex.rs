@@ -8,7 +8,7 @@ pub(super) fn write(model: &Model, equations: &Equations) -> String {
     let pool = &equations.pool;
     let symbol = |s: Symbol| pool.symbol_info(s).latex.clone();
     let mut lines: Vec<String> = Vec::new();
-    if let (Some(body), Some(whole)) = (&model.body, &equations.beside.body) {
+    if let (Some(body), Some(whole)) = (&model.body, &equations.supplements.body) {
         let names = body.names;
         let mut add =
             |s: Symbol, e: Expr| lines.push(format!("{} &= {}", symbol(s), pool.latex(e)));

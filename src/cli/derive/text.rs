@@ -172,7 +172,7 @@ impl Page<'_> {
     /// The Lagrangian that has the constraints put into it, and what it is not.
     fn vakonomic(&mut self, model: &Model) {
         let (Some(vakonomic), Some(comparison)) =
-            (&self.equations.beside.vakonomic, &model.comparison)
+            (&self.equations.supplements.vakonomic, &model.comparison)
         else {
             return;
         };

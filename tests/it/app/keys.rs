@@ -98,7 +98,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     let mut facts = Vec::new();
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
     fact("page", format!("{:?}", app.page));
-    let over = match &app.over {
+    let over = match &app.overlay {
         None => "nothing".to_owned(),
         Some(Overlay::Help { .. }) => "the keys".to_owned(),
         Some(Overlay::Message(failure)) => failure.message.clone(),
@@ -135,7 +135,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("gauge", selection.gauge.to_string());
     for index in 0..lab.count(ValueId::Parameter) {
         let target = ValueId::Parameter(index);
-        let name = lab.facts(target).unwrap().name;
+        let name = lab.value_info(target).unwrap().name;
         fact(&name, format!("{:?}", lab.value(target).unwrap()));
     }
     for (index, plot) in lab.plots.iter().enumerate() {
@@ -213,7 +213,7 @@ fn every_key_in_the_table_does_what_is_written() {
 fn palette(app: &App) -> (App, Menu) {
     let mut app = app.clone();
     press(&mut app, ":");
-    let Some(Overlay::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("there is no palette") };
     let menu = menu.clone();
     (app, menu)
 }
@@ -222,7 +222,7 @@ fn palette(app: &App) -> (App, Menu) {
 fn the_palette_lists_every_row_and_does_what_its_key_does() {
     for place in Place::ALL.into_iter().filter(|p| !matches!(p, Place::Field | Place::Typing)) {
         for app in states(place) {
-            if app.over.is_some() || place == Place::Search {
+            if app.overlay.is_some() || place == Place::Search {
                 continue;
             }
             let (open, menu) = palette(&app);
@@ -238,7 +238,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 let here = places.contains(&row.place);
                 assert!(item.refusal.is_none() == (here && app.offers(row.action)), "{item:?}");
                 let mut open = open.clone();
-                if let Some(Overlay::Menu(menu)) = &mut open.over {
+                if let Some(Overlay::Menu(menu)) = &mut open.overlay {
                     menu.selected = line;
                 }
                 if !here || !app.offers(row.action) {
@@ -265,7 +265,7 @@ fn the_palette_opens_types_and_chooses() {
     let first = |query: &str| {
         let (mut app, _) = palette(&in_lab());
         app.update(Event::Paste(query.to_owned()));
-        let Some(Overlay::Menu(menu)) = &app.over else { panic!() };
+        let Some(Overlay::Menu(menu)) = &app.overlay else { panic!() };
         let label = menu.current().unwrap().1.label.clone();
         let effects = press(&mut app, "Enter");
         (

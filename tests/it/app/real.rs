@@ -107,7 +107,7 @@ impl Real {
             lab.plots,
             seen.parameters,
             seen.initial,
-            seen.setup.given,
+            seen.setup.overrides,
             seen.method.name,
             seen.setup.settings
         )
@@ -207,10 +207,10 @@ fn a_value_given_back_follows_the_parameters_again() {
     // What the file gives may depend on parameters; once a change is taken back it does so again.
     let mut real = Real::of("pendulum");
     real.press("Tab Right u");
-    assert!(real.seen().setup.given.is_empty(), "{:?}", real.seen().setup.given);
+    assert!(real.seen().setup.overrides.is_empty(), "{:?}", real.seen().setup.overrides);
     real.press("Tab Tab Tab Tab Tab Right");
     real.press("u R u u");
-    assert!(real.seen().setup.given.is_empty());
+    assert!(real.seen().setup.overrides.is_empty());
 }
 
 #[test]
@@ -294,7 +294,7 @@ proptest! {
         let start = real.state();
         for (edit, wait) in edits {
             real.press(EDITS[edit]);
-            if real.app.over.is_some() {
+            if real.app.overlay.is_some() {
                 real.press("Esc");
             }
             if wait {

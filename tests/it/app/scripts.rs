@@ -10,7 +10,7 @@ use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, 
 
 /// Where the keys go, in a few words.
 fn place(app: &App) -> String {
-    let over = match &app.over {
+    let over = match &app.overlay {
         None => String::new(),
         Some(Overlay::Help { .. }) => " + help".to_owned(),
         Some(Overlay::Message(_)) => " + message".to_owned(),
@@ -201,9 +201,9 @@ fn what_cannot_be_loaded_is_reported_and_the_rest_goes_on() {
     assert_eq!(effects, [Effect::Load("own.toml".into())]);
     let failure = LoadError { name: "own.toml".into(), message: "line 1\nline 2".into() };
     app.update(Event::Loaded(Err(failure.clone())));
-    assert!(matches!(&app.over, Some(Overlay::Message(f)) if *f == failure));
+    assert!(matches!(&app.overlay, Some(Overlay::Message(f)) if *f == failure));
     press(&mut app, "Esc");
-    assert!(app.over.is_none());
+    assert!(app.overlay.is_none());
     assert_eq!(app.page, Page::Picker);
     assert_eq!(press(&mut app, "Enter").len(), 1, "another system can be opened");
 }

@@ -18,7 +18,7 @@ fn lines(app: &App, query: &str) -> Vec<String> {
     let mut app = app.clone();
     press(&mut app, ":");
     app.update(Event::Paste(query.to_owned()));
-    let Some(Overlay::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("there is no palette") };
     menu.shown().into_iter().map(|index| menu.items[index].label.clone()).collect()
 }
 

@@ -13,7 +13,7 @@ fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
         app.update(Event::Key(phaselab::app::key::character(letter)));
     }
     let effects = press(&mut app, "Enter");
-    match app.over {
+    match app.overlay {
         Some(Overlay::Field(field)) => (effects, field.mistake, field.input.value().to_owned()),
         _ => (effects, None, String::new()),
     }
@@ -62,7 +62,7 @@ fn steps_and_tolerances_must_be_positive() {
             press(&mut app, ": m e t h o d Space r k 4 Enter");
         }
         assert_eq!(press(&mut app, keys), [], "{keys}");
-        assert!(matches!(app.over, Some(Overlay::Field(f)) if f.mistake.is_some()), "{keys}");
+        assert!(matches!(app.overlay, Some(Overlay::Field(f)) if f.mistake.is_some()), "{keys}");
     }
 }
 
@@ -75,7 +75,7 @@ fn a_method_is_asked_only_for_what_it_uses() {
     ] {
         let mut app = in_lab();
         press(&mut app, keys);
-        assert!(app.over.is_none(), "{keys}");
+        assert!(app.overlay.is_none(), "{keys}");
         assert_eq!(app.notice.map(|notice| notice.text).as_deref(), Some(told));
     }
 }
@@ -93,12 +93,12 @@ fn a_long_paste_is_cut_and_said() {
     let mut app = in_lab();
     press(&mut app, "Enter");
     app.update(Event::Paste("7".repeat(1 << 20)));
-    let Some(Overlay::Field(field)) = &app.over else { panic!("the field is gone") };
+    let Some(Overlay::Field(field)) = &app.overlay else { panic!("the field is gone") };
     assert!(field.input.value().len() <= 4096);
     assert!(app.notice.is_some());
     press(&mut app, "Esc");
     app.update(Event::Paste("q r R".to_owned()));
-    assert!(app.over.is_none(), "a paste is no keys");
+    assert!(app.overlay.is_none(), "a paste is no keys");
 }
 
 #[test]

@@ -247,7 +247,7 @@ fn a_name_that_is_taken_is_asked_for_again() {
     press(&mut app, "Esc");
     assert!(sheet(&app).asking.is_none(), "Esc leaves the question, not the text");
     press(&mut app, "Esc");
-    assert!(app.over.is_none());
+    assert!(app.overlay.is_none());
 }
 
 /// A file of one's own in the lab.
@@ -296,7 +296,7 @@ fn a_watched_file_is_taken_up_while_its_editor_is_closed() {
     assert!(matches!(effects.as_slice(), [Effect::Tell(Command::TakeUp(_))]), "{effects:?}");
     let model = &app.lab.as_ref().unwrap().loaded.model;
     assert!(model.parameters.iter().any(|p| p.value == 1.62));
-    assert!(app.over.is_none());
+    assert!(app.overlay.is_none());
 }
 
 #[test]
@@ -437,11 +437,11 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
     let mut app = edited();
     press(&mut app, "x y Esc");
     assert!(app.notice.as_ref().unwrap().text.contains("not saved"));
-    assert!(app.over.is_none());
+    assert!(app.overlay.is_none());
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");
     assert!(sheet(&app).editor.text().starts_with("xyq"));
-    assert!(matches!(app.over, Some(Overlay::Workbench)));
+    assert!(matches!(app.overlay, Some(Overlay::Workbench)));
 }
 
 #[test]
@@ -506,7 +506,7 @@ fn saving_what_has_a_mistake_says_so() {
 fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
     let mut app = edited();
     press(&mut app, "x y F1");
-    assert!(matches!(app.over, Some(Overlay::Help { editing: true, .. })));
+    assert!(matches!(app.overlay, Some(Overlay::Help { editing: true, .. })));
     assert_eq!(app.places_below()[0], Place::Workbench);
     for back in ["Esc", "F1", "?"] {
         press(&mut app, back);
@@ -514,7 +514,7 @@ fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
         press(&mut app, "F1");
     }
     press(&mut app, "Esc Esc F1 Esc");
-    assert!(app.over.is_none(), "elsewhere it goes back to the page");
+    assert!(app.overlay.is_none(), "elsewhere it goes back to the page");
 }
 
 #[test]

@@ -224,7 +224,7 @@ fn a_parameter_can_lead_out_of_a_fault() {
 fn a_motion_that_cannot_begin_waits_for_better_values() {
     let text = FALL.replace("1/2*x'^2", "1/2*k*x'^2").replace("k = 1.0", "k = 0.0");
     let given = InitialOverride::Momentum(0, 3.0);
-    let mut system = build(&text, |setup| setup.given.push(given));
+    let mut system = build(&text, |setup| setup.overrides.push(given));
     assert!(fault(&system).is_some());
     assert!(system.snapshot().values.iter().all(|x| x.is_nan()));
     assert!(system.snapshot().trail.is_empty());

@@ -15,7 +15,7 @@ fn seen(frame: &str) -> (Equations, Apparent) {
     );
     let model = preset::read(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = derive(&model).unwrap();
-    let apparent = equations.beside.frames[0][0].clone();
+    let apparent = equations.supplements.frames[0][0].clone();
     (equations, apparent)
 }
 

@@ -12,7 +12,7 @@ fn told(text: &str) -> Vec<String> {
     let found = flaws(&model, &equations);
     let claims = false_claims(&model, &equations);
     assert_eq!(found.is_empty(), claims.is_empty(), "{claims:?}");
-    let line = |m: &diagnostic::Diagnostic| {
+    let line = |m: &phaselab::diagnostic::Diagnostic| {
         let place = &text[m.place.clone()];
         format!("{place}: {}; {}", m.message, m.help.as_deref().unwrap_or(""))
     };

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use phaselab::diagnostic::TEXT_LIMIT;
 use phaselab::diagnostic::{Diagnostic, Document, report};
-use phaselab::preset::{Catalog, TEXT_LIMIT, read};
+use phaselab::preset::{Catalog, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
 

@@ -67,7 +67,7 @@ pub(crate) enum Outcome {
     /// Completed and accurate.
     Accurate,
     /// A fault with its place, where the motion indeed cannot go on or be reported.
-    Failed,
+    Stopped,
     /// The method does not fit and says so.
     Unfit,
     /// The judge cannot tell.
@@ -275,13 +275,13 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         Ok(known) => known,
         Err(Lost::AtStart) => {
             return match told.end {
-                End::Fault(_) => Outcome::Failed,
+                End::Fault(_) => Outcome::Stopped,
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
         Err(why) => {
             return match (told.end, why) {
-                (End::Fault(_), _) => Outcome::Failed,
+                (End::Fault(_), _) => Outcome::Stopped,
                 (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
                 (_, Lost::TooLong) => Outcome::Undecided("too long"),
                 (_, _) => Outcome::Undecided("a kink that holds"),
@@ -294,7 +294,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         End::Fault(message) if default => {
             return failed(Kind::GivesUp, message);
         }
-        End::Fault(_) => return Outcome::Failed,
+        End::Fault(_) => return Outcome::Stopped,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
             let message = format!("{} steps to t = {}", told.steps, told.time);
             return failed(Kind::Slow, message);

@@ -157,7 +157,7 @@ fn several_values_are_swept_at_once() {
     let recording = played("pendulum", text);
     assert!(recording.false_claims.is_empty(), "{:?}", recording.false_claims);
     assert_eq!(recording.frames, 20);
-    let account = account::write(&recording);
+    let account = transcript::write(&recording);
     assert!(account.contains("  sweep     l from 1 to 3, g from 9.81 to 19.62"), "{account}");
 }
 
@@ -183,7 +183,7 @@ fn what_a_script_sets_and_sweeps_is_taken_back_as_one() {
 fn the_account_tells_what_was_done_and_found() {
     let text = "Title \"Ein Pendel\"\nCaption \"It swings\"\nPress z\nWait 1s\nMarker \"One\"\n\
                 Assert t > 1\nAssert t > 9\nWait 1s";
-    let account = account::write(&played("pendulum", text));
+    let account = transcript::write(&played("pendulum", text));
     let lines: Vec<&str> = account.lines().collect();
     assert_eq!(lines[0], "Ein Pendel");
     assert_eq!(lines[1], "80x24 characters, 20 frames a second, 2.15 s");

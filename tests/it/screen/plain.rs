@@ -57,7 +57,7 @@ fn everything_on_the_screen_can_be_read() {
         }
         let lab = app.lab.as_ref().unwrap();
         for index in 0..lab.count(ValueId::Initial) {
-            told(&format!("{} is ", lab.facts(ValueId::Initial(index)).unwrap().shown));
+            told(&format!("{} is ", lab.value_info(ValueId::Initial(index)).unwrap().shown));
         }
         let channels = system.system.channels();
         for (index, channel) in channels.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use crossterm::event::MouseButton::Left;
 use crossterm::event::MouseEventKind;
 use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
-use phaselab::app::{App, Drag, Event, HitTarget, Overlay, Page, Pane, Plot, ValueId};
+use phaselab::app::{App, Event, Grab, HitTarget, Overlay, Page, Pane, Plot, ValueId};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::{hit_test, spots};
+use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
 
 use super::{find, rich, rows, screen};
@@ -18,12 +18,12 @@ use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
 const SIZES: [(u16, u16); 5] = [(40, 18), (66, 16), (80, 24), (120, 40), (200, 60)];
 
 fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<HitTarget> {
-    spot(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
+    hit_test(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
 }
 
 /// Every place with what lies there.
 fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), HitTarget)> {
-    let spots = spots(app, &rich(), Rect::new(0, 0, width, height));
+    let spots = hit_targets(app, &rich(), Rect::new(0, 0, width, height));
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
 }
@@ -67,7 +67,7 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
             match spot {
                 HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
-                    let shown = app.lab.as_ref().unwrap().facts(target).unwrap().shown;
+                    let shown = app.lab.as_ref().unwrap().value_info(target).unwrap().shown;
                     named(&rich().glyphs.text(&shown));
                 }
                 // Every second row of a gauge holds its numbers.
@@ -203,7 +203,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Down(Left), bar[2]);
-    assert_eq!(real.app.hold, Some(Drag::Bar(ValueId::Parameter(1))));
+    assert_eq!(real.app.hold, Some(Grab::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Drag(Left), *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
@@ -212,7 +212,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     }
     // Beside the bar the knob stops at its end.
     act(&mut real, size, Drag(Left), (119, 0));
-    let (_, max, _) = real.lab().facts(ValueId::Parameter(1)).unwrap().range.unwrap();
+    let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Up(Left), (119, 0));
     assert_eq!(real.app.hold, None);
@@ -318,7 +318,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.lab().focus, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
-    assert!(matches!(real.app.over, Some(Overlay::Help { .. })));
+    assert!(matches!(real.app.overlay, Some(Overlay::Help { .. })));
     act(&mut real, size, ScrollDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");
@@ -326,7 +326,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.seen().method.name, "leapfrog");
     real.press(":");
     click(&mut real, size, (0, 5));
-    assert!(real.app.over.is_none(), "beside a list it closes");
+    assert!(real.app.overlay.is_none(), "beside a list it closes");
     real.press("Tab");
     let place = on(&real, "Parameters");
     click(&mut real, size, place);
@@ -341,9 +341,9 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let place = places(&real.app, size, |spot| *spot == value)[0];
     click(&mut real, size, place);
     assert_eq!(real.lab().selected(), Some(ValueId::Parameter(2)));
-    assert!(real.app.over.is_none());
+    assert!(real.app.overlay.is_none());
     click(&mut real, size, place);
-    assert!(matches!(&real.app.over, Some(Overlay::Field(_))));
+    assert!(matches!(&real.app.overlay, Some(Overlay::Field(_))));
 }
 
 #[test]
@@ -379,7 +379,7 @@ fn the_wheel_scrolls_text_and_lists() {
     let spot = at(&app, (80, 24), (20, 8)).unwrap();
     assert!(matches!(spot, HitTarget::Line(_)), "{spot:?}");
     app.update(Event::Mouse(ScrollDown, spot));
-    let Some(Overlay::Menu(menu)) = &app.over else { panic!("the palette is gone") };
+    let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
 
@@ -393,7 +393,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A knob that is held but not shown any more, and a command that cannot be meant.
-    app.hold = Some(Drag::Bar(ValueId::Parameter(99)));
+    app.hold = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());

@@ -1,4 +1,4 @@
-//! The README's tables of keys and methods are those of the code.
+//! The tables of the documents are those of the code.
 //!
 //! `UPDATE_EXPECT=1 cargo test readme` writes them anew.
 
@@ -80,10 +80,10 @@ fn exits() -> String {
     table
 }
 
-/// Checks (or writes) the part of the README between `<!-- name -->` and `<!-- end -->`.
-fn check(name: &str, table: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let text = std::fs::read_to_string(&path).expect("a README");
+/// Checks (or writes) the part of a document between `<!-- name -->` and `<!-- end -->`.
+fn check(document: &str, name: &str, table: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(document);
+    let text = std::fs::read_to_string(&path).expect("a document");
     let open = format!("<!-- {name} -->\n");
     let start = text.find(&open).expect("the mark before the table") + open.len();
     let end = start + text[start..].find("<!-- end -->").expect("the mark after the table");
@@ -93,17 +93,52 @@ fn check(name: &str, table: &str) {
     } else {
         assert!(
             text[start..end] == *table,
-            "the README's {name} are not those of the code; write them with UPDATE_EXPECT=1"
+            "the {name} of docs/{document} are not those of the code; write them with UPDATE_EXPECT=1"
         );
     }
 }
 
 #[test]
 fn the_tables_are_those_of_the_code() {
-    check("keys", &keys());
-    check("methods", &methods());
-    check("options", &options());
-    check("exits", &exits());
-    check("script", &commands());
-    check("claims", &claims());
+    check("lab.md", "keys", &keys());
+    check("headless.md", "methods", &methods());
+    check("lab.md", "options", &options());
+    check("headless.md", "exits", &exits());
+    check("demos.md", "script", &commands());
+    check("demos.md", "claims", &claims());
+}
+
+/// The blocks of TOML in a document that are whole files: those with a title, without the indent of a list.
+fn examples(document: &str) -> Vec<String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
+    let text = std::fs::read_to_string(&path).expect("a document");
+    let mut found = Vec::new();
+    let mut block: Option<(usize, String)> = None;
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        match (&mut block, line.trim()) {
+            (None, "```toml") => block = Some((indent, String::new())),
+            (None, _) => {}
+            (Some(_), "```") => found.extend(block.take().map(|(_, text)| text)),
+            (Some((by, text)), _) => {
+                text.push_str(line.get(*by..).unwrap_or(""));
+                text.push('\n');
+            }
+        }
+    }
+    found.retain(|text| text.starts_with("title"));
+    found
+}
+
+#[test]
+fn the_examples_of_the_documents_have_no_mistakes() {
+    for document in ["README.md", "docs/preset-format.md"] {
+        let examples = examples(document);
+        assert!(!examples.is_empty(), "no example in {document}");
+        for text in examples {
+            if let Err(mistakes) = phaselab::preset::read(&text) {
+                panic!("{}", phaselab::diagnostic::report(&text, document, &mistakes, false));
+            }
+        }
+    }
 }

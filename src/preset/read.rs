@@ -1,0 +1,72 @@
+//! Reading a preset: its text in, a checked model or all its mistakes out.
+
+use super::{check, draft, toml_errors};
+use crate::cancel::Cancel;
+use crate::diagnostic::{Diagnostic, Diagnostics, Document, TEXT_LIMIT, too_long};
+use crate::model::Model;
+
+/// A file without a mistake.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The system it describes.
+    pub model: Model,
+    /// What is allowed but probably not meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Reads a preset.
+///
+/// # Errors
+/// All mistakes of the file (warnings among them), in the order of their places; never empty.
+pub fn read(text: &str) -> Result<Checked, Vec<Diagnostic>> {
+    read_with(text, &Cancel::new())
+}
+
+/// The same, with a token by which this and all that is made of the model can be stopped.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
+    if text.len() > TEXT_LIMIT {
+        return Err(vec![too_long(text.len() as u64)]);
+    }
+    let mut mistakes = Diagnostics::default();
+    let table = toml_errors::parse(text, &mut mistakes);
+    if mistakes.lost_track() {
+        return conclude(mistakes, None);
+    }
+    let draft = draft::read(&table, &mut mistakes);
+    let model = check::check(text, &draft, cancel, &mut mistakes);
+    conclude(mistakes, model)
+}
+
+/// The verdict on the file.
+fn conclude(mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
+    match model {
+        Some(model) if !mistakes.any_error() => {
+            Ok(Checked { model, warnings: mistakes.into_warnings() })
+        }
+        _ => Err(mistakes.into_list()),
+    }
+}
+
+impl Document {
+    /// Reads the preset in it.
+    ///
+    /// # Errors
+    /// All its mistakes, see [`read`](read).
+    pub fn read(&self) -> Result<Checked, Vec<Diagnostic>> {
+        self.read_with(&Cancel::new())
+    }
+
+    /// The same, with a token by which this and all that is made of the model can be stopped.
+    ///
+    /// # Errors
+    /// All its mistakes, see [`read`](read).
+    pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
+        match self.unreadable() {
+            Some(mistake) => Err(vec![mistake.clone()]),
+            None => read_with(&self.text, cancel),
+        }
+    }
+}
