@@ -9,13 +9,13 @@
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 
+pub(crate) mod atomic_file;
 mod bandwidth;
 mod checker;
 pub mod config;
 mod demo;
 mod diagnosis;
 mod files;
-mod fresh;
 mod governor;
 mod input;
 mod job;
@@ -23,8 +23,6 @@ mod loader;
 mod log;
 pub mod options;
 mod panic;
-mod partial;
-mod product;
 mod projector;
 mod queue;
 mod recorder;
@@ -36,7 +34,6 @@ mod signals;
 mod stage;
 mod store;
 mod terminal;
-pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, NotBandwidth};
 pub use diagnosis::{Finding, diagnosis};
@@ -57,7 +54,6 @@ use crate::preset::{Catalog, Mistake};
 use crate::record::{Performance, Tape, still};
 use demo::Demo;
 use log::Log;
-pub(crate) use partial::remove_all as remove_partial_files;
 use session::{Left, Session};
 use store::Store;
 

@@ -3,6 +3,7 @@
 //! In: [`Options`]. Out: the look and the pace. Never here: where options come from; a question put to the terminal.
 
 use crate::preset::NotFound;
+use crate::printable;
 use crate::view::Look;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -73,16 +74,16 @@ pub enum Refusal {
     #[error(transparent)]
     NoSession(#[from] NoSession),
     /// The laboratory was left, and its session could not be saved.
-    #[error("the session is not saved: {0}")]
+    #[error("the session is not saved: {}", printable::why(.0))]
     Unsaved(std::io::Error),
     /// The log cannot be written.
     #[error(transparent)]
     NoLog(#[from] NoLog),
     /// The laboratory was left, and what it recorded could not be saved.
-    #[error("the recording is not whole: {0}")]
+    #[error("the recording is not whole: {}", printable::why(.0))]
     Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
-    #[error("the laboratory cannot go on: {0}")]
+    #[error("the laboratory cannot go on: {}", printable::why(.0))]
     System(#[from] std::io::Error),
 }
 

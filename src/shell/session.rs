@@ -11,14 +11,13 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use super::atomic_file;
 use super::checker::Checker;
 use super::files::{self, News, Watch};
-use super::fresh;
 use super::input::Input;
 use super::job::{Job, Told};
 use super::loader::Loader;
 use super::log::Log;
-use super::product;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
@@ -154,7 +153,7 @@ impl Session {
                 troubles
             }
         };
-        let left = fresh::left_behind(Path::new("."));
+        let left = atomic_file::left_behind(Path::new("."));
         if let Some(first) = left.first() {
             let more = if left.len() > 1 {
                 format!(" and {} more", left.len() - 1)
@@ -339,7 +338,7 @@ impl Session {
             let Loaded { name, document, model, system, .. } = &loaded;
             let export = Export::of(document, (model, system), &snapshot)?;
             let Export { text, missing } = export.with_what_holds(document)?;
-            let written = put(product::stem(name), "toml", text.as_bytes())?;
+            let written = put(name, "toml", text.as_bytes())?;
             Ok([vec![written], missing].concat().join(" "))
         });
     }
@@ -455,7 +454,7 @@ impl Session {
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
             let drawing = still::write(&screen, palette, still::Form::Svg, &title);
-            put(product::stem(&stem), "svg", drawing.as_bytes())
+            put(&stem, "svg", drawing.as_bytes())
         });
     }
 
@@ -467,7 +466,7 @@ impl Session {
         self.write_file(move || {
             let mut table = Vec::new();
             data::write(&loaded, &snapshot, &mut table).map_err(|why| why.to_string())?;
-            put(product::stem(&loaded.name), "csv", &table)
+            put(&loaded.name, "csv", &table)
         });
     }
 
@@ -531,7 +530,8 @@ impl Session {
 
 /// Writes a file about the present into the current folder; a sentence on it.
 fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> Told {
-    let path = product::put(Path::new(""), stem, ending, bytes).map_err(|why| why.to_string())?;
+    let path = atomic_file::write_new(Path::new(""), stem, ending, bytes)
+        .map_err(|why| why.to_string())?;
     Ok(format!("{} is written.", path.display()))
 }
 
