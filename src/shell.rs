@@ -50,6 +50,8 @@ pub use terminal::NoTerminal;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
+use tracing::{error, info};
+
 use crate::preset::{Catalog, Mistake};
 use crate::record::{Performance, Tape, still};
 use demo::Demo;
@@ -74,14 +76,13 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
         regular::find(&catalog, name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
-    let mut log = request.log.as_ref().map_or(Ok(Log::default()), Log::open)?;
-    log.info(format!("phaselab {} starts", env!("CARGO_PKG_VERSION")));
+    let log = request.log.as_ref().map(Log::open).transpose()?;
+    info!("phaselab {} starts", env!("CARGO_PKG_VERSION"));
     for finding in diagnosis(&variable, None) {
-        log.info(format!("{}: {} ({})", finding.what, finding.found, finding.why));
+        info!("{}: {} ({})", finding.what, finding.found, finding.why);
     }
-    log.guard();
     let pace = request.pace(&variable);
-    let mut session = Session::new(catalog, &request, request.look(&variable), pace, log)?;
+    let mut session = Session::new(catalog, &request, request.look(&variable), pace)?;
     session.keep_in(Store::open(), request.open.as_deref());
     if let Some(saved) = saved {
         session.resume(saved);
@@ -89,15 +90,17 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
     let Left { recorded, kept } = session.left();
     match &ended {
-        Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
-        Ok(Err(refusal)) => session.log.error(refusal),
-        Err(_) => session.log.error("ends by a panic"),
+        Ok(Ok(ending)) => info!("ends: {ending:?}"),
+        Ok(Err(refusal)) => error!("{refusal}"),
+        Err(_) => error!("ends by a panic"),
     }
     if let Err(error) = &kept {
-        session.log.error(error);
+        error!("{error}");
     }
-    session.log.close();
     drop(session);
+    if let Some(log) = log {
+        log.close();
+    }
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
     let lost = kept.map_err(Refusal::Unsaved).and(recorded.map_err(Refusal::Unrecorded));
     match (lost, ending) {

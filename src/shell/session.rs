@@ -11,13 +11,14 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use tracing::{error, info};
+
 use super::atomic_file;
 use super::checker::Checker;
 use super::files::{self, News, Watch};
 use super::input::Input;
 use super::job::{Job, Told};
 use super::loader::Loader;
-use super::log::Log;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
@@ -54,8 +55,6 @@ pub(super) struct Session {
     job: Job,
     /// Told once more when the first system is there, for its loading ends what was told before.
     warning: Option<String>,
-    /// What happens is written there.
-    pub(super) log: Log,
     /// The fault last told of there.
     fault: Option<String>,
     /// What is shown goes in here too.
@@ -100,7 +99,6 @@ impl Session {
         request: &Request,
         look: Look,
         pace: Pace,
-        log: Log,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
@@ -125,7 +123,6 @@ impl Session {
             kept_texts: 0,
             job: Job::default(),
             warning: None,
-            log,
             fault: None,
             recorder: None,
             size: Size::default(),
@@ -222,7 +219,7 @@ impl Session {
             return true;
         }
         if let Err(error) = self.keep_within(UNHURRIED) {
-            self.log.error(error);
+            error!("{error}");
         }
         if !self.app.workbench.keeps {
             self.app.stay();
@@ -266,7 +263,7 @@ impl Session {
         let troubles = std::mem::take(&mut store.troubles);
         let mut told = vec!["The other phaselab has ended; this one saves the session now.".into()];
         told.extend(troubles);
-        self.log.info(told.join(" "));
+        info!("{}", told.join(" "));
         self.app.notice = Some(Notice::info(told.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
@@ -284,11 +281,11 @@ impl Session {
         for effect in effects {
             match effect {
                 Effect::Tell(command) => {
-                    self.log.info(format!("command {command:?}"));
+                    info!("command {command:?}");
                     self.worker.tell(command);
                 }
                 Effect::Load(name) => {
-                    self.log.info(format!("load {name}"));
+                    info!("load {name}");
                     if let Some(watch) = self.watch.as_mut().filter(|_| is_path(&name)) {
                         watch.follow(Path::new(&name));
                     }
@@ -359,7 +356,7 @@ impl Session {
 
     /// Tells what became of a file.
     fn told(&mut self, told: Told) {
-        self.log.info(format!("{told:?}"));
+        info!("{told:?}");
         self.app.update(Event::Written(told));
     }
 
@@ -370,7 +367,7 @@ impl Session {
         {
             // what is being loaded is no longer what stands there
             if let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) {
-                self.log.info(format!("load {name} again"));
+                info!("load {name} again");
                 self.loader.load(name.to_owned());
             }
             return false;
@@ -393,7 +390,7 @@ impl Session {
         match watch.look(&place, elapsed) {
             None => return false,
             Some(News::Gone) => {
-                self.log.info(format!("{} is gone", place.display()));
+                info!("{} is gone", place.display());
                 self.update(Event::FileThere(false));
             }
             Some(News::Text { text, back }) => {
@@ -427,7 +424,7 @@ impl Session {
         };
         if fault != self.fault {
             if let Some(fault) = &fault {
-                self.log.error(fault);
+                error!("{fault}");
             }
             self.fault = fault;
         }
@@ -483,7 +480,7 @@ impl Session {
     fn give_up_recording(&mut self, why: &io::Error) {
         let recorder = self.recorder.take();
         let told = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
-        self.log.error(&told);
+        error!("{told}");
         self.app.recording = false;
         self.app.notice = Some(Notice::error(format!("{told}.")));
     }
@@ -610,9 +607,9 @@ impl Page for Session {
         let mut changed = self.app.notice.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
             match &outcome {
-                Ok((name, _)) => self.log.info(format!("loaded {name}")),
+                Ok((name, _)) => info!("loaded {name}"),
                 Err(failure) => {
-                    self.log.error(format!("cannot load {}: {}", failure.name, failure.message));
+                    error!("cannot load {}: {}", failure.name, failure.message);
                 }
             }
             let loaded = outcome
@@ -680,7 +677,7 @@ impl Page for Session {
     }
 
     fn reduce(&mut self, detail: Detail) {
-        self.log.info(format!("the line to the terminal is slow or fast again: {detail:?}"));
+        info!("the line to the terminal is slow or fast again: {detail:?}");
         self.detail = detail;
     }
 }
