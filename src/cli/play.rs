@@ -7,7 +7,7 @@ use super::interrupt::Interrupt;
 use super::{lab, open, record};
 use crate::preset::{Document, demo, is_path};
 use crate::record::{Script, Tape};
-use crate::shell::{self, Options};
+use crate::shell;
 use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
@@ -34,7 +34,7 @@ const LIMIT: u64 = 64 << 20;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
     let tape = tape(&arguments.file)?;
-    let request = lab::request(None, Options::default())?;
+    let request = lab::request(None, &["phaselab".into()])?;
     // the terminal is given back first
     interrupt.stand_aside();
     lab::how_it_ended(shell::show(tape, &request))
