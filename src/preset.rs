@@ -13,6 +13,7 @@ mod edition;
 mod grammar;
 mod mistake;
 mod report;
+mod schema;
 mod settings;
 
 use crate::cancel::Cancel;
@@ -23,6 +24,7 @@ pub use document::Document;
 pub use edition::{Beginning, Edition};
 pub use mistake::{Mistake, Severity};
 pub use report::report;
+pub use schema::reference;
 pub use settings::{Entry as Setting, Plain};
 
 use mistake::Mistakes;

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::table::Table;
-use super::{Formula, Mistakes, Place, value};
+use super::{Formula, Mistakes, Place};
 
 /// A constraint as written.
 pub(in crate::preset) struct DraftConstraint {
@@ -19,11 +19,9 @@ pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<D
     let mut all = Vec::new();
     for mut table in top.tables("constraints", "this constraint", mistakes) {
         let name = table.name(mistakes);
-        let help = "write expression = \"...\", which is to be zero";
-        let expression = table.require("expression", help);
         all.push(DraftConstraint {
             name,
-            expression: expression.and_then(|(_, v)| value::formula(v, "`expression`", mistakes)),
+            expression: table.formula("expression", mistakes),
             unit: table.line("unit", mistakes),
             about: table.line("about", mistakes),
             place: table.place.clone(),
