@@ -185,7 +185,7 @@ fn between_tokens(text: &str, error: &ParseError) -> Slip {
 
 fn in_key(place: Place) -> Slip {
     if place.is_empty() {
-        return Slip::new(place, "a key is missing here", Loses::Value);
+        return Slip::new(place, "a key is missing here", Loses::Track);
     }
     let help = "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }";
     Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
