@@ -110,7 +110,7 @@ impl Word {
         let spread = last - first + 1;
         let near = spread <= 2 * self.letters || places.iter().all(starts);
         let together = self.letters >= 2 && spread == self.letters;
-        if !together && !(near && score >= LEAST * self.letters) {
+        if !(together || near && score >= LEAST * self.letters) {
             return None;
         }
         let more = [
