@@ -13,7 +13,7 @@ use std::path::Path;
 /// The most characters of a piece of text quoted in a sentence.
 pub const QUOTED: usize = 80;
 
-/// Beyond these magnitudes a number is told with an exponent; it would have too many digits.
+/// Beyond these magnitudes a number is reported with an exponent; it would have too many digits.
 const LARGE: f64 = 1e15;
 const SMALL: f64 = 1e-5;
 
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_the_system_are_told_in_words() {
+    fn errors_of_the_system_are_reported_in_words() {
         let told = |number| why(&io::Error::from_raw_os_error(number));
         // ENOENT, EACCES, ENOSPC, EIO
         let numbers = [2, 13, 28, 5];

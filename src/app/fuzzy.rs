@@ -34,7 +34,7 @@ pub(super) struct Query {
 struct Word {
     fuzzy: Atom,
     plain: Atom,
-    letters: u32,
+    messages: u32,
 }
 
 /// The texts of a line.
@@ -54,7 +54,7 @@ pub struct Fit {
     /// The greater, the better.
     pub score: u32,
     /// The places of the letters of the label that were found, in rising order.
-    pub letters: Vec<usize>,
+    pub messages: Vec<usize>,
 }
 
 impl Query {
@@ -69,10 +69,10 @@ impl Query {
         for word in &self.words {
             let found = word.fit(texts, &mut self.matcher)?;
             fit.score += found.score;
-            fit.letters.extend(found.letters);
+            fit.messages.extend(found.messages);
         }
-        fit.letters.sort_unstable();
-        fit.letters.dedup();
+        fit.messages.sort_unstable();
+        fit.messages.dedup();
         Some(fit)
     }
 }
@@ -80,8 +80,8 @@ impl Query {
 impl Word {
     fn new(word: &str) -> Self {
         let atom = |kind| Atom::new(word, CaseMatching::Ignore, Normalization::Smart, kind, false);
-        let letters = word.chars().count() as u32;
-        Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), letters }
+        let messages = word.chars().count() as u32;
+        Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), messages }
     }
 
     /// What it is worth in these texts, and its letters in the label.
@@ -89,13 +89,13 @@ impl Word {
         let label = self.named(texts.label, matcher);
         let names = texts.names.iter().filter_map(|name| {
             let score = self.named(name, matcher)?.score.saturating_sub(SECOND);
-            Some(Fit { score, letters: Vec::new() })
+            Some(Fit { score, messages: Vec::new() })
         });
         // of equals the label comes first
         let named = label.into_iter().chain(names);
         named.reduce(|a, b| if b.score > a.score { b } else { a }).or_else(|| {
             let said = texts.about.iter().filter_map(|text| self.said(text, matcher));
-            said.max().map(|score| Fit { score: score / SAID, letters: Vec::new() })
+            said.max().map(|score| Fit { score: score / SAID, messages: Vec::new() })
         })
     }
 
@@ -108,26 +108,26 @@ impl Word {
         let parts = |place: u32| place >= text.len() as u32 || !text.get(place).is_alphanumeric();
         let starts = |place: &u32| *place == 0 || parts(*place - 1);
         let spread = last - first + 1;
-        let near = spread <= 2 * self.letters || places.iter().all(starts);
-        let together = self.letters >= 2 && spread == self.letters;
-        if !(together || near && score >= LEAST * self.letters) {
+        let near = spread <= 2 * self.messages || places.iter().all(starts);
+        let together = self.messages >= 2 && spread == self.messages;
+        if !(together || near && score >= LEAST * self.messages) {
             return None;
         }
         let more = [
             (first == 0, BEGINS),
             (parts(last + 1), ENDS),
-            (spread == self.letters && text.len() == places.len(), ALL),
+            (spread == self.messages && text.len() == places.len(), ALL),
         ];
         let more: u32 = more.into_iter().filter_map(|(is, more)| is.then_some(more)).sum();
-        let letters = places.into_iter().map(|place| place as usize).collect();
-        Some(Fit { score: score + more, letters })
+        let messages = places.into_iter().map(|place| place as usize).collect();
+        Some(Fit { score: score + more, messages })
     }
 
     /// What it is worth in what is said about a line: three letters anywhere, two at the beginning of a word.
     fn said(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
         let mut buffer = Vec::new();
         let score = self.plain.score(Utf32Str::new(text, &mut buffer), matcher)?.into();
-        let meant = self.letters > 2 || self.letters == 2 && score >= LEAST * self.letters;
+        let meant = self.messages > 2 || self.messages == 2 && score >= LEAST * self.messages;
         meant.then_some(score)
     }
 }
@@ -142,17 +142,17 @@ mod tests {
 
     #[test]
     fn letters_are_found_together_as_initials_or_within_a_word() {
-        let letters = |query, label| fit(query, label).map(|f| f.letters);
-        assert_eq!(letters("zom", "zoom"), Some(vec![0, 1, 3]));
-        assert_eq!(letters("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
-        assert_eq!(letters("heiles", "Hénon–Heiles"), Some((6..12).collect()));
-        assert_eq!(letters("dp", "Driven damped pendulum"), Some(vec![7, 14]));
-        assert_eq!(letters("ene", "let time run slower"), None, "chance is not meant");
-        assert_eq!(letters("ene", "everyone"), None, "nor in one long word");
-        assert_eq!(letters("m", "Sum"), None, "one letter begins a word");
-        assert_eq!(letters("abo", "zoom"), Some(vec![]), "told of, not named");
-        assert_eq!(letters("sec", "zoom"), Some(vec![]), "its second name");
-        assert_eq!(letters("zoom xyz", "zoom"), None);
+        let messages = |query, label| fit(query, label).map(|f| f.messages);
+        assert_eq!(messages("zom", "zoom"), Some(vec![0, 1, 3]));
+        assert_eq!(messages("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(messages("heiles", "Hénon–Heiles"), Some((6..12).collect()));
+        assert_eq!(messages("dp", "Driven damped pendulum"), Some(vec![7, 14]));
+        assert_eq!(messages("ene", "let time run slower"), None, "chance is not meant");
+        assert_eq!(messages("ene", "everyone"), None, "nor in one long word");
+        assert_eq!(messages("m", "Sum"), None, "one letter begins a word");
+        assert_eq!(messages("abo", "zoom"), Some(vec![]), "told of, not named");
+        assert_eq!(messages("sec", "zoom"), Some(vec![]), "its second name");
+        assert_eq!(messages("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(Fit::default()));
     }
 

@@ -2,12 +2,12 @@
 
 use std::ffi::OsString;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{config, play, record};
 use crate::preset::{Catalog, Origin, is_path};
-use crate::record::Performance;
-use crate::shell::{self, Ending, NoSession, Options, Refusal, Request, options};
+use crate::record::ScriptRunner;
+use crate::shell::{self, Ending, LabError, Options, Request, SessionError, options};
 
 /// What to open and how to show it.
 #[derive(Debug, clap::Args)]
@@ -25,9 +25,9 @@ pub(super) struct Arguments {
 
 /// What a terminal is to be used with: what the words of the command line ask for, else the environment, else the
 /// configuration.
-pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Request, Failure> {
+pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Request, CommandError> {
     let variable = |name: &str| std::env::var(name).ok();
-    let environment = options::of_environment(&variable).map_err(Failure::WrongUse)?;
+    let environment = options::of_environment(&variable).map_err(CommandError::WrongUse)?;
     let mut defaults = config::options()?;
     // many programs know this variable; it wins over the configuration
     if variable("NO_COLOR").is_some_and(|value| !value.is_empty()) {
@@ -37,23 +37,23 @@ pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Reques
     let command = options::with_defaults(super::command(), defaults);
     // the words were right before, and so are the defaults
     let arguments = super::parse(command, words)
-        .map_err(|why| Failure::WrongUse(why.to_string().trim_end().to_owned()))?;
+        .map_err(|why| CommandError::WrongUse(why.to_string().trim_end().to_owned()))?;
     Ok(Request::new(name, &arguments.lab.options))
 }
 
-pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), CommandError> {
     if arguments.demo {
         return perform_demo(arguments, words);
     }
     if let Some(message) = arguments.name.as_deref().and_then(super::unknown) {
-        return Err(Failure::WrongUse(message));
+        return Err(CommandError::WrongUse(message));
     }
     if arguments.options.watch {
         watchable(arguments.name.as_deref())?;
     }
     let mut request = request(arguments.name.clone(), words)?;
     let mut ended = shell::run(&request);
-    let gone = matches!(ended, Err(Refusal::NoSession(_) | Refusal::NotFound(_)));
+    let gone = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
     if gone && request.resume && !arguments.options.resume {
         // a session is gone on with wherever there is one; here there is none yet, or none that can be gone on with
         request.resume = false;
@@ -62,14 +62,14 @@ pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), F
     how_it_ended(ended)
 }
 
-/// A demo on the terminal. Its last picture stays, and what is wrong with its script is told, once the terminal is given
+/// A demo on the terminal. Its last picture stays, and what is wrong with its script is reported, once the terminal is given
 /// back.
-fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), Failure> {
+fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), CommandError> {
     let request = request(None, words)?;
     let source = play::source(arguments.name.as_deref())?;
     let (script, system, name) = play::scripted(&source)?;
     let wrong = |mistake| record::told(&source, &[mistake]);
-    let performance = Performance::watched(script, &system, &name).map_err(wrong)?;
+    let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {
         Ok(done) => done,
         Err(refusal) => return how_it_ended(Err(refusal)),
@@ -81,12 +81,12 @@ fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), Failure
 }
 
 /// What is shipped has no file that could change.
-fn watchable(name: Option<&str>) -> Result<(), Failure> {
+fn watchable(name: Option<&str>) -> Result<(), CommandError> {
     let Some(name) = name.filter(|name| !is_path(name)) else { return Ok(()) };
     let catalog = Catalog::load();
     let entry = catalog.entries().iter().find(|entry| entry.name == name);
     match entry.map(|entry| &entry.origin) {
-        Some(Origin::Shipped) => Err(Failure::WrongUse(format!(
+        Some(Origin::Shipped) => Err(CommandError::WrongUse(format!(
             "`{name}` is shipped with phaselab and has no file to be watched; open it, press E and Ctrl-s to save a \
              copy of your own, and watch that"
         ))),
@@ -95,18 +95,18 @@ fn watchable(name: Option<&str>) -> Result<(), Failure> {
 }
 
 /// What an ending on the terminal means for the exit code.
-pub(super) fn how_it_ended(ended: Result<Ending, Refusal>) -> Result<(), Failure> {
+pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), CommandError> {
     match ended {
         Ok(Ending::Quit) => Ok(()),
-        Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
-        Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),
-        Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
-        Err(refusal @ (Refusal::Unsaved(_) | Refusal::Unrecorded(_) | Refusal::NoLog(_))) => {
-            Err(Failure::CouldNotWrite(refusal.to_string()))
+        Ok(Ending::Gone) => Err(CommandError::Signal(signal_hook::consts::SIGHUP)),
+        Ok(Ending::Signal(number)) => Err(CommandError::Signal(number)),
+        Err(refusal @ LabError::System(_)) => Err(CommandError::CouldNot(refusal.to_string())),
+        Err(refusal @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {
+            Err(CommandError::CouldNotWrite(refusal.to_string()))
         }
-        Err(Refusal::NoSession(why @ (NoSession::Newer { .. } | NoSession::Malformed { .. }))) => {
-            Err(Failure::WrongFile(why.to_string()))
-        }
-        Err(refusal) => Err(Failure::WrongUse(refusal.to_string())),
+        Err(LabError::SessionError(
+            why @ (SessionError::Newer { .. } | SessionError::Malformed { .. }),
+        )) => Err(CommandError::WrongFile(why.to_string())),
+        Err(refusal) => Err(CommandError::WrongUse(refusal.to_string())),
     }
 }

@@ -12,7 +12,7 @@ pub(super) struct Section {
     pub(super) head: &'static str,
     /// What it is for.
     pub(super) about: &'static str,
-    /// Its keys in the order in which they are told; none where the names are the file's own.
+    /// Its keys in the order in which they are reported; none where the names are the file's own.
     pub(super) keys: &'static [Key],
 }
 

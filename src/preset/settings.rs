@@ -7,9 +7,10 @@
 use toml::de::DeValue;
 
 use super::draft::Table;
-use super::mistake::{Mistake, Mistakes};
-use super::{Document, grammar};
-use crate::model::Place;
+use super::toml_errors;
+use crate::diagnostic::Document;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// One key of the file and what stands at it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -17,7 +18,7 @@ pub struct Entry {
     /// The key.
     pub key: &'static str,
     /// Where its value stands, as bytes of the file.
-    pub place: Place,
+    pub place: SourceRange,
     /// Its value.
     pub value: Plain,
 }
@@ -38,12 +39,12 @@ pub enum Plain {
 impl Document {
     /// Reads a file that may have these keys and no other, `called` being how complaints name it: what could be read,
     /// and every slip of TOML and every unknown key.
-    pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Entry>, Vec<Mistake>) {
+    pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Entry>, Vec<Diagnostic>) {
         if let Some(mistake) = self.unreadable() {
             return (Vec::new(), vec![mistake.clone()]);
         }
-        let mut mistakes = Mistakes::default();
-        let file = grammar::parse(&self.text, &mut mistakes);
+        let mut mistakes = Diagnostics::default();
+        let file = toml_errors::parse(&self.text, &mut mistakes);
         let mut entries = Vec::new();
         if !mistakes.lost_track() {
             let mut table = Table::new(called, 0..0, file.get_ref());

@@ -2,7 +2,7 @@
 //!
 //! In: events of `tracing`, from any thread. Out: lines of a file, each with its time and level. Never here: the terminal;
 //! waiting. Lines are written by a thread of their own; where the disk is slower than what happens, some are left out
-//! and their number is told at the end.
+//! and their number is reported at the end.
 
 use std::fmt;
 use std::fs::{self, File};
@@ -35,7 +35,7 @@ pub enum LogFile {
 /// Why there is no log, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write the log {}: {}", printable::path(.path), printable::why(.reason))]
-pub struct NoLog {
+pub struct LogError {
     /// The file.
     path: PathBuf,
     /// What the system says.
@@ -55,15 +55,15 @@ pub(super) struct Log {
 impl Log {
     /// Has the events of all threads written to a file from now on, after what it holds; the folder is made where there
     /// is none.
-    pub(super) fn open(place: &LogFile) -> Result<Self, NoLog> {
+    pub(super) fn open(place: &LogFile) -> Result<Self, LogError> {
         let path = match place {
             LogFile::At(path) => path.clone(),
-            LogFile::Usual => usual().ok_or_else(|| NoLog {
+            LogFile::Usual => usual().ok_or_else(|| LogError {
                 path: "phaselab.log".into(),
                 reason: io::Error::new(io::ErrorKind::NotFound, "there is no home folder"),
             })?,
         };
-        let (log, subscriber) = Self::at(&path).map_err(|reason| NoLog { path, reason })?;
+        let (log, subscriber) = Self::at(&path).map_err(|reason| LogError { path, reason })?;
         // one log a program: where there is one already, that one goes on
         let _ = tracing::subscriber::set_global_default(subscriber);
         Ok(log)
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_told_stands_in_the_file_in_order_and_after_what_was_there() {
+    fn what_is_reported_stands_in_the_file_in_order_and_after_what_was_there() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("new/own.log");
         for count in [2, 3] {
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_cannot_be_written_is_told_with_its_name() {
+    fn a_place_that_cannot_be_written_is_reported_with_its_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let error = Log::open(&LogFile::At(folder.path().to_owned())).expect_err("it is a folder");
         let path = folder.path().display();

@@ -15,7 +15,7 @@ use clap::{ArgAction, Args, Command, ValueEnum};
 use super::bandwidth::Bandwidth;
 use super::log::LogFile;
 use super::request::MOST_FRAMES;
-use crate::expr::nearest;
+use crate::diagnostic::nearest;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variable_that_cannot_be_used_is_told() {
+    fn a_variable_that_cannot_be_used_is_reported() {
         let check = |name: &str, word: &str, told: &str| {
             let variable = |asked: &str| (asked == name).then(|| word.to_owned());
             assert_eq!(of_environment(&variable), Err(told.to_owned()));

@@ -11,7 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::atomic_file::{NOTHING, NewFile};
-use crate::record::cast::{Cast, Version};
+use crate::record::cast_writer::{Cast, Version};
 use crate::record::plain;
 use crate::view::frame::Frames;
 use crate::view::theme::Palette;
@@ -73,7 +73,7 @@ impl Recorder {
         }
     }
 
-    /// Ends a cast that cannot go on, for that reason; what is to be told.
+    /// Ends a cast that cannot go on, for that reason; what is to be reported.
     pub(super) fn give_up(self, why: &io::Error) -> String {
         match self.cast.into_inner().finish() {
             Ok(name) if name == NOTHING => format!("nothing is recorded: {why}"),

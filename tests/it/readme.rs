@@ -112,7 +112,7 @@ fn the_tables_are_those_of_the_code() {
 fn the_reference_of_the_format_is_that_of_the_code() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/preset-format.md");
     let text = format!(
-        "# The tables and keys of a preset\n\nWhat each table of a preset file may have; what they mean together is told in the README.\n\n{}",
+        "# The tables and keys of a preset\n\nWhat each table of a preset file may have; what they mean together is reported in the README.\n\n{}",
         phaselab::preset::reference()
     );
     if std::env::var_os("UPDATE_EXPECT").is_some() {

@@ -5,14 +5,15 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::vector::{self, Formulas};
-use super::{Formula, Mistake, Mistakes, Place, value};
-use crate::expr::nearest;
+use super::{Formula, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{Key, PIECE, SOLIDS, TURN};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) pieces: Vec<DraftPiece>,
 }
 
@@ -26,7 +27,7 @@ pub(in crate::preset) struct DraftPiece {
     pub(in crate::preset) at: Option<Formulas>,
     pub(in crate::preset) turn: DraftTurn,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// How a piece is turned, as written.
@@ -39,7 +40,7 @@ pub(in crate::preset) enum DraftTurn {
 /// `[attitude]` as written.
 pub(in crate::preset) struct DraftAttitude {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) euler: Option<Formulas>,
     pub(in crate::preset) omega: Option<Formulas>,
     pub(in crate::preset) start: Option<Formulas>,
@@ -48,20 +49,20 @@ pub(in crate::preset) struct DraftAttitude {
 /// `[comparison]` as written.
 pub(in crate::preset) struct DraftComparison {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// Where the list stands.
-    pub(in crate::preset) list: Place,
+    pub(in crate::preset) list: SourceRange,
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }
 
-pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftBody> {
+pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftBody> {
     let mut table = top.table("body", mistakes)?;
     let example = "{ solid = \"sphere\", mass = \"m\", radius = \"a\" }";
     let mut pieces = Vec::new();
     if let Some((_, found)) = table.take("pieces") {
         let items = value::list(found, "`pieces`", mistakes);
         if items.is_some_and(|items| items.is_empty()) {
-            let mistake = Mistake::error(found.span(), "a body is made of at least one piece");
+            let mistake = Diagnostic::error(found.span(), "a body is made of at least one piece");
             mistakes.push(mistake.with_help(format!("write pieces = [ {example} ]")));
         }
         for item in items.into_iter().flatten() {
@@ -74,13 +75,13 @@ pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<Draft
     Some(DraftBody { place, pieces })
 }
 
-fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
+fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece> {
     let point = table.flag("point", mistakes).filter(|flag| *flag.get_ref());
     let (had, written) = (table.has("solid"), table.text("solid", mistakes));
     let solid = match (&point, &written) {
         (Some(_), Some(solid)) => {
             let message = "a piece is a point or a solid, not both";
-            mistakes.push(Mistake::error(solid.span(), message));
+            mistakes.push(Diagnostic::error(solid.span(), message));
             return None;
         }
         (Some(_), None) => None,
@@ -89,7 +90,10 @@ fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
             if !had {
                 let message = "this piece has no `solid`";
                 let help = "write solid = \"sphere\" or another one, or point = true";
-                table.lacks("solid", Mistake::error(table.place.clone(), message).with_help(help));
+                table.lacks(
+                    "solid",
+                    Diagnostic::error(table.place.clone(), message).with_help(help),
+                );
                 table.finish_unread(mistakes);
             }
             return None;
@@ -118,7 +122,7 @@ fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
     Some(DraftPiece { solid, sizes, mass, at, turn, place })
 }
 
-fn known(solid: &Spanned<String>, mistakes: &mut Mistakes) -> Option<&'static str> {
+fn known(solid: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<&'static str> {
     let name = solid.get_ref().as_str();
     let known = SOLIDS.iter().find(|known| **known == name);
     if known.is_none() {
@@ -127,12 +131,12 @@ fn known(solid: &Spanned<String>, mistakes: &mut Mistakes) -> Option<&'static st
             None => format!("the solids are {}", SOLIDS.join(", ")),
         };
         let message = format!("there is no solid `{name}`");
-        mistakes.push(Mistake::error(solid.span(), message).with_help(help));
+        mistakes.push(Diagnostic::error(solid.span(), message).with_help(help));
     }
     known.copied()
 }
 
-fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
+fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
     let Some((place, found)) = table.take("turned") else { return DraftTurn::None };
     let shape = "turned = { axis = [\"0\", \"0\", \"1\"], angle = \"...\" }";
     let Some(table) = Table::of(found, "`turned`", place, shape, mistakes) else {
@@ -143,7 +147,7 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
         for (key, _) in table.entries() {
             if let "axis" | "angle" = key.get_ref().as_str() {
                 let message = "a piece is turned by `axis` and `angle` or by `euler`, not by both";
-                mistakes.push(Mistake::error(key.span(), message));
+                mistakes.push(Diagnostic::error(key.span(), message));
             }
         }
         table.pass_over(&["axis", "angle"]);
@@ -156,7 +160,7 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
     turn
 }
 
-pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftAttitude> {
+pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftAttitude> {
     let mut table = top.table("attitude", mistakes)?;
     let (has_euler, has_omega) = (table.has("euler"), table.has("omega"));
     let euler = vector::triple(&mut table, "euler", mistakes);
@@ -168,16 +172,16 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<D
             let message = "[attitude] has neither `euler` nor `omega`";
             let help = "write euler = [\"phi\", \"theta\", \"psi\"], or the angular velocity about \
                         the body's axes: omega = [\"w1\", \"w2\", \"w3\"]";
-            table.lacks("euler", Mistake::error(table.place.clone(), message).with_help(help));
+            table.lacks("euler", Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, true, _) => {
             let message = "[attitude] has both `euler` and `omega`";
             let help = "either angles or an angular velocity say how a body stands";
-            mistakes.push(Mistake::error(table.place.clone(), message).with_help(help));
+            mistakes.push(Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, false, Some(start)) => {
             let message = "`start` goes with `omega`; the angles of `euler` need none";
-            mistakes.push(Mistake::error(start, message));
+            mistakes.push(Diagnostic::error(start, message));
         }
         _ => {}
     }
@@ -186,7 +190,10 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<D
     Some(DraftAttitude { place, euler, omega, start })
 }
 
-pub(super) fn comparison(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftComparison> {
+pub(super) fn comparison(
+    top: &mut Table<'_>,
+    mistakes: &mut Diagnostics,
+) -> Option<DraftComparison> {
     let mut table = top.table("comparison", mistakes)?;
     let found = table.take("eliminate");
     let list = found.as_ref().map_or(0..0, |(_, found)| found.span());

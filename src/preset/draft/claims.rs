@@ -3,7 +3,8 @@
 use toml::Spanned;
 
 use super::table::Table;
-use super::{Formula, Mistakes, Place, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostics, SourceRange};
 
 /// An observable as written.
 pub(in crate::preset) struct DraftObservable {
@@ -30,7 +31,7 @@ pub(in crate::preset) struct DraftOccurrence {
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// How often something is to happen, as written.
@@ -40,7 +41,7 @@ pub(in crate::preset) struct DraftCount {
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// What a bracket is to be, as written.
@@ -50,7 +51,7 @@ pub(in crate::preset) struct DraftBracketClaim {
     pub(in crate::preset) is: Option<Formula>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// A value claimed, as written.
@@ -62,10 +63,10 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftObservable> {
+pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftObservable> {
     let mut all = Vec::new();
     for mut table in top.tables("observables", "this observable", mistakes) {
         all.push(DraftObservable {
@@ -78,7 +79,7 @@ pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<D
     all
 }
 
-pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftExpect {
+pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftExpect {
     let Some(mut table) = top.table("expect", mistakes) else { return DraftExpect::default() };
     let conserves = table
         .list("conserves", mistakes)
@@ -103,7 +104,7 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftExpec
     }
 }
 
-fn occurrence(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftOccurrence {
+fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurrence {
     let name = table.name(mistakes);
     let claim = DraftOccurrence {
         name,
@@ -117,7 +118,7 @@ fn occurrence(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftOccurrence 
     claim
 }
 
-fn count(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftCount {
+fn count(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftCount {
     let name = table.name(mistakes);
     let claim = DraftCount {
         name,
@@ -130,7 +131,7 @@ fn count(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftCount {
     claim
 }
 
-fn bracket(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftBracketClaim {
+fn bracket(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftBracketClaim {
     let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key, mistakes));
     let source = table.line("source", mistakes);
     let place = table.place.clone();
@@ -138,7 +139,7 @@ fn bracket(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftBracketClaim {
     DraftBracketClaim { f, g, is, source, place }
 }
 
-fn expected(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftValue {
+fn expected(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftValue {
     let name = table.line("name", mistakes);
     let value = DraftValue {
         name,

@@ -4,8 +4,9 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::{Formula, Mistake, Mistakes, Place, TOP_LEVEL, value};
-use crate::expr::nearest;
+use super::{Formula, TOP_LEVEL, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{Key, Kind, Section};
 
 /// A value of TOML with its span.
@@ -16,7 +17,7 @@ pub(in crate::preset) struct Table<'d> {
     /// What messages call it: `[run]`, `the coordinate x`.
     pub(super) called: String,
     /// Where it stands.
-    pub(super) place: Place,
+    pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
     /// What the format says of it; nothing of a table of which only its reader knows the keys.
     section: Option<&'static Section>,
@@ -24,13 +25,13 @@ pub(in crate::preset) struct Table<'d> {
     kind: Option<&'static str>,
     asked: Vec<&'static str>,
     passed: Vec<&'static str>,
-    absent: Vec<(&'static str, Mistake)>,
+    absent: Vec<(&'static str, Diagnostic)>,
 }
 
 impl<'d> Table<'d> {
     pub(in crate::preset) fn new(
         called: impl Into<String>,
-        place: Place,
+        place: SourceRange,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
         let (asked, passed, absent) = (Vec::new(), Vec::new(), Vec::new());
@@ -67,16 +68,16 @@ impl<'d> Table<'d> {
     pub(super) fn of(
         value: &'d Value<'d>,
         called: impl Into<String>,
-        place: Place,
+        place: SourceRange,
         shape: &str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let called = called.into();
         match value.get_ref() {
             DeValue::Table(entries) => Some(Table::new(called, place, entries)),
             other => {
                 let message = format!("{called} must be a table, not {}", value::kind(other));
-                let mistake = Mistake::error(value.span(), message);
+                let mistake = Diagnostic::error(value.span(), message);
                 mistakes.push(mistake.with_help(format!("write {shape}")));
                 None
             }
@@ -89,7 +90,10 @@ impl<'d> Table<'d> {
     }
 
     /// A key's place and value. Where the format says that it has to be there, it is missing otherwise.
-    pub(in crate::preset) fn take(&mut self, key: &'static str) -> Option<(Place, &'d Value<'d>)> {
+    pub(in crate::preset) fn take(
+        &mut self,
+        key: &'static str,
+    ) -> Option<(SourceRange, &'d Value<'d>)> {
         debug_assert!(self.agrees(key, |_| true), "the format has no `{key}` in {}", self.called);
         self.asked.push(key);
         let found = self.entries.get_key_value(key);
@@ -103,7 +107,7 @@ impl<'d> Table<'d> {
 
     fn lacks_key(&mut self, key: &'static str, help: &str) {
         let message = format!("{} has no `{key}`", self.called);
-        let mistake = Mistake::error(self.place.clone(), message);
+        let mistake = Diagnostic::error(self.place.clone(), message);
         self.lacks(key, mistake.with_help(help));
     }
 
@@ -112,7 +116,7 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         help: &str,
-    ) -> Option<(Place, &'d Value<'d>)> {
+    ) -> Option<(SourceRange, &'d Value<'d>)> {
         let found = self.take(key);
         if found.is_none() {
             self.lacks_key(key, help);
@@ -121,7 +125,7 @@ impl<'d> Table<'d> {
     }
 
     /// Takes note that a key is missing; told at the end, unless it is there misspelt.
-    pub(super) fn lacks(&mut self, key: &'static str, mistake: Mistake) {
+    pub(super) fn lacks(&mut self, key: &'static str, mistake: Diagnostic) {
         self.absent.push((key, mistake));
     }
 
@@ -129,7 +133,7 @@ impl<'d> Table<'d> {
     pub(super) fn text(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
         debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Text)), "{key} is no text");
         let (_, found) = self.take(key)?;
@@ -137,13 +141,13 @@ impl<'d> Table<'d> {
     }
 
     /// A text to be shown on one line, or nothing.
-    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Mistakes) -> String {
+    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Diagnostics) -> String {
         let text = self.text(key, mistakes);
         text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
     }
 
     /// The name of an entry, which has to be there; messages call the entry by it from then on.
-    pub(super) fn name(&mut self, mistakes: &mut Mistakes) -> Option<Spanned<String>> {
+    pub(super) fn name(&mut self, mistakes: &mut Diagnostics) -> Option<Spanned<String>> {
         let (_, found) = self.take("name")?;
         let name = value::text(found, "`name`", mistakes)?;
         let shown = name.get_ref().trim();
@@ -151,7 +155,7 @@ impl<'d> Table<'d> {
             let kind = self.called.replacen("this ", "", 1);
             let article = if kind.starts_with(['e', 'i', 'o', 'a']) { "an" } else { "a" };
             let message = format!("{article} {kind} needs a name that can be shown");
-            mistakes.push(Mistake::error(name.span(), message));
+            mistakes.push(Diagnostic::error(name.span(), message));
             return None;
         }
         self.called = format!("{} `{shown}`", self.called.replacen("this", "the", 1));
@@ -162,7 +166,7 @@ impl<'d> Table<'d> {
     pub(super) fn number(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
         debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Number)), "{key} is no number");
         let (_, found) = self.take(key)?;
@@ -173,7 +177,7 @@ impl<'d> Table<'d> {
     pub(super) fn formula(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Formula> {
         debug_assert!(
             self.agrees(key, |kind| matches!(kind, Kind::Formula)),
@@ -187,7 +191,7 @@ impl<'d> Table<'d> {
     pub(super) fn flag(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
         debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Flag)), "{key} is no flag");
         let (_, found) = self.take(key)?;
@@ -195,7 +199,11 @@ impl<'d> Table<'d> {
     }
 
     /// The items of a list, none where the key is left out.
-    pub(super) fn list(&mut self, key: &'static str, mistakes: &mut Mistakes) -> &'d [Value<'d>] {
+    pub(super) fn list(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Diagnostics,
+    ) -> &'d [Value<'d>] {
         match self.take(key) {
             None => &[],
             Some((_, found)) => {
@@ -209,7 +217,7 @@ impl<'d> Table<'d> {
     pub(super) fn table(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
         let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)?;
@@ -224,7 +232,7 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         (called, shape): (&str, &str),
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let section = self.row(key).and_then(|row| row.kind.section());
         let items = self.list(key, mistakes).iter();
@@ -237,7 +245,7 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         called: &str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
@@ -255,7 +263,7 @@ impl<'d> Table<'d> {
                 let is = value::kind(other);
                 let message = format!("`{key}` must be a list of tables, not {is}");
                 let help = format!("head each one with {head}, in double brackets");
-                mistakes.push(Mistake::error(place, message).with_help(help));
+                mistakes.push(Diagnostic::error(place, message).with_help(help));
                 Vec::new()
             }
         }
@@ -274,7 +282,7 @@ impl<'d> Table<'d> {
     }
 
     /// Complains of every key that may not stand here, and of those that are missing. All that may has been read.
-    pub(in crate::preset) fn finish(self, mistakes: &mut Mistakes) {
+    pub(in crate::preset) fn finish(self, mistakes: &mut Diagnostics) {
         let read = |name: &str| self.asked.contains(&name) || self.passed.contains(&name);
         let unread = self
             .entries
@@ -285,7 +293,7 @@ impl<'d> Table<'d> {
     }
 
     /// The same of a table that was given up before all of it was read.
-    pub(super) fn finish_unread(mut self, mistakes: &mut Mistakes) {
+    pub(super) fn finish_unread(mut self, mistakes: &mut Diagnostics) {
         let mut known: Vec<&'static str> = match self.section {
             Some(section) => {
                 let rows = section.keys.iter().filter(|row| self.allows(row));
@@ -314,7 +322,7 @@ impl<'d> Table<'d> {
             } else {
                 format!("the keys here are {}", known.join(", "))
             };
-            mistakes.push(Mistake::error(key.span(), message).with_help(help));
+            mistakes.push(Diagnostic::error(key.span(), message).with_help(help));
         }
         for (key, mistake) in self.absent {
             mistakes.missing(key, mistake);

@@ -1,0 +1,233 @@
+//! TOML's own grammar: text in, tables with spans out. Its mistakes are said in our words, and as
+//! much of the file is saved as can be, so that the other mistakes can be reported as well.
+//!
+//! What a mistake is follows from where it arises (between tokens, in a key, in a value, in a table),
+//! from what was expected there and from the text in its place; never from the parser's own words.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+use toml_parser::decoder::Encoding;
+use toml_parser::parser::{Event, EventKind, RecursionGuard, ValidateWhitespace, parse_document};
+use toml_parser::{Expected, ParseError, Source};
+
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::SourceRange;
+use crate::printable;
+
+/// The file as a table; what is not TOML is left out or patched, after a complaint.
+pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<DeTable<'f>> {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let mut slips = if errors.is_empty() { Vec::new() } else { slips(text) };
+    // beyond those there are only keys of a table that are there already
+    let others: Vec<SourceRange> = errors
+        .iter()
+        .map(|error| error.span().unwrap_or(0..0))
+        .filter(|place| slips.iter().all(|slip| slip.place != *place))
+        .collect();
+    slips.extend(others.into_iter().map(|place| beyond_grammar(text, place)));
+    slips.sort_by_key(|slip| slip.place.start);
+    for Slip { place, message, help, loses } in slips {
+        // once the way is lost, what follows is mostly its echo
+        if mistakes.lost_track() {
+            break;
+        }
+        let mut mistake = Diagnostic::error(place.clone(), message);
+        mistake.help = help;
+        mistakes.push(mistake);
+        match loses {
+            Loses::Key => mistakes.lose_key(text[place].trim_matches(['"', '\''])),
+            Loses::Value => mistakes.lose_value(place),
+            Loses::Track => mistakes.lose_track(),
+        }
+    }
+    steering(table.get_ref(), mistakes);
+    table
+}
+
+/// Complains of every name and text in which a character would steer the terminal that shows it; no more is said of it.
+fn steering(table: &DeTable<'_>, mistakes: &mut Diagnostics) {
+    for (key, value) in table {
+        if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
+            let message = format!("the character U+{:04X} may not stand in a name", c as u32);
+            mistakes.push(Diagnostic::error(key.span(), message));
+            mistakes.lose_key(key.get_ref());
+            mistakes.lose_value(key.span());
+        }
+        steering_value(value, mistakes);
+    }
+}
+
+fn steering_value(value: &Spanned<DeValue<'_>>, mistakes: &mut Diagnostics) {
+    match value.get_ref() {
+        DeValue::String(text) => {
+            let layout = |c: char| matches!(c, '\n' | '\r' | '\t');
+            if let Some(c) = text.chars().find(|&c| printable::is_steering(c) && !layout(c)) {
+                let message = format!("the character U+{:04X} may not stand in a text", c as u32);
+                mistakes.push(Diagnostic::error(value.span(), message));
+                mistakes.lose_value(value.span());
+            }
+        }
+        DeValue::Array(items) => items.iter().for_each(|item| steering_value(item, mistakes)),
+        DeValue::Table(table) => steering(table, mistakes),
+        _ => {}
+    }
+}
+
+/// What is not there to be checked after a slip.
+#[derive(Clone, Copy)]
+enum Loses {
+    /// The key that stands at the place, with its value.
+    Key,
+    /// What stands at the place.
+    Value,
+    /// Whatever follows.
+    Track,
+}
+
+/// A slip in our words.
+struct Slip {
+    place: SourceRange,
+    message: String,
+    help: Option<String>,
+    loses: Loses,
+}
+
+impl Slip {
+    fn new(place: SourceRange, message: impl Into<String>, loses: Loses) -> Slip {
+        Slip { place, message: message.into(), help: None, loses }
+    }
+
+    fn help(self, help: impl Into<String>) -> Slip {
+        Slip { help: Some(help.into()), ..self }
+    }
+}
+
+/// Tables and lists in each other: as many as the reader allows.
+const DEEPEST: u32 = 80;
+
+/// All slips of the grammar; keys given twice are none.
+fn slips(text: &str) -> Vec<Slip> {
+    let source = Source::new(text);
+    let (mut events, mut errors) = (Vec::<Event>::new(), Vec::new());
+    let mut spaces = ValidateWhitespace::new(&mut events, source);
+    let mut depth = RecursionGuard::new(&mut spaces, DEEPEST);
+    parse_document(&source.lex().into_vec(), &mut depth, &mut errors);
+    let mut slips: Vec<Slip> = errors.iter().map(|error| between_tokens(text, error)).collect();
+    for event in &events {
+        let Some(raw) = source.get(event) else { continue };
+        let mut errors = Vec::new();
+        match event.kind() {
+            EventKind::SimpleKey => raw.decode_key(&mut (), &mut errors),
+            EventKind::Scalar => {
+                let _kind = raw.decode_scalar(&mut (), &mut errors);
+            }
+            _ => {}
+        }
+        for error in errors {
+            let place = place_of(&error);
+            slips.push(match (event.kind(), event.encoding()) {
+                (
+                    EventKind::SimpleKey,
+                    None | Some(Encoding::MlBasicString | Encoding::MlLiteralString),
+                ) => in_key(place),
+                (_, None) => in_plain_value(raw.as_str(), place),
+                (_, Some(quotes)) => in_quotes(text, place, quotes),
+            });
+        }
+    }
+    slips
+}
+
+fn place_of(error: &ParseError) -> SourceRange {
+    error.unexpected().map_or(0..0, |span| span.start()..span.end())
+}
+
+/// What is well formed and cannot be all the same: a date that there is not, or a key of a table that has it already.
+fn beyond_grammar(text: &str, place: SourceRange) -> Slip {
+    let there = text.get(place.clone()).unwrap_or("");
+    let before = text.get(..place.start).unwrap_or("").trim_end();
+    if before.ends_with(['=', ',']) && there.starts_with(|c: char| c.is_ascii_digit()) {
+        return Slip::new(place, "there is no such date or time", Loses::Value);
+    }
+    let key = there.trim_matches(['"', '\'']);
+    Slip::new(place, format!("`{key}` is given twice"), Loses::Key).help("keep one of them")
+}
+
+/// A token that is missing, or one too many.
+fn between_tokens(text: &str, error: &ParseError) -> Slip {
+    let place = place_of(error);
+    let expects = |token: &str| {
+        let expected = error.expected().unwrap_or_default();
+        expected.iter().any(|e| matches!(e, Expected::Literal(literal) if *literal == token))
+    };
+    let opened = error.context().and_then(|span| text.get(span.start()..span.end()));
+    let next = text.get(place.start..).and_then(|rest| rest.chars().next()).unwrap_or('\n');
+    let message = match error.expected() {
+        None => "tables and lists are nested too deep",
+        _ if expects("\n") => "nothing more may stand on this line",
+        Some(_) if ",=".contains(next) && !expects(&next.to_string()) => {
+            return Slip::new(place, format!("one `{next}` too many"), Loses::Track);
+        }
+        _ if expects("]]") => "before here a `]]` is missing",
+        _ if expects("=") => "a key is followed by `=` and its value",
+        _ => match (opened, expects(",")) {
+            (Some("["), true) => "before here a `,` or `]` is missing",
+            (Some("{"), true) => "before here a `,` or `}` is missing",
+            (Some("["), _) => "before here a `]` is missing",
+            (Some("{"), _) => "before here a `}` is missing",
+            _ if expects("]") => "before here a `]` is missing",
+            _ => "this is not TOML",
+        },
+    };
+    Slip::new(place, message, Loses::Track)
+}
+
+fn in_key(place: SourceRange) -> Slip {
+    if place.is_empty() {
+        return Slip::new(place, "a key is missing here", Loses::Track);
+    }
+    let help = "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }";
+    Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
+}
+
+/// In a value without quotes: a number that is none, a word, or nothing.
+fn in_plain_value(value: &str, place: SourceRange) -> Slip {
+    let loses = Loses::Value;
+    let digits = value.trim_start_matches(['+', '-']);
+    let numeric = |c: char| c.is_ascii_digit() || "+-._eE".contains(c);
+    if value.is_empty() {
+        Slip::new(place, "a value is missing here", loses)
+    } else if value.contains(['"', '\'']) {
+        Slip::new(place, "the first quote of this text is missing", loses)
+    } else if !value.chars().all(numeric) || !value.contains(|c: char| c.is_ascii_digit()) {
+        let help = format!("write \"{value}\"");
+        Slip::new(place, "text and expressions stand in quotes", loses).help(help)
+    } else if value.contains('_') {
+        Slip::new(place, "in a number `_` stands between digits", loses)
+    } else if digits.starts_with('0') && digits[1..].starts_with(|c: char| c.is_ascii_digit()) {
+        Slip::new(place, "a number does not begin with 0", loses)
+    } else {
+        let message = "a number of TOML has digits on both sides of its point";
+        Slip::new(place, message, loses).help("write 0.5 and 1.0, or put an expression in quotes")
+    }
+}
+
+/// In a text: an escape that is none, or quotes that are not closed.
+fn in_quotes(text: &str, place: SourceRange, quotes: Encoding) -> Slip {
+    let before = text.get(..place.start).unwrap_or("");
+    // an escape is cut short behind its letter, `u` for instance, and reported there or behind its digits
+    let escape = before.trim_end_matches(|c: char| c.is_ascii_hexdigit());
+    if before.ends_with('\\') {
+        let help = "write `\\\\` for a backslash, or quote with '...'";
+        Slip::new(place, "no such escape", Loses::Value).help(help)
+    } else if matches!(quotes, Encoding::BasicString | Encoding::MlBasicString)
+        && ["\\u", "\\U", "\\x"].iter().any(|start| escape.ends_with(start))
+    {
+        Slip::new(place, "this escape has too few digits", Loses::Value)
+    } else if matches!(quotes, Encoding::MlBasicString | Encoding::MlLiteralString) {
+        Slip::new(place, "this text of several lines is never closed", Loses::Track)
+    } else {
+        Slip::new(place, "this text in quotes is not closed on its line", Loses::Value)
+    }
+}
