@@ -102,7 +102,7 @@ enum Command {
 /// Does what the arguments say; the first is the program's name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = arguments.into_iter().collect();
-    let arguments = match parse(&words) {
+    let arguments = match parse(command(), &words) {
         Ok(arguments) => arguments,
         Err(error) => {
             // help that is asked for is no mistake
@@ -113,7 +113,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return refused(&words, &error);
         }
     };
-    match perform(arguments) {
+    match perform(arguments, &words) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             stderr::tell(failure.message());
@@ -122,12 +122,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
-    Arguments::from_arg_matches(&command().try_get_matches_from(words)?)
+fn parse(command: clap::Command, words: &[OsString]) -> Result<Arguments, clap::Error> {
+    Arguments::from_arg_matches(&command.try_get_matches_from(words)?)
 }
 
-fn perform(arguments: Arguments) -> Result<(), CommandError> {
-    let Some(command) = arguments.command else { return lab::perform(&arguments.lab) };
+fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError> {
+    let Some(command) = arguments.command else { return lab::perform(&arguments.lab, words) };
     let interrupt = Interrupt::watch();
     match command {
         Command::List(arguments) => list::perform(&arguments),

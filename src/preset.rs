@@ -9,10 +9,12 @@ mod check;
 mod draft;
 mod read;
 mod rewrite;
+mod schema;
 mod settings;
 mod toml_errors;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, is_path};
 pub use read::{Checked, read, read_with};
 pub use rewrite::{Beginning, Rewrite};
+pub use schema::reference;
 pub use settings::{Entry as Setting, Plain};

@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::fmt::Write;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 /// The most characters of a piece of text quoted in a sentence.
@@ -178,14 +179,32 @@ pub fn number(x: f64) -> String {
     }
 }
 
-/// What the system says of an error, without its number.
-pub fn why(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    let text = match text.find(" (os error") {
-        Some(end) => text[..end].to_lowercase(),
-        None => text,
+/// What is wrong with a file or a stream, in words and without the system's number of it.
+pub fn why(error: &io::Error) -> String {
+    if error.get_ref().is_some() {
+        return lines(&error.to_string()).into_owned();
+    }
+    let words = match error.kind() {
+        ErrorKind::NotFound => "no such file or folder",
+        ErrorKind::PermissionDenied => "permission denied",
+        ErrorKind::AlreadyExists => "it is there already",
+        ErrorKind::IsADirectory => "it is a folder, not a file",
+        ErrorKind::NotADirectory => "a part of the path is no folder",
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
+        ErrorKind::StorageFull => "no space left on the device",
+        ErrorKind::QuotaExceeded => "no space left within the quota",
+        ErrorKind::FileTooLarge => "it would be too large",
+        ErrorKind::InvalidFilename => "no file can have that name",
+        ErrorKind::BrokenPipe => "nobody reads any more",
+        ErrorKind::OutOfMemory => "no memory is left",
+        ErrorKind::TimedOut => "it takes too long",
+        // in the system's words, without its number
+        _ => {
+            let text = error.to_string();
+            return lines(text.split(" (os error").next().unwrap_or(&text)).to_lowercase();
+        }
     };
-    lines(&text).into_owned()
+    words.to_owned()
 }
 
 #[cfg(test)]
@@ -269,6 +288,17 @@ mod tests {
         let expected =
             ["0", "0.25", "-3", "100000000000000", "1e15", "1e300", "-5e-324", "0.00001"];
         assert_eq!(told, expected);
+    }
+
+    #[test]
+    fn errors_of_the_system_are_reported_in_words() {
+        let told = |number| why(&io::Error::from_raw_os_error(number));
+        // ENOENT, EACCES, ENOSPC, EIO
+        let numbers = [2, 13, 28, 5];
+        let words = ["no such file or folder", "permission denied", "no space left on the device"];
+        assert_eq!(numbers.map(told)[..3], words);
+        assert!(!numbers.map(told)[3].contains("os error"));
+        assert_eq!(why(&io::Error::other("it is\x07 odd")), "it is\\u{7} odd");
     }
 
     #[cfg(unix)]

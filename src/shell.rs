@@ -11,6 +11,7 @@
 //! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
 //! environment says what there is to know.
 
+pub(crate) mod atomic_file;
 mod bandwidth;
 mod cast_player;
 mod checker;
@@ -22,15 +23,12 @@ mod events;
 mod file_writer;
 mod files;
 mod frame_loop;
-mod fresh;
 mod governor;
 mod job;
 mod loader;
 mod log;
 pub mod options;
 mod panic;
-mod partial;
-mod product;
 mod queue;
 mod recorder;
 mod regular;
@@ -39,7 +37,6 @@ mod session;
 mod signals;
 mod store;
 mod terminal;
-pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, BandwidthError};
 pub use cast_player::CastPlayer;
@@ -56,12 +53,13 @@ pub use terminal::TerminalError;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
+use tracing::{error, info};
+
 use crate::diagnostic::Diagnostic;
 use crate::preset::Catalog;
 use crate::record::{RecordedCast, ScriptRunner, screenshot};
 use demo::Demo;
 use log::Log;
-pub(crate) use partial::remove_all as remove_partial_files;
 use session::{Left, Session};
 use store::Store;
 
@@ -82,14 +80,13 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
         regular::find(&catalog, name)?;
     }
     let variable = |name: &str| std::env::var(name).ok();
-    let mut log = request.log.as_ref().map_or(Ok(Log::default()), Log::open)?;
-    log.info(format!("phaselab {} starts", env!("CARGO_PKG_VERSION")));
+    let log = request.log.as_ref().map(Log::open).transpose()?;
+    info!("phaselab {} starts", env!("CARGO_PKG_VERSION"));
     for finding in diagnosis(&variable, None) {
-        log.info(format!("{}: {} ({})", finding.what, finding.found, finding.why));
+        info!("{}: {} ({})", finding.what, finding.found, finding.why);
     }
-    log.guard();
     let pace = request.pace(&variable);
-    let mut session = Session::new(catalog, &request, request.look(&variable), pace, log)?;
+    let mut session = Session::new(catalog, &request, request.look(&variable), pace)?;
     session.keep_in(Store::open(), request.open.as_deref());
     if let Some(saved) = saved {
         session.resume(saved);
@@ -97,15 +94,17 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
     let Left { recorded, kept } = session.left();
     match &ended {
-        Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
-        Ok(Err(refusal)) => session.log.error(refusal),
-        Err(_) => session.log.error("ends by a panic"),
+        Ok(Ok(ending)) => info!("ends: {ending:?}"),
+        Ok(Err(refusal)) => error!("{refusal}"),
+        Err(_) => error!("ends by a panic"),
     }
     if let Err(error) = &kept {
-        session.log.error(error);
+        error!("{error}");
     }
-    session.log.close();
     drop(session);
+    if let Some(log) = log {
+        log.close();
+    }
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
     let lost = kept.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
     match (lost, ending) {

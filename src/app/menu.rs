@@ -113,9 +113,9 @@ impl Menu {
         if text.trim().is_empty() {
             return (0..self.items.len()).map(|index| (index, Fit::default())).collect();
         }
-        let query = Query::new(text);
+        let mut query = Query::new(text);
         let lines = self.items.iter().enumerate();
-        let fit = |item: &Item| {
+        let mut fit = |item: &Item| {
             query.fit(Texts { label: &item.label, names: &[], about: &[&item.about] })
         };
         let mut found: Vec<(usize, Fit)> =

@@ -39,8 +39,8 @@ impl Picker {
         let Some(sought) = self.sought() else {
             return (0..self.entries.len()).map(|index| (index, Fit::default())).collect();
         };
-        let query = Query::new(sought);
-        let fit = |entry: &Entry| {
+        let mut query = Query::new(sought);
+        let mut fit = |entry: &Entry| {
             let info = &entry.info;
             let mut about = vec![info.summary.as_str(), &info.source];
             about.extend(info.topics.iter().map(String::as_str));

@@ -7,7 +7,8 @@ use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::diagnostic::Document;
 use crate::printable;
-use crate::shell::{Options, config};
+use crate::shell::config;
+use crate::shell::options::Words;
 
 /// Show where the configuration stands and what it may say, or look for mistakes in it.
 ///
@@ -61,8 +62,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 
 /// What the configuration asks for, nothing where there is none. Its mistakes are shown where they
 /// stand.
-pub(super) fn options() -> Result<Options, CommandError> {
-    find()?.map_or(Ok(Options::default()), |document| read(&document))
+pub(super) fn options() -> Result<Words, CommandError> {
+    find()?.map_or(Ok(Words::new()), |document| read(&document))
 }
 
 fn find() -> Result<Option<Document>, CommandError> {
@@ -78,7 +79,7 @@ fn path() -> Result<PathBuf, CommandError> {
     config::path().ok_or_else(|| CommandError::CouldNot(none.to_owned()))
 }
 
-fn read(document: &Document) -> Result<Options, CommandError> {
+fn read(document: &Document) -> Result<Words, CommandError> {
     config::read(document).map_err(|mistakes| open::refuse(document, &mistakes))
 }
 

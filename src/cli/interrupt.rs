@@ -15,7 +15,7 @@ use signal_hook::iterator::Signals;
 
 use super::exit;
 use crate::cancel::Cancel;
-use crate::shell;
+use crate::shell::atomic_file;
 
 /// How long a command has to end by itself.
 const GRACE: Duration = Duration::from_millis(100);
@@ -146,7 +146,7 @@ impl Interrupt {
 
 /// Ends the process; no file is left half.
 fn leave(signal: i32) -> ! {
-    shell::remove_partial_files();
+    atomic_file::remove_unfinished();
     signal_hook::low_level::exit(i32::from(exit::SIGNAL) + signal);
 }
 

@@ -9,7 +9,7 @@ use super::exit::EXITS;
 use super::failure::CommandError;
 use super::output::{Form, Output};
 use crate::app::keymap::{KEYS, Place};
-use crate::shell::options::OPTIONS;
+use crate::shell::options::rows;
 
 /// Print the manual page of phaselab, or of one of its commands.
 #[derive(Debug, clap::Args)]
@@ -85,8 +85,8 @@ fn whole() -> io::Result<Vec<u8>> {
         entry(&mut roff, path, about);
     }
     roff.control("SH", ["ENVIRONMENT"]);
-    for choice in OPTIONS {
-        entry(&mut roff, &choice.variable(), &format!("As --{}: {}", choice.name, choice.about));
+    for row in rows() {
+        entry(&mut roff, &row.variable(), &format!("As --{}: {}", row.name, row.about));
     }
     for (names, about) in ENVIRONMENT {
         entry(&mut roff, names, about);

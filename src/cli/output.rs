@@ -10,7 +10,7 @@ use std::path::Path;
 use super::failure::CommandError;
 use super::stderr;
 use crate::printable;
-use crate::shell::whole::Whole;
+use crate::shell::atomic_file::{AtomicFile, Durability};
 
 /// What is written: how characters that would steer a terminal are written out in it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -39,7 +39,7 @@ enum Target {
     Stdout(Stdout),
     /// A device or a pipe.
     Direct(File),
-    File(Whole),
+    File(AtomicFile),
 }
 
 impl Output {
@@ -54,7 +54,7 @@ impl Output {
         let target = if direct {
             File::options().write(true).open(path).map(Target::Direct)
         } else {
-            Whole::begin(path).map(Target::File)
+            AtomicFile::begin(path).map(Target::File)
         };
         let target = target.map_err(|error| CommandError::writing(&name, &error))?;
         Ok(Output { writer: BufWriter::new(target), form, name, over })
@@ -84,7 +84,7 @@ impl Output {
         let done = done.and_then(|target| match target {
             Target::Stdout(mut stdout) => stdout.flush(),
             Target::Direct(mut file) => file.flush(),
-            Target::File(file) => file.finish_on_disk(),
+            Target::File(file) => file.finish(Durability::OnDisk),
         });
         done.map_err(|error| CommandError::writing(&name, &error))?;
         if over {

@@ -8,7 +8,7 @@ use super::{lab, open, record};
 use crate::diagnostic::Document;
 use crate::preset::{demo, is_path};
 use crate::record::{RecordedCast, Script};
-use crate::shell::{self, Options};
+use crate::shell;
 use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
@@ -35,7 +35,7 @@ const LIMIT: u64 = 64 << 20;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let tape = tape(&arguments.file)?;
-    let request = lab::request(None, Options::default())?;
+    let request = lab::request(None, &["phaselab".into()])?;
     // the terminal is given back first
     interrupt.stand_aside();
     lab::how_it_ended(shell::show(tape, &request))

@@ -14,17 +14,8 @@ pub(super) fn tell(message: &str) {
     if message.is_empty() {
         return;
     }
-    let message = without_number(message);
     let message = printable::shortened(message, LONGEST);
     let _ = writeln!(stderr(), "phaselab: {}", printable::lines(&message));
-}
-
-/// The system's number of an error, at the end of its sentence, says nothing to a person.
-fn without_number(message: &str) -> &str {
-    let Some((sentence, number)) = message.rsplit_once(" (os error ") else { return message };
-    let digits = number.strip_suffix(')').unwrap_or_default();
-    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-    if is_number { sentence } else { message }
 }
 
 /// Shows a report; its colours are ours.
@@ -38,20 +29,4 @@ pub(super) fn has_colour() -> bool {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     stderr().is_terminal() && !dumb && !set("NO_COLOR")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_systems_number_is_left_out() {
-        assert_eq!(
-            without_number("cannot write x: No space (os error 28)"),
-            "cannot write x: No space"
-        );
-        for whole in ["x", "x (os error 28) y", "x (os error )", "x (os error 2"] {
-            assert_eq!(without_number(whole), whole);
-        }
-    }
 }

@@ -21,6 +21,7 @@ mod vector;
 use toml::Spanned;
 use toml::de::DeTable;
 
+use super::schema::{FILE, Kind};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
 use crate::model::Info;
@@ -89,17 +90,15 @@ impl Draft {
     }
 }
 
-/// What the format has and this version does not.
-const NOT_YET: [&str; 3] = ["transformations", "generators", "hamilton_jacobi"];
-
 /// The keys of the file's first level: where a stray key may have been meant to stand.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
 /// Walks the whole file.
 pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
-    let mut top = Table::new("the file", 0..0, file.get_ref());
+    let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
     let info = read_info(&mut top, mistakes);
-    for table in NOT_YET {
+    let not_yet = FILE.keys.iter().filter(|row| matches!(row.kind, Kind::NotYet));
+    for table in not_yet.map(|row| row.name) {
         if let Some((key, _)) = top.take(table) {
             let message = format!("the table `{table}` is not supported yet by this version");
             mistakes.push(Diagnostic::error(key, message));

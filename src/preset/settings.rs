@@ -39,11 +39,7 @@ pub enum Plain {
 impl Document {
     /// Reads a file that may have these keys and no other, `called` being how complaints name it: what could be read,
     /// and every slip of TOML and every unknown key.
-    pub fn settings(
-        &self,
-        called: &str,
-        keys: &'static [&'static str],
-    ) -> (Vec<Entry>, Vec<Diagnostic>) {
+    pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Entry>, Vec<Diagnostic>) {
         if let Some(mistake) = self.unreadable() {
             return (Vec::new(), vec![mistake.clone()]);
         }

@@ -1,8 +1,14 @@
 //! TOML's own grammar: text in, tables with spans out. Its mistakes are said in our words, and as
 //! much of the file is saved as can be, so that the other mistakes can be reported as well.
+//!
+//! What a mistake is follows from where it arises (between tokens, in a key, in a value, in a table),
+//! from what was expected there and from the text in its place; never from the parser's own words.
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Error};
+use toml::de::{DeTable, DeValue};
+use toml_parser::decoder::Encoding;
+use toml_parser::parser::{Event, EventKind, RecursionGuard, ValidateWhitespace, parse_document};
+use toml_parser::{Expected, ParseError, Source};
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
@@ -12,21 +18,25 @@ use crate::printable;
 /// The file as a table; what is not TOML is left out or patched, after a complaint.
 pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<DeTable<'f>> {
     let (table, errors) = DeTable::parse_recoverable(text);
-    let mut errors: Vec<(SourceRange, &Error)> =
-        errors.iter().map(|error| (error.span().unwrap_or(0..0), error)).collect();
-    errors.sort_by_key(|(place, _)| place.start);
-    for (place, error) in errors {
+    let mut slips = if errors.is_empty() { Vec::new() } else { slips(text) };
+    // beyond those there are only keys of a table that are there already
+    let others: Vec<SourceRange> = errors
+        .iter()
+        .map(|error| error.span().unwrap_or(0..0))
+        .filter(|place| slips.iter().all(|slip| slip.place != *place))
+        .collect();
+    slips.extend(others.into_iter().map(|place| beyond_grammar(text, place)));
+    slips.sort_by_key(|slip| slip.place.start);
+    for Slip { place, message, help, loses } in slips {
         // once the way is lost, what follows is mostly its echo
         if mistakes.lost_track() {
             break;
         }
-        let there = text.get(place.clone()).unwrap_or("");
-        let (what, loses) = told(error.message(), there);
-        let mut mistake = Diagnostic::error(place.clone(), what.message);
-        mistake.help = what.help;
+        let mut mistake = Diagnostic::error(place.clone(), message);
+        mistake.help = help;
         mistakes.push(mistake);
         match loses {
-            Loses::Key => mistakes.lose_key(there.trim_matches(['"', '\''])),
+            Loses::Key => mistakes.lose_key(text[place].trim_matches(['"', '\''])),
             Loses::Value => mistakes.lose_value(place),
             Loses::Track => mistakes.lose_track(),
         }
@@ -76,72 +86,148 @@ enum Loses {
 }
 
 /// A slip in our words.
-struct Told {
+struct Slip {
+    place: SourceRange,
     message: String,
     help: Option<String>,
+    loses: Loses,
 }
 
-/// What the reader of TOML says, by its first words, and what we say for it.
-const KNOWN: [(&str, &str, Loses); 22] = [
-    ("invalid basic string", "this text in quotes is not closed on its line", Loses::Value),
-    ("invalid literal string", "this text in quotes is not closed on its line", Loses::Value),
-    ("invalid multi-line", "this text of several lines is never closed", Loses::Track),
-    ("missing key for inline table element", "before here a `}` is missing", Loses::Track),
-    ("missing comma between key-value pairs", "before here a `,` or `}` is missing", Loses::Track),
-    ("unclosed inline table", "before here a `}` is missing", Loses::Track),
-    ("missing comma between array elements", "before here a `,` or `]` is missing", Loses::Track),
-    ("unexpected `=` in array", "before here a `]` is missing", Loses::Track),
-    ("unclosed array table", "before here a `]]` is missing", Loses::Track),
-    ("unclosed array", "before here a `]` is missing", Loses::Track),
-    ("unclosed table", "before here a `]` is missing", Loses::Track),
-    ("key with no value", "a key is followed by `=` and its value", Loses::Track),
-    ("unexpected key or value", "nothing more may stand on this line", Loses::Track),
-    ("extra `=`", "one `=` too many", Loses::Track),
-    ("cannot recurse further", "tables and lists are nested too deep", Loses::Track),
-    ("recursion limit", "tables and lists are nested too deep", Loses::Track),
-    ("missing escaped value", "no such escape", Loses::Value),
-    ("too few unicode value digits", "this escape has too few digits", Loses::Value),
-    ("unexpected leading zero", "a number does not begin with 0", Loses::Value),
-    ("`_` may only go between digits", "in a number `_` stands between digits", Loses::Value),
-    ("invalid mantissa", "a number of TOML has digits on both sides of its point", Loses::Value),
-    ("invalid fraction", "a number of TOML has digits on both sides of its point", Loses::Value),
-];
+impl Slip {
+    fn new(place: SourceRange, message: impl Into<String>, loses: Loses) -> Slip {
+        Slip { place, message: message.into(), help: None, loses }
+    }
 
-/// A slip of TOML's grammar in our words, and what is lost by it.
-fn told(said: &str, there: &str) -> (Told, Loses) {
-    let tell = |message: &str, help: &str, loses| {
-        let help = (!help.is_empty()).then(|| help.to_owned());
-        (Told { message: message.to_owned(), help }, loses)
+    fn help(self, help: impl Into<String>) -> Slip {
+        Slip { help: Some(help.into()), ..self }
+    }
+}
+
+/// Tables and lists in each other: as many as the reader allows.
+const DEEPEST: u32 = 80;
+
+/// All slips of the grammar; keys given twice are none.
+fn slips(text: &str) -> Vec<Slip> {
+    let source = Source::new(text);
+    let (mut events, mut errors) = (Vec::<Event>::new(), Vec::new());
+    let mut spaces = ValidateWhitespace::new(&mut events, source);
+    let mut depth = RecursionGuard::new(&mut spaces, DEEPEST);
+    parse_document(&source.lex().into_vec(), &mut depth, &mut errors);
+    let mut slips: Vec<Slip> = errors.iter().map(|error| between_tokens(text, error)).collect();
+    for event in &events {
+        let Some(raw) = source.get(event) else { continue };
+        let mut errors = Vec::new();
+        match event.kind() {
+            EventKind::SimpleKey => raw.decode_key(&mut (), &mut errors),
+            EventKind::Scalar => {
+                let _kind = raw.decode_scalar(&mut (), &mut errors);
+            }
+            _ => {}
+        }
+        for error in errors {
+            let place = place_of(&error);
+            slips.push(match (event.kind(), event.encoding()) {
+                (
+                    EventKind::SimpleKey,
+                    None | Some(Encoding::MlBasicString | Encoding::MlLiteralString),
+                ) => in_key(place),
+                (_, None) => in_plain_value(raw.as_str(), place),
+                (_, Some(quotes)) => in_quotes(text, place, quotes),
+            });
+        }
+    }
+    slips
+}
+
+fn place_of(error: &ParseError) -> SourceRange {
+    error.unexpected().map_or(0..0, |span| span.start()..span.end())
+}
+
+/// What is well formed and cannot be all the same: a date that there is not, or a key of a table that has it already.
+fn beyond_grammar(text: &str, place: SourceRange) -> Slip {
+    let there = text.get(place.clone()).unwrap_or("");
+    let before = text.get(..place.start).unwrap_or("").trim_end();
+    if before.ends_with(['=', ',']) && there.starts_with(|c: char| c.is_ascii_digit()) {
+        return Slip::new(place, "there is no such date or time", Loses::Value);
+    }
+    let key = there.trim_matches(['"', '\'']);
+    Slip::new(place, format!("`{key}` is given twice"), Loses::Key).help("keep one of them")
+}
+
+/// A token that is missing, or one too many.
+fn between_tokens(text: &str, error: &ParseError) -> Slip {
+    let place = place_of(error);
+    let expects = |token: &str| {
+        let expected = error.expected().unwrap_or_default();
+        expected.iter().any(|e| matches!(e, Expected::Literal(literal) if *literal == token))
     };
-    if said == "duplicate key" {
-        let key = there.trim_matches(['"', '\'']);
-        return tell(&format!("`{key}` is given twice"), "keep one of them", Loses::Key);
-    }
-    // a word that begins as `nan` does
-    let word = said.starts_with("invalid float") && there.starts_with(char::is_alphabetic);
-    if word || said.starts_with("string values must be quoted") {
-        if there.is_empty() {
-            return tell("a value is missing here", "", Loses::Value);
+    let opened = error.context().and_then(|span| text.get(span.start()..span.end()));
+    let next = text.get(place.start..).and_then(|rest| rest.chars().next()).unwrap_or('\n');
+    let message = match error.expected() {
+        None => "tables and lists are nested too deep",
+        _ if expects("\n") => "nothing more may stand on this line",
+        Some(_) if ",=".contains(next) && !expects(&next.to_string()) => {
+            return Slip::new(place, format!("one `{next}` too many"), Loses::Track);
         }
-        let help = format!("write \"{there}\"");
-        return tell("text and expressions stand in quotes", &help, Loses::Value);
+        _ if expects("]]") => "before here a `]]` is missing",
+        _ if expects("=") => "a key is followed by `=` and its value",
+        _ => match (opened, expects(",")) {
+            (Some("["), true) => "before here a `,` or `]` is missing",
+            (Some("{"), true) => "before here a `,` or `}` is missing",
+            (Some("["), _) => "before here a `]` is missing",
+            (Some("{"), _) => "before here a `}` is missing",
+            _ if expects("]") => "before here a `]` is missing",
+            _ => "this is not TOML",
+        },
+    };
+    Slip::new(place, message, Loses::Track)
+}
+
+fn in_key(place: SourceRange) -> Slip {
+    if place.is_empty() {
+        return Slip::new(place, "a key is missing here", Loses::Track);
     }
-    if said.starts_with("invalid unquoted key") {
-        let help = "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }";
-        let message = "a key is made of ASCII letters, digits, `_` and `-`";
-        return tell(message, help, Loses::Value);
+    let help = "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }";
+    Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
+}
+
+/// In a value without quotes: a number that is none, a word, or nothing.
+fn in_plain_value(value: &str, place: SourceRange) -> Slip {
+    let loses = Loses::Value;
+    let digits = value.trim_start_matches(['+', '-']);
+    let numeric = |c: char| c.is_ascii_digit() || "+-._eE".contains(c);
+    if value.is_empty() {
+        Slip::new(place, "a value is missing here", loses)
+    } else if value.contains(['"', '\'']) {
+        Slip::new(place, "the first quote of this text is missing", loses)
+    } else if !value.chars().all(numeric) || !value.contains(|c: char| c.is_ascii_digit()) {
+        let help = format!("write \"{value}\"");
+        Slip::new(place, "text and expressions stand in quotes", loses).help(help)
+    } else if value.contains('_') {
+        Slip::new(place, "in a number `_` stands between digits", loses)
+    } else if digits.starts_with('0') && digits[1..].starts_with(|c: char| c.is_ascii_digit()) {
+        Slip::new(place, "a number does not begin with 0", loses)
+    } else {
+        let message = "a number of TOML has digits on both sides of its point";
+        Slip::new(place, message, loses).help("write 0.5 and 1.0, or put an expression in quotes")
     }
-    match KNOWN.iter().find(|(known, ..)| said.starts_with(known)) {
-        Some((known, message, loses)) => {
-            let help = match *known {
-                "missing escaped value" => "write `\\\\` for a backslash, or quote with '...'",
-                "invalid mantissa" | "invalid fraction" => {
-                    "write 0.5 and 1.0, or put an expression in quotes"
-                }
-                _ => "",
-            };
-            tell(message, help, *loses)
-        }
-        None => tell(&format!("this is not TOML: {said}"), "", Loses::Track),
+}
+
+/// In a text: an escape that is none, or quotes that are not closed.
+fn in_quotes(text: &str, place: SourceRange, quotes: Encoding) -> Slip {
+    let before = text.get(..place.start).unwrap_or("");
+    // an escape is cut short behind its letter, `u` for instance, and reported there or behind its digits
+    let escape = before.trim_end_matches(|c: char| c.is_ascii_hexdigit());
+    if before.ends_with('\\') {
+        let help = "write `\\\\` for a backslash, or quote with '...'";
+        Slip::new(place, "no such escape", Loses::Value).help(help)
+    } else if matches!(quotes, Encoding::BasicString | Encoding::MlBasicString)
+        && ["\\u", "\\U", "\\x"].iter().any(|start| escape.ends_with(start))
+    {
+        Slip::new(place, "this escape has too few digits", Loses::Value)
+    } else if matches!(quotes, Encoding::MlBasicString | Encoding::MlLiteralString) {
+        Slip::new(place, "this text of several lines is never closed", Loses::Track)
+    } else {
+        Slip::new(place, "this text in quotes is not closed on its line", Loses::Value)
     }
 }

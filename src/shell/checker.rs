@@ -12,6 +12,7 @@ use super::loader::{STACK, defect};
 use crate::cancel::Cancel;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Prepared;
+use crate::printable;
 
 /// Checks texts.
 #[derive(Debug)]
@@ -70,8 +71,10 @@ impl Checker {
         let started =
             thread::Builder::new().name("checker".to_owned()).stack_size(STACK).spawn(work);
         if let Err(error) = started {
-            let mistake =
-                Diagnostic::error(0..0, format!("there is no thread to check it on: {error}"));
+            let mistake = Diagnostic::error(
+                0..0,
+                format!("there is no thread to check it on: {}", printable::why(&error)),
+            );
             let answer = Answer { ticket, outcome: Err(vec![mistake]), took: begun.elapsed() };
             let _ = self.sender.send(answer);
         }

@@ -1,6 +1,6 @@
 //! The configuration: a file of the user's with what the laboratory is to be opened with.
 //!
-//! In: `phaselab/config.toml` where XDG keeps configuration, if it is there. Out: [`Options`], or every mistake in its
+//! In: `phaselab/config.toml` where XDG keeps configuration, if it is there. Out: [`Words`], or every mistake in its
 //! place. Never here: what an option does.
 
 use std::fmt::Write as _;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
 
-use super::options::{Choice, Kind, NAMES, OPTIONS, Options};
+use super::options::{Row, Words, rows};
 use super::regular;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{Plain, Setting};
@@ -39,40 +39,40 @@ pub fn find() -> io::Result<Option<Document>> {
 ///
 /// # Errors
 /// All its mistakes, in the order of their places.
-pub fn read(document: &Document) -> Result<Options, Vec<Diagnostic>> {
-    let mut options = Options::default();
-    let (entries, mut mistakes) = document.settings("the configuration", NAMES);
+pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
+    let mut words = Words::new();
+    let names: Vec<&str> = rows().iter().map(|row| row.name.as_str()).collect();
+    let (entries, mut mistakes) = document.settings("the configuration", &names);
     for entry in entries {
-        let Some(choice) = OPTIONS.iter().find(|choice| choice.name == entry.key) else { continue };
-        match word(choice, &entry) {
-            Ok(word) => options.ask(choice.name, word),
+        let Some(row) = rows().iter().find(|row| row.name == entry.key) else { continue };
+        match word(row, &entry) {
+            Ok(word) => words.push((entry.key, word)),
             Err(mistake) => mistakes.push(mistake),
         }
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
-    if mistakes.is_empty() { Ok(options) } else { Err(mistakes) }
+    if mistakes.is_empty() { Ok(words) } else { Err(mistakes) }
 }
 
 /// The value as a word that the option accepts.
-fn word(choice: &Choice, entry: &Setting) -> Result<String, Diagnostic> {
+fn word(row: &Row, entry: &Setting) -> Result<String, Diagnostic> {
     let at = |message: String| Diagnostic::error(entry.place.clone(), message);
     // `color = 256` and `color = true` mean what they say
     let word = match &entry.value {
         Plain::Flag(flag) => flag.to_string(),
         Plain::Number(number) => number.clone(),
-        Plain::Text(text) if matches!(choice.kind, Kind::Switch) => {
-            let mistake = at(format!("`{}` must be true or false, not a text", choice.name));
+        Plain::Text(text) if row.is_switch => {
+            let mistake = at(format!("`{}` must be true or false, not a text", row.name));
             let quoted = ["true", "false"].contains(&text.as_str());
             return Err(if quoted { mistake.with_help("leave the quotes away") } else { mistake });
         }
         Plain::Text(text) => text.clone(),
         Plain::Other(kind) => {
-            let wanted =
-                if matches!(choice.kind, Kind::Switch) { "true or false" } else { "a word" };
-            return Err(at(format!("`{}` must be {wanted}, not {kind}", choice.name)));
+            let wanted = if row.is_switch { "true or false" } else { "a word" };
+            return Err(at(format!("`{}` must be {wanted}, not {kind}", row.name)));
         }
     };
-    choice.accept(&word).map(|()| word).map_err(|wrong| {
+    row.accept(&word).map(|()| word).map_err(|wrong| {
         let mistake = at(wrong.message);
         match wrong.help {
             Some(help) => mistake.with_help(help),
@@ -90,30 +90,17 @@ pub fn default_text() -> String {
 # here. Each key below has the value it has without this file.
 "
     .to_owned();
-    for choice in OPTIONS {
-        let _ = writeln!(text, "\n# {}", choice.about);
-        match choice.kind {
-            Kind::Switch => {}
-            Kind::Word(words) => {
-                let width = words.iter().map(|(word, _)| word.len()).max().unwrap_or(0);
-                for (word, about) in words {
-                    let _ = writeln!(text, "#   {word:width$}  {about}");
-                }
-            }
-            Kind::Count { least, most, auto } => {
-                let _ = writeln!(text, "#   {least} to {most}, or \"auto\": {auto}");
-            }
-            Kind::Text { shape, .. } => {
-                let _ = writeln!(text, "#   {shape}");
-            }
+    for row in rows() {
+        let _ = writeln!(text, "\n# {}", row.about);
+        let width = row.words.iter().map(|(word, _)| word.len()).max().unwrap_or(0);
+        for (word, about) in row.words.iter().filter(|_| !row.is_switch) {
+            let _ = writeln!(text, "#   {word:width$}  {about}");
         }
-        let quoted = match choice.kind {
-            Kind::Switch => choice.usual.to_owned(),
-            Kind::Word(_) | Kind::Count { .. } | Kind::Text { .. } => {
-                format!("\"{}\"", choice.usual)
-            }
-        };
-        let _ = writeln!(text, "{} = {quoted}", choice.name);
+        if !row.shape.is_empty() {
+            let _ = writeln!(text, "#   {}", row.shape);
+        }
+        let quote = if row.is_switch { "" } else { "\"" };
+        let _ = writeln!(text, "{} = {quote}{}{quote}", row.name, row.usual);
     }
     text
 }

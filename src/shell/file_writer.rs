@@ -4,8 +4,8 @@
 //! In: what is to stand in a file, or that it is to go. Out: what became of it. Never here: what the texts mean.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, ErrorKind, Write};
+use std::fs;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,7 +13,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::whole::Whole;
+use super::atomic_file::{self, Durability, named, sync_folder};
 
 /// What makes the text of a file; it may take its time.
 type Maker = Box<dyn FnOnce() -> io::Result<String> + Send>;
@@ -39,10 +39,12 @@ impl FileWriter {
         thread::Builder::new().name("scribe".to_owned()).spawn(move || {
             for (path, text) in given {
                 let done = match text {
-                    Some(text) if hurry.load(Ordering::Relaxed) => {
-                        text().and_then(|text| put(&path, &text))
-                    }
-                    Some(text) => text().and_then(|text| write(&path, &text)),
+                    Some(text) => text().and_then(|text| {
+                        let hurried = hurry.load(Ordering::Relaxed);
+                        let durability =
+                            if hurried { Durability::Cached } else { Durability::OnDisk };
+                        put(&path, &text, durability)
+                    }),
                     None => remove(&path),
                 };
                 if sender.send((path, done)).is_err() {
@@ -118,20 +120,11 @@ impl FileWriter {
 
 /// Writes a file whole: it is on the disk before it gets its name, and has its name before this returns.
 pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
-    let written = Whole::begin(path).and_then(|mut file| {
-        file.write_all(text.as_bytes())?;
-        file.finish_on_disk()
-    });
-    written.and_then(|()| sync_folder(path)).map_err(|error| named(path, &error))
+    put(path, text, Durability::OnDisk)
 }
 
-/// Writes a file whole, without waiting for the disk.
-fn put(path: &Path, text: &str) -> io::Result<()> {
-    let written = Whole::begin(path).and_then(|mut file| {
-        file.write_all(text.as_bytes())?;
-        file.finish()
-    });
-    written.map_err(|error| named(path, &error))
+fn put(path: &Path, text: &str, durability: Durability) -> io::Result<()> {
+    atomic_file::write(path, text.as_bytes(), durability).map_err(|error| named(path, &error))
 }
 
 fn remove(path: &Path) -> io::Result<()> {
@@ -140,20 +133,6 @@ fn remove(path: &Path) -> io::Result<()> {
         Err(error) => Err(named(path, &error)),
         Ok(()) => sync_folder(path).map_err(|error| named(path, &error)),
     }
-}
-
-/// Has the disk know the names in a file's folder.
-fn sync_folder(path: &Path) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    match File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all()) {
-        // there are file systems whose folders cannot be synced
-        Err(error) if error.kind() == ErrorKind::InvalidInput => Ok(()),
-        synced => synced,
-    }
-}
-
-fn named(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("cannot write {}: {error}", path.display()))
 }
 
 #[cfg(test)]

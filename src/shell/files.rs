@@ -3,16 +3,17 @@
 //! In: texts and paths. Out: the same on disk; the news that a file has changed. Never here: what a text means.
 
 use std::fs::{self, Metadata};
-use std::io::{self, Write};
+use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use super::atomic_file::{self, Durability};
 use super::regular;
-use super::whole::Whole;
 use crate::app::SaveError;
 use crate::diagnostic::TEXT_LIMIT;
 use crate::preset::{Catalog, is_path};
+use crate::printable;
 
 /// How often a watched file is looked at.
 const LOOKS: Duration = Duration::from_millis(500);
@@ -36,7 +37,8 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
         let told = format!("{} is read-only, and stays as it is", place.display());
         return Err(SaveError::Refused(told));
     }
-    write_whole(place, text.as_bytes()).map_err(|error| refused("write", place, &error))
+    atomic_file::write(place, text.as_bytes(), Durability::OnDisk)
+        .map_err(|error| refused("write", place, &error))
 }
 
 /// Writes a text to a file that is not there yet: a preset of the user's by its name, or a path. Returns the file.
@@ -53,18 +55,13 @@ pub(super) fn save_copy(name: &str, text: &str) -> Result<PathBuf, SaveError> {
     if place.symlink_metadata().is_ok() {
         return Err(SaveError::Exists(place));
     }
-    write_whole(&place, text.as_bytes()).map_err(|error| refused("write", &place, &error))?;
+    atomic_file::write(&place, text.as_bytes(), Durability::OnDisk)
+        .map_err(|error| refused("write", &place, &error))?;
     Ok(place)
 }
 
-fn write_whole(place: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = Whole::begin(place)?;
-    file.write_all(bytes)?;
-    file.finish_on_disk()
-}
-
 fn refused(what: &str, place: &Path, error: &io::Error) -> SaveError {
-    SaveError::Refused(format!("cannot {what} {}: {error}", place.display()))
+    SaveError::Refused(format!("cannot {what} {}: {}", place.display(), printable::why(error)))
 }
 
 /// The text of a file.
@@ -73,7 +70,7 @@ fn refused(what: &str, place: &Path, error: &io::Error) -> SaveError {
 /// Where it cannot be read now, is no file, no text or too long; the error names the file.
 pub(super) fn read(place: &Path) -> io::Result<String> {
     regular::read_text(place, TEXT_LIMIT).map_err(|error| {
-        let told = format!("cannot read {}: {error}", place.display());
+        let told = format!("cannot read {}: {}", place.display(), printable::why(&error));
         io::Error::new(error.kind(), told)
     })
 }

@@ -7,6 +7,8 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 use std::time::Duration;
 
+use crate::printable;
+
 /// What became of it, as a sentence for the user.
 pub(super) type Told = Result<String, String>;
 
@@ -38,7 +40,9 @@ impl Job {
             let _ = sender.send(told);
         };
         let started = thread::Builder::new().name("writer".to_owned()).spawn(guarded);
-        started.map_err(|why| format!("There is no thread to write the file on: {why}."))?;
+        started.map_err(|why| {
+            format!("There is no thread to write the file on: {}.", printable::why(&why))
+        })?;
         self.answer = Some(answer);
         Ok(())
     }

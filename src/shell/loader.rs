@@ -14,6 +14,7 @@ use crate::app::LoadError;
 use crate::cancel::Cancel;
 use crate::experiment::Prepared;
 use crate::preset::Catalog;
+use crate::printable;
 
 /// A derivation goes as deep as its expressions are nested, and a stranger's file may nest them far.
 pub(super) const STACK: usize = 64 << 20;
@@ -72,7 +73,7 @@ impl Loader {
         let started =
             thread::Builder::new().name("loader".to_owned()).stack_size(STACK).spawn(work);
         if let Err(error) = started {
-            let message = format!("there is no thread to load it on: {error}");
+            let message = format!("there is no thread to load it on: {}", printable::why(&error));
             let _ = self.sender.send((ticket, Err(LoadError { message, ..failed })));
         }
     }

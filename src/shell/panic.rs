@@ -1,8 +1,8 @@
 //! Panics: the terminal is restored before anyone reads about them.
 //!
 //! In: a panic on any thread. Out: on the thread that holds the terminal, the terminal as it was, then the report, and
-//! the exit status 101 by unwinding; on any other thread nothing, for it is caught where the thread was started, and
-//! writing about it would spoil the screen. Never here: catching.
+//! the exit status 101 by unwinding; on any other thread no report, for it is caught where the thread was started, and
+//! writing about it would spoil the screen. The log has both. Never here: catching.
 
 use std::io::{Write, stderr};
 use std::panic;
@@ -39,6 +39,7 @@ pub(super) fn guard(terminal: &Arc<Terminal>) {
     let terminal = Arc::clone(terminal);
     let holder = thread::current().id();
     panic::set_hook(Box::new(move |info| {
+        tracing::error!("{info}");
         if thread::current().id() == holder {
             terminal.leave();
         } else if terminal.is_held() {

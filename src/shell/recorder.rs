@@ -4,12 +4,13 @@
 //! what is drawn, or the form of a cast.
 
 use std::io;
+use std::path::Path;
 use std::time::Instant;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::fresh::{Fresh, NOTHING};
+use super::atomic_file::{NOTHING, NewFile};
 use crate::record::cast_writer::{Cast, Version};
 use crate::record::plain;
 use crate::view::frame::Frames;
@@ -18,7 +19,7 @@ use crate::view::theme::Palette;
 /// A cast being recorded.
 #[derive(Debug)]
 pub(super) struct Recorder {
-    cast: Cast<Fresh>,
+    cast: Cast<NewFile>,
     frames: Frames,
     began: Instant,
     size: Size,
@@ -32,7 +33,7 @@ impl Recorder {
         size: Size,
         palette: &Palette,
     ) -> io::Result<Self> {
-        let file = Fresh::begin(stem, "cast")?;
+        let file = NewFile::begin(Path::new(""), stem, "cast")?;
         let cast = Cast::begin(file, Version::Three, (size.width, size.height), title, palette)?;
         Ok(Self { cast, frames: Frames::new(false)?, began: Instant::now(), size })
     }

@@ -3,6 +3,7 @@
 //! In: [`Options`]. Out: the look and the pace. Never here: where options come from; a question put to the terminal.
 
 use crate::preset::NotFound;
+use crate::printable;
 use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -73,50 +74,36 @@ pub enum LabError {
     #[error(transparent)]
     SessionError(#[from] SessionError),
     /// The laboratory was left, and its session could not be saved.
-    #[error("the session is not saved: {0}")]
+    #[error("the session is not saved: {}", printable::why(.0))]
     Unsaved(std::io::Error),
     /// The log cannot be written.
     #[error(transparent)]
     LogError(#[from] LogError),
     /// The laboratory was left, and what it recorded could not be saved.
-    #[error("the recording is not whole: {0}")]
+    #[error("the recording is not whole: {}", printable::why(.0))]
     Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
-    #[error("the laboratory cannot go on: {0}")]
+    #[error("the laboratory cannot go on: {}", printable::why(.0))]
     System(#[from] std::io::Error),
 }
 
 impl Request {
-    /// What the options ask for; words no row of the table of options accepts count as not said.
+    /// What the options ask for.
     pub fn new(open: Option<String>, options: &Options) -> Self {
-        let colour = match options.get("color") {
-            Some("never") => Some(ColourDepth::None),
-            Some("16") => Some(ColourDepth::Ansi16),
-            Some("256") => Some(ColourDepth::Ansi256),
-            Some("true") => Some(ColourDepth::True),
-            _ => None,
-        };
-        let glyphs = options.get("glyphs").and_then(Glyphs::named);
-        let frames = options.count("fps");
-        let theme = options.get("theme").filter(|name| *name != "auto").map(str::to_owned);
         Self {
             // a name wins over going on with the last session
-            resume: open.is_none() && options.is_on("resume"),
+            resume: open.is_none() && options.resume,
             open,
-            colour,
-            glyphs,
-            frames,
-            theme,
-            unsynchronized: options.is_on("no-sync"),
-            mouse: options.is_on("mouse"),
-            watch: options.is_on("watch"),
-            log: match options.get("log") {
-                None | Some("off") => None,
-                Some("state") => Some(LogFile::Usual),
-                Some(path) => Some(LogFile::At(path.into())),
-            },
-            bandwidth: options.get("bandwidth").and_then(|word| word.parse().ok()),
-            reduced_motion: options.is_on("reduce-motion"),
+            colour: options.color.depth(),
+            glyphs: options.glyphs.glyphs(),
+            frames: options.fps.given().map(|frames| frames.0),
+            theme: Some(options.theme.clone()).filter(|name| name != "auto"),
+            unsynchronized: options.no_sync,
+            mouse: options.mouse,
+            watch: options.watch,
+            log: options.log.0.clone(),
+            bandwidth: options.bandwidth.given(),
+            reduced_motion: options.reduce_motion,
         }
     }
 

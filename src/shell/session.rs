@@ -12,14 +12,14 @@ use crossterm::event::{Event as TerminalEvent, MouseButton, MouseEventKind};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use tracing::{error, info};
+
+use super::atomic_file;
 use super::checker::Checker;
 use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
-use super::fresh;
 use super::job::{Job, Told};
 use super::loader::Loader;
-use super::log::Log;
-use super::product;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::store::{Store, StoreError};
@@ -54,8 +54,6 @@ pub(super) struct Session {
     job: Job,
     /// Told once more when the first system is there, for its loading ends what was reported before.
     warning: Option<String>,
-    /// What happens is written there.
-    pub(super) log: Log,
     /// The fault last told of there.
     fault: Option<String>,
     /// What is shown goes in here too.
@@ -100,7 +98,6 @@ impl Session {
         request: &Request,
         look: RenderStyle,
         pace: Pace,
-        log: Log,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
@@ -125,7 +122,6 @@ impl Session {
             kept_texts: 0,
             job: Job::default(),
             warning: None,
-            log,
             fault: None,
             recorder: None,
             size: Size::default(),
@@ -153,7 +149,7 @@ impl Session {
                 troubles
             }
         };
-        let left = fresh::left_behind(Path::new("."));
+        let left = atomic_file::left_behind(Path::new("."));
         if let Some(first) = left.first() {
             let more = if left.len() > 1 {
                 format!(" and {} more", left.len() - 1)
@@ -222,7 +218,7 @@ impl Session {
             return true;
         }
         if let Err(error) = self.keep_within(UNHURRIED) {
-            self.log.error(error);
+            error!("{error}");
         }
         if !self.app.workbench.keeps {
             self.app.stay();
@@ -266,7 +262,7 @@ impl Session {
         let troubles = std::mem::take(&mut store.troubles);
         let mut told = vec!["The other phaselab has ended; this one saves the session now.".into()];
         told.extend(troubles);
-        self.log.info(told.join(" "));
+        info!("{}", told.join(" "));
         self.app.notice = Some(Notification::info(told.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
@@ -284,11 +280,11 @@ impl Session {
         for effect in effects {
             match effect {
                 Effect::Tell(command) => {
-                    self.log.info(format!("command {command:?}"));
+                    info!("command {command:?}");
                     self.worker.tell(command);
                 }
                 Effect::Load(name) => {
-                    self.log.info(format!("load {name}"));
+                    info!("load {name}");
                     if let Some(watch) = self.watch.as_mut().filter(|_| is_path(&name)) {
                         watch.follow(Path::new(&name));
                     }
@@ -338,7 +334,7 @@ impl Session {
             let Loaded { name, document, model, system, .. } = &loaded;
             let export = Export::of(document, (model, system), &snapshot)?;
             let Export { text, missing } = export.with_what_holds(document)?;
-            let written = put(product::stem(name), "toml", text.as_bytes())?;
+            let written = put(name, "toml", text.as_bytes())?;
             Ok([vec![written], missing].concat().join(" "))
         });
     }
@@ -359,7 +355,7 @@ impl Session {
 
     /// Tells what became of a file.
     fn told(&mut self, told: Told) {
-        self.log.info(format!("{told:?}"));
+        info!("{told:?}");
         self.app.update(Event::Written(told));
     }
 
@@ -370,7 +366,7 @@ impl Session {
         {
             // what is being loaded is no longer what stands there
             if let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) {
-                self.log.info(format!("load {name} again"));
+                info!("load {name} again");
                 self.loader.load(name.to_owned());
             }
             return false;
@@ -393,7 +389,7 @@ impl Session {
         match watch.look(&place, elapsed) {
             None => return false,
             Some(FileChange::Gone) => {
-                self.log.info(format!("{} is gone", place.display()));
+                info!("{} is gone", place.display());
                 self.update(Event::FileThere(false));
             }
             Some(FileChange::Text { text, back }) => {
@@ -427,7 +423,7 @@ impl Session {
         };
         if fault != self.fault {
             if let Some(fault) = &fault {
-                self.log.error(fault);
+                error!("{fault}");
             }
             self.fault = fault;
         }
@@ -455,7 +451,7 @@ impl Session {
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
             let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
-            put(product::stem(&stem), "svg", drawing.as_bytes())
+            put(&stem, "svg", drawing.as_bytes())
         });
     }
 
@@ -467,7 +463,7 @@ impl Session {
         self.write_file(move || {
             let mut table = Vec::new();
             data::write(&loaded, &snapshot, &mut table).map_err(|why| why.to_string())?;
-            put(product::stem(&loaded.name), "csv", &table)
+            put(&loaded.name, "csv", &table)
         });
     }
 
@@ -484,7 +480,7 @@ impl Session {
     fn give_up_recording(&mut self, why: &io::Error) {
         let recorder = self.recorder.take();
         let told = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
-        self.log.error(&told);
+        error!("{told}");
         self.app.recording = false;
         self.app.notice = Some(Notification::error(format!("{told}.")));
     }
@@ -531,7 +527,8 @@ impl Session {
 
 /// Writes a file about the present into the current folder; a sentence on it.
 fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> Told {
-    let path = product::put(Path::new(""), stem, ending, bytes).map_err(|why| why.to_string())?;
+    let path = atomic_file::write_new(Path::new(""), stem, ending, bytes)
+        .map_err(|why| why.to_string())?;
     Ok(format!("{} is written.", path.display()))
 }
 
@@ -612,9 +609,9 @@ impl Screen for Session {
         let mut changed = self.app.notice.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
             match &outcome {
-                Ok((name, _)) => self.log.info(format!("loaded {name}")),
+                Ok((name, _)) => info!("loaded {name}"),
                 Err(failure) => {
-                    self.log.error(format!("cannot load {}: {}", failure.name, failure.message));
+                    error!("cannot load {}: {}", failure.name, failure.message);
                 }
             }
             let loaded = outcome
@@ -682,7 +679,7 @@ impl Screen for Session {
     }
 
     fn reduce(&mut self, detail: Detail) {
-        self.log.info(format!("the line to the terminal is slow or fast again: {detail:?}"));
+        info!("the line to the terminal is slow or fast again: {detail:?}");
         self.detail = detail;
     }
 }

@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use super::file_writer::{self, FileWriter};
 use super::regular;
 use crate::app::{Saved, Unsaved};
+use crate::printable;
 
 /// The place where sessions are kept, held for as long as this lives.
 #[derive(Debug)]
@@ -69,7 +70,7 @@ pub(super) enum StoreError {
     #[error("the session will not be saved: there is no home folder to save it in")]
     NoHome,
     /// The place cannot be written to.
-    #[error("the session will not be saved: cannot write {}: {reason}", .path.display())]
+    #[error("the session will not be saved: cannot write {}: {}", .path.display(), printable::why(.reason))]
     Refused {
         /// The file.
         path: PathBuf,
@@ -88,7 +89,7 @@ pub enum SessionError {
     #[error("there is no session to resume: there is no home folder it could be in")]
     NoHome,
     /// There is no file, or it cannot be read.
-    #[error("there is no session to resume: cannot read {}: {reason}", .path.display())]
+    #[error("there is no session to resume: cannot read {}: {}", .path.display(), printable::why(.reason))]
     Unread {
         /// The file.
         path: PathBuf,
@@ -396,7 +397,9 @@ impl SessionError {
     fn in_short(&self) -> String {
         match self {
             Self::NoHome => "there is no home folder".to_owned(),
-            Self::Unread { path, reason } => format!("cannot read {}: {reason}", path.display()),
+            Self::Unread { path, reason } => {
+                format!("cannot read {}: {}", path.display(), printable::why(reason))
+            }
             Self::Newer { path, .. } => {
                 format!("{} is of a newer phaselab and stays as it is", path.display())
             }

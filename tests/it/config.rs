@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use phaselab::diagnostic::Document;
 use phaselab::shell::config;
-use phaselab::shell::options::{Kind, OPTIONS};
+use phaselab::shell::options::rows;
 
 use crate::cli::{done, program};
 
@@ -48,15 +48,14 @@ fn each_mistake_gives_its_report() {
 #[test]
 fn the_printed_default_equals_the_defaults() {
     let text = config::default_text();
-    let options = config::read(&Document::new("default", text.as_str())).unwrap();
-    for choice in OPTIONS {
-        assert_eq!(options.get(choice.name), Some(choice.usual), "{}", choice.name);
-        assert!(text.contains(choice.about), "{}", choice.name);
-        let lines = text.lines().filter(|line| line.starts_with(&format!("{} =", choice.name)));
-        assert_eq!(lines.count(), 1, "{}", choice.name);
-        if let Kind::Word(words) = choice.kind {
-            assert!(words.iter().all(|(_, about)| text.contains(about)), "{}", choice.name);
-        }
+    let words = config::read(&Document::new("default", text.as_str())).unwrap();
+    for row in rows() {
+        let word = words.iter().find(|(name, _)| *name == row.name).map(|(_, word)| word);
+        assert_eq!(word, Some(&row.usual), "{}", row.name);
+        assert!(text.contains(&row.about), "{}", row.name);
+        let lines = text.lines().filter(|line| line.starts_with(&format!("{} =", row.name)));
+        assert_eq!(lines.count(), 1, "{}", row.name);
+        assert!(row.words.iter().all(|(_, about)| text.contains(about)), "{}", row.name);
     }
     assert!(text.lines().all(|line| line.len() <= 80), "{text}");
     let home = tempfile::tempdir().unwrap();

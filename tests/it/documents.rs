@@ -9,7 +9,7 @@ use phaselab::app::keymap::{KEYS, Place};
 use phaselab::cli::EXITS;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
 use phaselab::record::script::{CLAIMS, COMMANDS};
-use phaselab::shell::options::OPTIONS;
+use phaselab::shell::options::rows;
 
 fn keys() -> String {
     let mut table = "| where | key | what it does |\n|---|---|---|\n".to_owned();
@@ -64,10 +64,9 @@ fn options() -> String {
     let mut table =
         "| option and key | what it may be | without it | what it is for |\n|---|---|---|---|\n"
             .to_owned();
-    for choice in OPTIONS {
-        let (name, usual) = (choice.name, choice.usual);
-        let row = format!("| `{name}` | {} | {usual} | {} |", choice.words(), choice.about);
-        writeln!(table, "{row}").unwrap();
+    for row in rows() {
+        let (name, usual, may_be) = (&row.name, &row.usual, row.may_be());
+        writeln!(table, "| `{name}` | {may_be} | {usual} | {} |", row.about).unwrap();
     }
     table
 }
@@ -140,5 +139,25 @@ fn the_examples_of_the_documents_have_no_mistakes() {
                 panic!("{}", phaselab::diagnostic::report(&text, document, &mistakes, false));
             }
         }
+    }
+}
+
+/// The reference of the file format, whole.
+#[test]
+fn the_reference_of_the_format_is_that_of_the_code() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/preset-keys.md");
+    let text = format!(
+        "# The tables and keys of a preset\n\nWhat each table of a preset file may have; [The preset file](preset-format.md) says what they mean together.\n\n{}",
+        phaselab::preset::reference()
+    );
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
+        std::fs::write(&path, text).expect("writable");
+    } else {
+        let written = std::fs::read_to_string(&path).expect("the reference");
+        assert!(
+            written == text,
+            "docs/preset-keys.md is not that of the code; write it with UPDATE_EXPECT=1"
+        );
     }
 }

@@ -8,6 +8,7 @@ use super::vector::{self, Formulas};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::preset::schema::{Key, PIECE, SOLIDS, TURN};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
@@ -18,7 +19,7 @@ pub(in crate::preset) struct DraftBody {
 
 /// A piece as written.
 pub(in crate::preset) struct DraftPiece {
-    /// Which solid, by its name in [`SOLIDS`]; `None` for a point.
+    /// Which of the [`SOLIDS`]; `None` for a point.
     pub(in crate::preset) solid: Option<&'static str>,
     /// The sizes the solid has, each with its key; three of one key for a cuboid.
     pub(in crate::preset) sizes: Vec<(&'static str, Option<Formula>)>,
@@ -54,34 +55,19 @@ pub(in crate::preset) struct DraftComparison {
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }
 
-/// The solids and the keys of their sizes.
-const SOLIDS: [(&str, &[&str]); 10] = [
-    ("sphere", &["radius"]),
-    ("spherical-shell", &["radius"]),
-    ("shell", &["radius"]),
-    ("cylinder", &["radius", "length"]),
-    ("cylindrical-shell", &["radius", "length"]),
-    ("cone", &["radius", "height"]),
-    ("disc", &["radius"]),
-    ("ring", &["radius"]),
-    ("rod", &["length"]),
-    ("cuboid", &["size"]),
-];
-
 pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftBody> {
     let mut table = top.table("body", mistakes)?;
     let example = "{ solid = \"sphere\", mass = \"m\", radius = \"a\" }";
-    let help = format!("write pieces = [ {example} ]");
     let mut pieces = Vec::new();
-    if let Some((_, found)) = table.require("pieces", &help) {
+    if let Some((_, found)) = table.take("pieces") {
         let items = value::list(found, "`pieces`", mistakes);
         if items.is_some_and(|items| items.is_empty()) {
             let mistake = Diagnostic::error(found.span(), "a body is made of at least one piece");
-            mistakes.push(mistake.with_help(help));
+            mistakes.push(mistake.with_help(format!("write pieces = [ {example} ]")));
         }
         for item in items.into_iter().flatten() {
             let entry = Table::of(item, "this piece", item.span(), example, mistakes);
-            pieces.extend(entry.and_then(|entry| piece(entry, mistakes)));
+            pieces.extend(entry.and_then(|entry| piece(entry.with(&PIECE), mistakes)));
         }
     }
     let place = table.place.clone();
@@ -92,7 +78,7 @@ pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<Dr
 fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece> {
     let point = table.flag("point", mistakes).filter(|flag| *flag.get_ref());
     let (had, written) = (table.has("solid"), table.text("solid", mistakes));
-    let row = match (&point, &written) {
+    let solid = match (&point, &written) {
         (Some(_), Some(solid)) => {
             let message = "a piece is a point or a solid, not both";
             mistakes.push(Diagnostic::error(solid.span(), message));
@@ -108,75 +94,67 @@ fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece>
                     "solid",
                     Diagnostic::error(table.place.clone(), message).with_help(help),
                 );
-                for key in ["mass", "at", "turned", "radius", "length", "height", "size"] {
-                    table.take(key);
-                }
-                table.finish(mistakes);
+                table.finish_unread(mistakes);
             }
             return None;
         }
     };
-    table.called = format!("this {}", row.map_or("point", |(name, _)| *name));
-    let found = table.require("mass", "write mass = \"...\"");
-    let mass = found.and_then(|(_, v)| value::formula(v, "`mass`", mistakes));
+    table.called = format!("this {}", solid.unwrap_or("point"));
+    table.is_of_kind(solid.unwrap_or("point"));
+    let mass = table.formula("mass", mistakes);
     let mut sizes = Vec::new();
-    for &key in row.map_or(&[][..], |(_, keys)| keys) {
+    let sized =
+        |row: &&Key| row.only.len() < SOLIDS.len() && solid.is_some_and(|s| row.only.contains(&s));
+    for key in PIECE.keys.iter().filter(sized).map(|row| row.name) {
         if key == "size" {
             let edges = vector::triple(&mut table, key, mistakes);
             let edges = edges.map(Formulas::into_inner);
             let edge = |i| edges.as_ref().and_then(|edges: &Vec<Formula>| edges.get(i).cloned());
             sizes.extend((0..3).map(|i| (key, edge(i))));
         } else {
-            let found = table.require(key, &format!("write {key} = \"...\""));
-            let called = format!("`{key}`");
-            sizes.push((key, found.and_then(|(_, v)| value::formula(v, &called, mistakes))));
+            sizes.push((key, table.formula(key, mistakes)));
         }
     }
-    let at = vector::optional_triple(&mut table, "at", mistakes);
-    let turn = if row.is_some() { turn(&mut table, mistakes) } else { DraftTurn::None };
+    let at = vector::triple(&mut table, "at", mistakes);
+    let turn = if solid.is_some() { turn(&mut table, mistakes) } else { DraftTurn::None };
     let place = table.place.clone();
     table.finish(mistakes);
-    Some(DraftPiece { solid: row.map(|(name, _)| *name), sizes, mass, at, turn, place })
+    Some(DraftPiece { solid, sizes, mass, at, turn, place })
 }
 
-fn known(
-    solid: &Spanned<String>,
-    mistakes: &mut Diagnostics,
-) -> Option<&'static (&'static str, &'static [&'static str])> {
+fn known(solid: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<&'static str> {
     let name = solid.get_ref().as_str();
-    let row = SOLIDS.iter().find(|(known, _)| *known == name);
-    if row.is_none() {
-        let names = SOLIDS.map(|(name, _)| name);
-        let help = match nearest(name, names) {
+    let known = SOLIDS.iter().find(|known| **known == name);
+    if known.is_none() {
+        let help = match nearest(name, SOLIDS.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the solids are {}", names.join(", ")),
+            None => format!("the solids are {}", SOLIDS.join(", ")),
         };
         let message = format!("there is no solid `{name}`");
         mistakes.push(Diagnostic::error(solid.span(), message).with_help(help));
     }
-    row
+    known.copied()
 }
 
 fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
     let Some((place, found)) = table.take("turned") else { return DraftTurn::None };
     let shape = "turned = { axis = [\"0\", \"0\", \"1\"], angle = \"...\" }";
-    let Some(mut table) = Table::of(found, "`turned`", place, shape, mistakes) else {
+    let Some(table) = Table::of(found, "`turned`", place, shape, mistakes) else {
         return DraftTurn::None;
     };
+    let mut table = table.with(&TURN);
     let turn = if table.has("euler") {
-        for key in ["axis", "angle"] {
-            if let Some((place, _)) = table.take(key) {
+        for (key, _) in table.entries() {
+            if let "axis" | "angle" = key.get_ref().as_str() {
                 let message = "a piece is turned by `axis` and `angle` or by `euler`, not by both";
-                mistakes.push(Diagnostic::error(place, message));
+                mistakes.push(Diagnostic::error(key.span(), message));
             }
         }
+        table.pass_over(&["axis", "angle"]);
         DraftTurn::Euler(vector::triple(&mut table, "euler", mistakes))
     } else {
         let axis = vector::triple(&mut table, "axis", mistakes);
-        let found = table.require("angle", "write angle = \"...\"");
-        let angle = found.and_then(|(_, v)| value::formula(v, "`angle`", mistakes));
-        table.take("euler");
-        DraftTurn::Axis { axis, angle }
+        DraftTurn::Axis { axis, angle: table.formula("angle", mistakes) }
     };
     table.finish(mistakes);
     turn
@@ -185,10 +163,10 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
 pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftAttitude> {
     let mut table = top.table("attitude", mistakes)?;
     let (has_euler, has_omega) = (table.has("euler"), table.has("omega"));
-    let euler = vector::optional_triple(&mut table, "euler", mistakes);
-    let omega = vector::optional_triple(&mut table, "omega", mistakes);
+    let euler = vector::triple(&mut table, "euler", mistakes);
+    let omega = vector::triple(&mut table, "omega", mistakes);
     let (start_key, _) = table.take("start").unzip();
-    let start = vector::optional_triple(&mut table, "start", mistakes);
+    let start = vector::triple(&mut table, "start", mistakes);
     match (has_euler, has_omega, start_key) {
         (false, false, _) => {
             let message = "[attitude] has neither `euler` nor `omega`";
@@ -217,8 +195,7 @@ pub(super) fn comparison(
     mistakes: &mut Diagnostics,
 ) -> Option<DraftComparison> {
     let mut table = top.table("comparison", mistakes)?;
-    let help = "write eliminate = [\"x\"], one coordinate for each constraint";
-    let found = table.require("eliminate", help);
+    let found = table.take("eliminate");
     let list = found.as_ref().map_or(0..0, |(_, found)| found.span());
     let items = found.and_then(|(_, found)| value::list(found, "`eliminate`", mistakes));
     let eliminate = items

@@ -69,11 +69,9 @@ pub(in crate::preset) struct DraftValue {
 pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftObservable> {
     let mut all = Vec::new();
     for mut table in top.tables("observables", "this observable", mistakes) {
-        let name = table.require("name", "write name = \"...\"");
-        let expression = table.require("expression", "write expression = \"...\"");
         all.push(DraftObservable {
-            name: name.and_then(|(_, v)| value::text(v, "`name`", mistakes)),
-            expression: expression.and_then(|(_, v)| value::formula(v, "`expression`", mistakes)),
+            name: table.text("name", mistakes),
+            expression: table.formula("expression", mistakes),
             conserved: table.flag("conserved", mistakes),
         });
         table.finish(mistakes);
@@ -88,47 +86,30 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftEx
         .iter()
         .filter_map(|item| value::text(item, "what is conserved", mistakes))
         .collect();
-    let mut values = Vec::new();
-    for item in table.list("values", mistakes) {
-        let shape = "{ expression = \"...\", at = 1.0, is = 2.0 }";
-        let entry = Table::of(item, "this expected value", item.span(), shape, mistakes);
-        values.extend(entry.map(|entry| expected(entry, mistakes)));
-    }
-    let events = entries(&mut table, "events", "this expected event", mistakes, occurrence);
-    let counts = entries(&mut table, "count", "this expected count", mistakes, count);
-    let brackets = entries(&mut table, "brackets", "this expected bracket", mistakes, bracket);
+    let (value, event) =
+        ("{ expression = \"...\", at = 1.0, is = 2.0 }", "{ name = \"...\", at = 1.0 }");
+    let count = "{ name = \"...\", until = 10.0, is = 3 }";
+    let bracket = "{ f = \"...\", g = \"...\", is = \"...\" }";
+    let values = table.items("values", ("this expected value", value), mistakes);
+    let events = table.items("events", ("this expected event", event), mistakes);
+    let counts = table.items("count", ("this expected count", count), mistakes);
+    let brackets = table.items("brackets", ("this expected bracket", bracket), mistakes);
     table.finish(mistakes);
-    DraftExpect { conserves, values, events, counts, brackets }
-}
-
-/// A list of claims of one kind.
-fn entries<T>(
-    table: &mut Table<'_>,
-    key: &'static str,
-    called: &str,
-    mistakes: &mut Diagnostics,
-    read: fn(Table<'_>, &mut Diagnostics) -> T,
-) -> Vec<T> {
-    let shape = match key {
-        "events" => "{ name = \"...\", at = 1.0 }",
-        "count" => "{ name = \"...\", until = 10.0, is = 3 }",
-        _ => "{ f = \"...\", g = \"...\", is = \"...\" }",
-    };
-    let mut all = Vec::new();
-    for item in table.list(key, mistakes) {
-        let entry = Table::of(item, called, item.span(), shape, mistakes);
-        all.extend(entry.map(|entry| read(entry, mistakes)));
+    DraftExpect {
+        conserves,
+        values: values.into_iter().map(|entry| expected(entry, mistakes)).collect(),
+        events: events.into_iter().map(|entry| occurrence(entry, mistakes)).collect(),
+        counts: counts.into_iter().map(|entry| self::count(entry, mistakes)).collect(),
+        brackets: brackets.into_iter().map(|entry| self::bracket(entry, mistakes)).collect(),
     }
-    all
 }
 
 fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurrence {
     let name = table.name(mistakes);
-    let at = table.require("at", "give the time: at = 1.0");
     let claim = DraftOccurrence {
         name,
         nth: table.number("nth", mistakes),
-        at: at.and_then(|(_, v)| value::number(v, "`at`", mistakes)),
+        at: table.number("at", mistakes),
         within: table.number("within", mistakes),
         source: table.line("source", mistakes),
         place: table.place.clone(),
@@ -139,12 +120,10 @@ fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurren
 
 fn count(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftCount {
     let name = table.name(mistakes);
-    let until = table.require("until", "give the time: until = 10.0");
-    let is = table.require("is", "give the number: is = 3");
     let claim = DraftCount {
         name,
-        until: until.and_then(|(_, v)| value::number(v, "`until`", mistakes)),
-        is: is.and_then(|(_, v)| value::number(v, "`is`", mistakes)),
+        until: table.number("until", mistakes),
+        is: table.number("is", mistakes),
         source: table.line("source", mistakes),
         place: table.place.clone(),
     };
@@ -153,11 +132,7 @@ fn count(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftCount {
 }
 
 fn bracket(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftBracketClaim {
-    let mut side = |key, mistakes: &mut Diagnostics| {
-        let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
-        value::formula(found, &format!("`{key}`"), mistakes)
-    };
-    let (f, g, is) = (side("f", mistakes), side("g", mistakes), side("is", mistakes));
+    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key, mistakes));
     let source = table.line("source", mistakes);
     let place = table.place.clone();
     table.finish(mistakes);
@@ -166,14 +141,11 @@ fn bracket(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftBracketClai
 
 fn expected(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftValue {
     let name = table.line("name", mistakes);
-    let expression = table.require("expression", "write expression = \"...\"");
-    let at = table.require("at", "give the time: at = 1.0");
-    let is = table.require("is", "give the number: is = 2.0");
     let value = DraftValue {
         name,
-        expression: expression.and_then(|(_, v)| value::formula(v, "`expression`", mistakes)),
-        at: at.and_then(|(_, v)| value::number(v, "`at`", mistakes)),
-        is: is.and_then(|(_, v)| value::number(v, "`is`", mistakes)),
+        expression: table.formula("expression", mistakes),
+        at: table.number("at", mistakes),
+        is: table.number("is", mistakes),
         within: table.number("within", mistakes),
         source: table.line("source", mistakes),
         place: table.place.clone(),

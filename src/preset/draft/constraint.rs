@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
+use super::Formula;
 use super::table::Table;
-use super::{Formula, value};
 use crate::diagnostic::{Diagnostics, SourceRange};
 
 /// A constraint as written.
@@ -20,11 +20,9 @@ pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Ve
     let mut all = Vec::new();
     for mut table in top.tables("constraints", "this constraint", mistakes) {
         let name = table.name(mistakes);
-        let help = "write expression = \"...\", which is to be zero";
-        let expression = table.require("expression", help);
         all.push(DraftConstraint {
             name,
-            expression: expression.and_then(|(_, v)| value::formula(v, "`expression`", mistakes)),
+            expression: table.formula("expression", mistakes),
             unit: table.line("unit", mistakes),
             about: table.line("about", mistakes),
             place: table.place.clone(),

@@ -30,7 +30,7 @@ fn frame(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftFrame {
     let name = table.name(mistakes);
     let attitude = table.flag("attitude", mistakes).filter(|flag| *flag.get_ref());
     let (axis_key, _) = table.take("axis").unzip();
-    let axis = vector::optional_triple(&mut table, "axis", mistakes);
+    let axis = vector::triple(&mut table, "axis", mistakes);
     let (angle_key, found) = match &attitude {
         Some(_) => table.take("angle"),
         None => {
@@ -46,16 +46,12 @@ fn frame(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftFrame {
             mistakes.push(Diagnostic::error(key, message));
         }
     }
-    let origin = vector::optional_triple(&mut table, "origin", mistakes);
+    let origin = vector::triple(&mut table, "origin", mistakes);
     let mut particles = Vec::new();
-    for item in table.list("particles", mistakes) {
-        let shape = "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }";
-        let Some(mut entry) = Table::of(item, "this particle", item.span(), shape, mistakes) else {
-            continue;
-        };
+    let particle = ("this particle", "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }");
+    for mut entry in table.items("particles", particle, mistakes) {
         let at = vector::triple(&mut entry, "at", mistakes);
-        let found = entry.require("mass", "write mass = \"...\"");
-        particles.push((at, found.and_then(|(_, v)| value::formula(v, "`mass`", mistakes))));
+        particles.push((at, entry.formula("mass", mistakes)));
         entry.finish(mistakes);
     }
     let place = table.place.clone();

@@ -73,21 +73,15 @@ pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<
 }
 
 fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftMechanics> {
-    let (key, example) = match law {
-        Law::Lagrangian => ("L", "L = \"T - V\""),
-        Law::Hamiltonian | Law::Poisson => ("H", "H = \"T + V\""),
-    };
     let mut table = top.table(law.table(), mistakes)?;
-    let found = table.require(key, &format!("write {example}"));
-    let function = found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes));
+    let function = table.formula(if law == Law::Lagrangian { "L" } else { "H" }, mistakes);
     let mut dissipation = None;
     if law == Law::Lagrangian {
         dissipation = table.formula("dissipation", mistakes);
     }
     let (mut brackets, mut brackets_place, mut casimirs) = (Vec::new(), 0..0, Vec::new());
     if law == Law::Poisson {
-        let help = "write brackets = [[\"a\", \"b\", \"{a, b}\"], ...], one for each pair";
-        if let Some((_, found)) = table.require("brackets", help) {
+        if let Some((_, found)) = table.take("brackets") {
             brackets_place = found.span();
             let items = value::list(found, "`brackets`", mistakes);
             brackets = items

@@ -55,7 +55,7 @@ fn impulse(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftImpulse {
         _ => value::formula(found, "`at`", mistakes).into_iter().collect(),
     });
     let every = every.and_then(|(_, found)| value::formula(found, "`every`", mistakes));
-    let change = table.require("change", "write change = { p_x = \"...\" }");
+    let change = table.take("change");
     let change = change.and_then(|(place, found)| {
         let shape = "change = { p_x = \"...\" }";
         let changes = Table::of(found, "`change`", place, shape, mistakes)?;
@@ -75,11 +75,9 @@ pub(super) fn events(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<Dra
     let mut all = Vec::new();
     for mut table in top.tables("events", "this event", mistakes) {
         let name = table.name(mistakes);
-        let help = "write when = \"...\"; it happens where that crosses zero";
-        let when = table.require("when", help);
         all.push(DraftEvent {
             name,
-            when: when.and_then(|(_, v)| value::formula(v, "`when`", mistakes)),
+            when: table.formula("when", mistakes),
             direction: table.text("direction", mistakes),
             action: table.text("action", mistakes),
             place: table.place.clone(),

@@ -6,6 +6,7 @@ use toml::de::DeValue;
 use super::table::{Table, Value};
 use super::{Formula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::preset::schema::{COORDINATE, PARAMETER, VARIABLE};
 
 /// A name with its expression, if there is one that can be read.
 pub(in crate::preset) type NamedFormula = (Spanned<String>, Option<Formula>);
@@ -99,9 +100,9 @@ fn coordinate<'d>(
     let shape = format!("{} = {{ initial = ... }}", name.get_ref());
     let table = Table::of(entry, called, name.span(), &shape, mistakes);
     let mut coordinate = DraftCoordinate::unread(name);
-    let Some(mut table) = table else { return coordinate };
-    let initial = table.require("initial", "give its value at the start");
-    coordinate.initial = initial.and_then(|(_, v)| value::formula(v, "`initial`", mistakes));
+    let Some(table) = table else { return coordinate };
+    let mut table = table.with(&COORDINATE);
+    coordinate.initial = table.formula("initial", mistakes);
     let mut rate = |key| {
         let (place, found) = table.take(key)?;
         value::formula(found, &format!("`{key}`"), mistakes).map(|f| (place, f))
@@ -126,9 +127,8 @@ fn variable<'d>(
         variable.initial = value::formula(entry, &called, mistakes);
         return variable;
     };
-    let mut table = Table::new(called, variable.name.span(), entries);
-    let initial = table.require("initial", "give its value at the start");
-    variable.initial = initial.and_then(|(_, v)| value::formula(v, "`initial`", mistakes));
+    let mut table = Table::new(called, variable.name.span(), entries).with(&VARIABLE);
+    variable.initial = table.formula("initial", mistakes);
     variable.symbol = symbol(&mut table, mistakes);
     variable.unit = table.line("unit", mistakes);
     variable.period = table.formula("period", mistakes);
@@ -176,8 +176,8 @@ fn parameter<'d>(
     };
     match entry.get_ref() {
         DeValue::Table(entries) => {
-            let mut table = Table::new(called, parameter.name.span(), entries);
-            let found = table.require("value", "write { value = 1.0 }");
+            let mut table = Table::new(called, parameter.name.span(), entries).with(&PARAMETER);
+            let found = table.take("value");
             parameter.value = found.and_then(|(_, v)| value::constant(v, "`value`", mistakes));
             parameter.min = table.number("min", mistakes);
             parameter.max = table.number("max", mistakes);

@@ -7,6 +7,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use super::{Formula, TOP_LEVEL, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::preset::schema::{Key, Kind, Section};
 
 /// A value of TOML with its span.
 pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
@@ -18,6 +19,10 @@ pub(in crate::preset) struct Table<'d> {
     /// Where it stands.
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
+    /// What the format says of it; nothing of a table of which only its reader knows the keys.
+    section: Option<&'static Section>,
+    /// Which kind of entry it is, where kinds have different keys.
+    kind: Option<&'static str>,
     asked: Vec<&'static str>,
     passed: Vec<&'static str>,
     absent: Vec<(&'static str, Diagnostic)>,
@@ -30,7 +35,33 @@ impl<'d> Table<'d> {
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
         let (asked, passed, absent) = (Vec::new(), Vec::new(), Vec::new());
-        Table { called: called.into(), place, entries, asked, passed, absent }
+        let called = called.into();
+        Table { called, place, entries, section: None, kind: None, asked, passed, absent }
+    }
+
+    /// The same as a table of which the format says which keys it has.
+    pub(super) fn with(self, section: &'static Section) -> Table<'d> {
+        Table { section: Some(section), ..self }
+    }
+
+    /// Entries of this kind have not all of its keys.
+    pub(super) fn is_of_kind(&mut self, kind: &'static str) {
+        self.kind = Some(kind);
+    }
+
+    /// What the format says of a key.
+    fn row(&self, key: &str) -> Option<&'static Key> {
+        let mut rows = self.section?.keys.iter();
+        rows.find(|row| row.name == key && self.allows(row))
+    }
+
+    fn allows(&self, row: &Key) -> bool {
+        row.only.is_empty() || self.kind.is_none_or(|kind| row.only.contains(&kind))
+    }
+
+    /// Whether the format says of a key what its reader takes it for.
+    fn agrees(&self, key: &str, fits: impl Fn(Kind) -> bool) -> bool {
+        self.section.is_none() || self.row(key).is_some_and(|row| fits(row.kind))
     }
 
     /// A value as a table; a complaint where it is none. `shape` shows how it is written.
@@ -58,17 +89,29 @@ impl<'d> Table<'d> {
         self.entries.get(key).is_some()
     }
 
-    /// A key's place and value.
+    /// A key's place and value. Where the format says that it has to be there, it is missing otherwise.
     pub(in crate::preset) fn take(
         &mut self,
         key: &'static str,
     ) -> Option<(SourceRange, &'d Value<'d>)> {
+        debug_assert!(self.agrees(key, |_| true), "the format has no `{key}` in {}", self.called);
         self.asked.push(key);
-        let (written, value) = self.entries.get_key_value(key)?;
-        Some((written.span(), value))
+        let found = self.entries.get_key_value(key);
+        if found.is_none()
+            && let Some(help) = self.row(key).and_then(|row| row.missing)
+        {
+            self.lacks_key(key, help);
+        }
+        found.map(|(written, value)| (written.span(), value))
     }
 
-    /// A key that has to be there.
+    fn lacks_key(&mut self, key: &'static str, help: &str) {
+        let message = format!("{} has no `{key}`", self.called);
+        let mistake = Diagnostic::error(self.place.clone(), message);
+        self.lacks(key, mistake.with_help(help));
+    }
+
+    /// A key that has to be there in this case.
     pub(super) fn require(
         &mut self,
         key: &'static str,
@@ -76,9 +119,7 @@ impl<'d> Table<'d> {
     ) -> Option<(SourceRange, &'d Value<'d>)> {
         let found = self.take(key);
         if found.is_none() {
-            let message = format!("{} has no `{key}`", self.called);
-            let mistake = Diagnostic::error(self.place.clone(), message);
-            self.lacks(key, mistake.with_help(help));
+            self.lacks_key(key, help);
         }
         found
     }
@@ -94,6 +135,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
+        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Text)), "{key} is no text");
         let (_, found) = self.take(key)?;
         value::text(found, &format!("`{key}`"), mistakes)
     }
@@ -106,7 +148,7 @@ impl<'d> Table<'d> {
 
     /// The name of an entry, which has to be there; messages call the entry by it from then on.
     pub(super) fn name(&mut self, mistakes: &mut Diagnostics) -> Option<Spanned<String>> {
-        let (_, found) = self.require("name", "write name = \"...\"")?;
+        let (_, found) = self.take("name")?;
         let name = value::text(found, "`name`", mistakes)?;
         let shown = name.get_ref().trim();
         if shown.is_empty() || shown.chars().any(char::is_control) {
@@ -126,6 +168,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
+        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Number)), "{key} is no number");
         let (_, found) = self.take(key)?;
         value::number(found, &format!("`{key}`"), mistakes)
     }
@@ -136,6 +179,10 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Formula> {
+        debug_assert!(
+            self.agrees(key, |kind| matches!(kind, Kind::Formula)),
+            "{key} is no formula"
+        );
         let (_, found) = self.take(key)?;
         value::formula(found, &format!("`{key}`"), mistakes)
     }
@@ -146,6 +193,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
+        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Flag)), "{key} is no flag");
         let (_, found) = self.take(key)?;
         value::flag(found, &format!("`{key}`"), mistakes)
     }
@@ -172,7 +220,24 @@ impl<'d> Table<'d> {
         mistakes: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
-        Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)
+        let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)?;
+        Some(match self.row(key).map(|row| row.kind) {
+            Some(Kind::Table(section)) => table.with(section),
+            _ => table,
+        })
+    }
+
+    /// The entries of a list of tables, of which `shape` shows how each is written; messages call it `called`.
+    pub(super) fn items(
+        &mut self,
+        key: &'static str,
+        (called, shape): (&str, &str),
+        mistakes: &mut Diagnostics,
+    ) -> Vec<Table<'d>> {
+        let section = self.row(key).and_then(|row| row.kind.section());
+        let items = self.list(key, mistakes).iter();
+        let tables = items.filter_map(|item| Table::of(item, called, item.span(), shape, mistakes));
+        tables.map(|table| Table { section, ..table }).collect()
     }
 
     /// Tables of one kind, `[[key]]` each; messages call each one `called`.
@@ -184,10 +249,15 @@ impl<'d> Table<'d> {
     ) -> Vec<Table<'d>> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
+        let section = match self.row(key).map(|row| row.kind) {
+            Some(Kind::Tables(section)) => Some(section),
+            _ => None,
+        };
         match found.get_ref() {
             DeValue::Array(items) => items
                 .iter()
                 .filter_map(|item| Table::of(item, called, item.span(), &head, mistakes))
+                .map(|table| Table { section, ..table })
                 .collect(),
             other => {
                 let is = value::kind(other);
@@ -211,11 +281,30 @@ impl<'d> Table<'d> {
             .map(|(key, value)| (Spanned::new(key.span(), key.get_ref().to_string()), value))
     }
 
-    /// Complains of every key that nobody asked for, and of those that are missing.
-    pub(in crate::preset) fn finish(mut self, mistakes: &mut Diagnostics) {
+    /// Complains of every key that may not stand here, and of those that are missing. All that may has been read.
+    pub(in crate::preset) fn finish(self, mistakes: &mut Diagnostics) {
+        let read = |name: &str| self.asked.contains(&name) || self.passed.contains(&name);
+        let unread = self
+            .entries
+            .keys()
+            .find(|key| self.row(key.get_ref()).is_some() && !read(key.get_ref()));
+        debug_assert!(unread.is_none(), "nobody reads {unread:?} in {}", self.called);
+        self.finish_unread(mistakes);
+    }
+
+    /// The same of a table that was given up before all of it was read.
+    pub(super) fn finish_unread(mut self, mistakes: &mut Diagnostics) {
+        let mut known: Vec<&'static str> = match self.section {
+            Some(section) => {
+                let rows = section.keys.iter().filter(|row| self.allows(row));
+                rows.map(|row| row.name).collect()
+            }
+            None => self.asked.clone(),
+        };
+        known.dedup();
         for (key, value) in self.entries {
             let name: &str = key.get_ref();
-            if self.asked.contains(&name) || self.passed.contains(&name) {
+            if known.contains(&name) || self.passed.contains(&name) {
                 continue;
             }
             let tables = match value.get_ref() {
@@ -225,14 +314,12 @@ impl<'d> Table<'d> {
             };
             let what = if tables { "table" } else { "key" };
             let message = format!("unknown {what} `{name}` in {}", self.called);
-            let help = if let Some(near) = nearest(name, self.asked.iter().copied()) {
+            let help = if let Some(near) = nearest(name, known.iter().copied()) {
                 self.absent.retain(|(key, _)| *key != near);
                 format!("did you mean `{near}`?")
             } else if TOP_LEVEL.contains(&name) && !self.place.is_empty() {
                 format!("`{name}` belongs at the top of the file, before the first [table]")
             } else {
-                let mut known: Vec<&str> = self.asked.clone();
-                known.dedup();
                 format!("the keys here are {}", known.join(", "))
             };
             mistakes.push(Diagnostic::error(key.span(), message).with_help(help));

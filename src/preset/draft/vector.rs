@@ -31,19 +31,8 @@ pub(super) fn optional_point(
     entries(found, key, 2, mistakes)
 }
 
-/// Three expressions that have to be there.
+/// Three expressions.
 pub(super) fn triple(
-    table: &mut Table<'_>,
-    key: &'static str,
-    mistakes: &mut Diagnostics,
-) -> Option<Formulas> {
-    let help = format!("write {key} = [\"...\", \"...\", \"...\"]");
-    let (_, found) = table.require(key, &help)?;
-    entries(found, key, 3, mistakes)
-}
-
-/// Three expressions that may be left out.
-pub(super) fn optional_triple(
     table: &mut Table<'_>,
     key: &'static str,
     mistakes: &mut Diagnostics,

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use phaselab::app::keymap::KEYS;
 use phaselab::cli::EXITS;
-use phaselab::shell::options::OPTIONS;
+use phaselab::shell::options::rows;
 
 use super::phaselab;
 
@@ -51,9 +51,9 @@ fn the_page_holds_every_table() {
     for row in KEYS {
         assert!(page.contains(row.help), "{}", row.help);
     }
-    for choice in OPTIONS {
-        assert!(page.contains(&format!("--{}", choice.name)), "{}", choice.name);
-        assert!(page.contains(&choice.variable()), "{}", choice.name);
+    for row in rows() {
+        assert!(page.contains(&format!("--{}", row.name)), "{}", row.name);
+        assert!(page.contains(&row.variable()), "{}", row.name);
     }
     for exit in EXITS {
         assert!(page.contains(exit.when), "{}", exit.code);

@@ -1,0 +1,505 @@
+//! Atomic files: filled under another name beside their place, then renamed, so that nobody ever finds half of one.
+//!
+//! In: a path and bytes. Out: the file, complete or as it was before. An [`AtomicFile`] replaces what stands in its
+//! place, a [`NewFile`] never does: it takes the first free name (`pendulum.cast`, else `pendulum-2.cast`, …). Unfinished
+//! files go with their writer; those of a killed process are found and swept. Never here: what the bytes mean.
+
+use std::collections::BTreeSet;
+use std::fs::{self, DirEntry, File, OpenOptions};
+use std::io::{self, Seek, Write};
+use std::mem;
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt, fchown};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use rustix::fs::{Access, access};
+use rustix::process::{Pid, geteuid, test_kill_process};
+use tempfile::{Builder, NamedTempFile};
+
+use crate::printable;
+
+/// What the name of an unfinished file ends in: `.pendulum.cast.1234-k3W….partial`, with the process that writes it.
+const PARTIAL: &str = ".partial";
+
+/// So many bytes of the file's own name stand in that; with the rest they stay shorter than any system's limit.
+const LONGEST: usize = 60;
+
+/// Who may read an unfinished file: its owner alone, or whoever the process lets.
+const PRIVATE: u32 = 0o600;
+const USUAL: u32 = 0o666;
+
+/// How many links are followed to the place where a file is to be made.
+const MOST_LINKS: usize = 40;
+
+/// No more files of a folder are looked at for unfinished ones.
+const LOOKED_AT: usize = 100_000;
+
+/// How many names are tried.
+const NAMES: u32 = 10_000;
+
+/// So many bytes are written at once.
+const CHUNK: usize = 32 * 1024;
+
+/// What a file without a line is called.
+pub(super) const NOTHING: &str = "nothing";
+
+/// Whether a file has to be on the disk before it gets its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Durability {
+    /// It and its name are on the disk when it is finished.
+    OnDisk,
+    /// The system writes it when it likes.
+    Cached,
+}
+
+/// The unfinished files of this process.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Removes the unfinished files of this process, which ends before they can be complete.
+pub(crate) fn remove_unfinished() {
+    for path in mem::take(&mut *unfinished()) {
+        // there is nobody left to tell
+        let _ = fs::remove_file(path);
+    }
+}
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// An unfinished file's place among those of the process.
+#[derive(Debug)]
+struct Registered(PathBuf);
+
+impl Drop for Registered {
+    fn drop(&mut self) {
+        unfinished().remove(&self.0);
+    }
+}
+
+/// Opens an unfinished file beside `place`, under a name that cannot be foreseen and that nobody has.
+fn begin(place: &Path, mode: u32) -> io::Result<(NamedTempFile, Registered)> {
+    let prefix = format!("{}.{}-", lead(place), std::process::id());
+    let open = |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
+    let temporary = Builder::new()
+        .prefix(&prefix)
+        .suffix(PARTIAL)
+        .rand_bytes(16)
+        .make_in(folder(place), open)?;
+    let path = temporary.path().to_owned();
+    unfinished().insert(path.clone());
+    Ok((temporary, Registered(path)))
+}
+
+/// How the names of a place's unfinished files begin.
+fn lead(place: &Path) -> String {
+    let name = place.file_name().unwrap_or_default().to_string_lossy();
+    let mut ends = (0..=name.len().min(LONGEST)).rev();
+    let end = ends.find(|end| name.is_char_boundary(*end)).unwrap_or(0);
+    format!(".{}", &name[..end])
+}
+
+fn folder(place: &Path) -> &Path {
+    place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Writes a file that replaces what stands in its place.
+pub(super) fn write(place: &Path, bytes: &[u8], durability: Durability) -> io::Result<()> {
+    let mut file = AtomicFile::begin(place)?;
+    file.write_all(bytes)?;
+    file.finish(durability)
+}
+
+/// A file that replaces what stands in its place. Dropped before it is finished it leaves nothing behind.
+#[derive(Debug)]
+pub(crate) struct AtomicFile {
+    temporary: NamedTempFile,
+    place: PathBuf,
+    _registered: Registered,
+}
+
+impl AtomicFile {
+    /// Begins a file. What a link points to will be replaced, not the link; who may read it stays so, and one that is
+    /// read-only is refused. What killed processes left of it is removed.
+    pub(crate) fn begin(place: &Path) -> io::Result<Self> {
+        let place = followed(place);
+        let old = fs::metadata(&place).ok();
+        // its folder would let it be replaced all the same
+        if old.as_ref().is_some_and(|old| {
+            old.permissions().readonly() || access(&place, Access::WRITE_OK).is_err()
+        }) {
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only"));
+        }
+        sweep(&place);
+        let mode = if old.is_some() { PRIVATE } else { USUAL };
+        let (temporary, registered) = self::begin(&place, mode)?;
+        Ok(Self { temporary, place, _registered: registered })
+    }
+
+    /// Puts it in its place.
+    pub(crate) fn finish(self, durability: Durability) -> io::Result<()> {
+        let file = self.temporary.as_file();
+        if durability == Durability::OnDisk {
+            file.sync_all()?;
+        }
+        if let Ok(old) = fs::metadata(&self.place) {
+            if file.metadata().is_ok_and(|new| (new.uid(), new.gid()) != (old.uid(), old.gid())) {
+                // only some may give a file away; the others own what they write
+                let _ = fchown(file, Some(old.uid()), Some(old.gid()));
+            }
+            file.set_permissions(old.permissions())?;
+        }
+        self.temporary.persist(&self.place)?;
+        match durability {
+            Durability::OnDisk => sync_folder(&self.place),
+            Durability::Cached => Ok(()),
+        }
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.temporary.as_file_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Has the disk know the names in a file's folder.
+pub(super) fn sync_folder(place: &Path) -> io::Result<()> {
+    // one that may be written to need not be readable
+    let Ok(folder) = File::open(folder(place)) else { return Ok(()) };
+    match folder.sync_all() {
+        // there are file systems whose folders cannot be synced
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => Ok(()),
+        synced => synced,
+    }
+}
+
+/// Where a file is or will be, once links are followed; also one that points to nothing yet.
+fn followed(place: &Path) -> PathBuf {
+    let mut place = place.to_owned();
+    for _ in 0..MOST_LINKS {
+        if let Ok(real) = fs::canonicalize(&place) {
+            return real;
+        }
+        let Ok(target) = fs::read_link(&place) else { break };
+        place = place.parent().unwrap_or(Path::new("")).join(target);
+    }
+    place
+}
+
+/// A file that never replaces another, written line by line.
+#[derive(Debug)]
+pub(super) struct NewFile {
+    temporary: NamedTempFile,
+    registered: Registered,
+    /// What is not written yet.
+    pending: Vec<u8>,
+    /// How many bytes are in the file for good: whole lines, but at its end.
+    whole: u64,
+    folder: PathBuf,
+    stem: String,
+    ending: &'static str,
+}
+
+/// Writes `heavy-top.toml` or, where there is one, `heavy-top-2.toml`, … and returns its path.
+///
+/// # Errors
+/// Where it cannot be written; the error names the file, and nothing is left of it.
+pub(super) fn write_new(
+    folder: &Path,
+    stem: &str,
+    ending: &'static str,
+    bytes: &[u8],
+) -> io::Result<PathBuf> {
+    let mut file = NewFile::begin(folder, stem, ending)?;
+    file.write_all(bytes)?;
+    // not finished before it is complete, or it would get its name all the same
+    file.sync()?;
+    Ok(folder.join(file.finish()?))
+}
+
+impl NewFile {
+    /// Begins a file; `stem` is a preset's name or a path, of which the name before its ending counts.
+    pub(super) fn begin(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Self> {
+        let stem = plain(stem);
+        let place = folder.join(format!("{stem}.{ending}"));
+        let begun = self::begin(&place, USUAL);
+        let (temporary, registered) = begun.map_err(|why| named(&place, &why))?;
+        let folder = folder.to_owned();
+        Ok(Self { temporary, registered, pending: Vec::new(), whole: 0, folder, stem, ending })
+    }
+
+    /// Waits until the disk has what was written.
+    pub(super) fn sync(&mut self) -> io::Result<()> {
+        self.flush()?;
+        self.temporary.as_file().sync_all().map_err(|why| named(&self.place(1), &why))
+    }
+
+    /// Gives it its name, which is returned. Where not all of it can be written it holds the whole lines that were, and
+    /// the error says so; only a file without a line is none.
+    pub(super) fn finish(mut self) -> io::Result<String> {
+        let written = self.sync();
+        if self.whole == 0 {
+            return written.map(|()| NOTHING.to_owned());
+        }
+        let name = self.persist()?;
+        written.map(|()| name.clone()).map_err(|why| {
+            io::Error::new(why.kind(), format!("{why}; {name} holds what came before"))
+        })
+    }
+
+    /// Gives it the first name that is free. Where none can be had it is kept under the one it has.
+    fn persist(self) -> io::Result<String> {
+        let mut place = self.place(1);
+        let mut temporary = self.temporary;
+        let mut why = io::Error::other(format!("there are {NAMES} files of that name"));
+        for number in 1..=NAMES {
+            place = self.folder.join(numbered(&self.stem, number, self.ending));
+            let persisted = match temporary.persist_noclobber(&place) {
+                // there are file systems on which a name can only be taken, not asked for
+                Err(failed) if fs::symlink_metadata(&place).is_err() => failed.file.persist(&place),
+                persisted => persisted,
+            };
+            match persisted {
+                Ok(_) => {
+                    // it is on the disk; that its name is too is a courtesy
+                    let _ = sync_folder(&place);
+                    return Ok(numbered(&self.stem, number, self.ending));
+                }
+                Err(failed) => (temporary, why) = (failed.file, failed.error),
+            }
+            if why.kind() != io::ErrorKind::AlreadyExists {
+                break;
+            }
+        }
+        let why = named(&place, &why);
+        let kept = temporary.keep().map_or(self.registered.0.clone(), |(_, path)| path);
+        let told = format!("{why}; it is in {}", printable::path(&kept));
+        Err(io::Error::new(why.kind(), told))
+    }
+
+    /// The path of so manieth choice.
+    fn place(&self, number: u32) -> PathBuf {
+        self.folder.join(numbered(&self.stem, number, self.ending))
+    }
+}
+
+impl Write for NewFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.pending.extend(bytes);
+        if self.pending.len() >= CHUNK && bytes.ends_with(b"\n") {
+            self.flush()?;
+        }
+        Ok(bytes.len())
+    }
+
+    /// Writes what is pending. Where that fails what was written of the last line is taken away again, and what comes is
+    /// not to be written any more.
+    fn flush(&mut self) -> io::Result<()> {
+        let bytes = mem::take(&mut self.pending);
+        let file = self.temporary.as_file_mut();
+        let Err(why) = file.write_all(&bytes) else {
+            self.whole += bytes.len() as u64;
+            return Ok(());
+        };
+        let written = file.stream_position().unwrap_or(self.whole).saturating_sub(self.whole);
+        let written = &bytes[..bytes.len().min(written as usize)];
+        self.whole +=
+            written.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1) as u64;
+        // the error that matters is the one on its way
+        let _ = file.set_len(self.whole);
+        Err(named(&self.place(1), &why))
+    }
+}
+
+fn numbered(stem: &str, number: u32, ending: &str) -> String {
+    if number == 1 { format!("{stem}.{ending}") } else { format!("{stem}-{number}.{ending}") }
+}
+
+/// What files made of a preset or file are called: its name without folders and ending, and without what a file's name
+/// should not hold.
+fn plain(name: &str) -> String {
+    let last = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    let kept: String =
+        last.chars().filter(|&c| !printable::is_steering(c) && !"/\\:".contains(c)).collect();
+    if kept.is_empty() { "phaselab".to_owned() } else { kept }
+}
+
+/// The error with the file's name.
+pub(super) fn named(path: &Path, why: &io::Error) -> io::Error {
+    let told = format!("cannot write {}: {}", printable::path(path), printable::why(why));
+    io::Error::new(why.kind(), told)
+}
+
+/// Unfinished files in a folder whose writers have ended, killed or without power; with the beginnings of their names.
+fn abandoned(folder: &Path) -> impl Iterator<Item = (String, DirEntry)> {
+    let listing = fs::read_dir(folder).into_iter().flatten().take(LOOKED_AT).flatten();
+    listing.filter_map(|entry| {
+        let name = entry.file_name();
+        let (lead, process) = name.to_str()?.strip_suffix(PARTIAL)?.rsplit_once('.')?;
+        let process = process.split_once('-').map_or(process, |(process, _)| process);
+        let process = process.parse().ok().and_then(Pid::from_raw)?;
+        let ended = test_kill_process(process) == Err(rustix::io::Errno::SRCH);
+        (ended && lead.starts_with('.')).then(|| (lead.to_owned(), entry))
+    })
+}
+
+/// The same in the order of their names, to be mentioned.
+pub(super) fn left_behind(folder: &Path) -> Vec<PathBuf> {
+    let mut left: Vec<PathBuf> = abandoned(folder).map(|(_, entry)| entry.path()).collect();
+    left.sort();
+    left
+}
+
+/// Removes those of one place that are ours.
+fn sweep(place: &Path) {
+    let lead = lead(place);
+    for (_, entry) in abandoned(folder(place)).filter(|(other, _)| *other == lead) {
+        let about = entry.metadata();
+        if about.is_ok_and(|about| about.is_file() && about.uid() == geteuid().as_raw()) {
+            // what cannot be removed harms nobody
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    use super::*;
+
+    fn read(path: &Path) -> String {
+        fs::read_to_string(path).expect("it is there")
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let listing = fs::read_dir(folder).expect("the folder").flatten();
+        let mut names: Vec<_> =
+            listing.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_complete_or_as_it_was() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().join("a.txt");
+        fs::write(&place, "one").expect("it is written");
+        let mut given_up = AtomicFile::begin(&place).expect("begun");
+        given_up.write_all(b"tw").expect("there is room");
+        drop(given_up);
+        assert_eq!(read(&place), "one");
+        let mut file = AtomicFile::begin(&place).expect("begun");
+        file.write_all(b"two").expect("there is room");
+        assert_eq!(read(&place), "one");
+        file.finish(Durability::OnDisk).expect("finished");
+        assert_eq!(read(&place), "two");
+        assert_eq!(names(folder.path()), ["a.txt"], "nothing half");
+        assert!(unfinished().iter().all(|path| !path.starts_with(folder.path())));
+    }
+
+    #[test]
+    fn what_is_read_only_is_refused_and_modes_stay() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().join("a.txt");
+        fs::write(&place, "one").expect("it is written");
+        let permit = |mode| fs::set_permissions(&place, fs::Permissions::from_mode(mode));
+        permit(0o444).expect("it is ours");
+        let refused = AtomicFile::begin(&place).expect_err("read-only");
+        assert_eq!(refused.to_string(), "it is read-only");
+        permit(0o640).expect("it is ours");
+        let file = AtomicFile::begin(&place).expect("begun");
+        let mode = |path: &Path| fs::metadata(path).expect("it is there").mode() & 0o777;
+        assert_eq!(mode(file.temporary.path()), PRIVATE, "private until it is complete");
+        file.finish(Durability::Cached).expect("finished");
+        assert_eq!(mode(&place), 0o640);
+        // a file that nobody had before is open to whomever the process lets
+        let usual = folder.path().join("usual");
+        fs::write(&usual, "").expect("it is written");
+        write(&folder.path().join("b.txt"), b"", Durability::Cached).expect("written");
+        assert_eq!(mode(&folder.path().join("b.txt")), mode(&usual));
+    }
+
+    #[test]
+    fn links_are_followed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (place, link) = (folder.path().join("a.txt"), folder.path().join("link"));
+        symlink("a.txt", &link).expect("a link");
+        // to nothing yet, then to a file
+        for text in ["one", "two"] {
+            write(&link, text.as_bytes(), Durability::Cached).expect("written");
+            assert_eq!(read(&place), text);
+            assert!(fs::symlink_metadata(&link).expect("it is there").is_symlink());
+        }
+    }
+
+    #[test]
+    fn names_of_unfinished_files_are_short_and_differ() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().join("é".repeat(120));
+        let made = [(); 2].map(|()| begin(&place, USUAL).expect("made"));
+        assert_ne!(made[0].0.path(), made[1].0.path());
+        assert!(made.iter().all(|(_, registered)| unfinished().contains(&registered.0)));
+        drop(made);
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn new_files_replace_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let put = |text: &str| write_new(folder.path(), "my/top.toml", "svg", text.as_bytes());
+        for text in ["one", "two", "three"] {
+            put(text).expect("written");
+        }
+        assert_eq!(names(folder.path()), ["top-2.svg", "top-3.svg", "top.svg"]);
+        assert_eq!(read(&folder.path().join("top.svg")), "one");
+        drop(NewFile::begin(folder.path(), "given up", "cast").expect("begun"));
+        assert_eq!(names(folder.path()).len(), 3);
+        let error =
+            write_new(Path::new("/nowhere/at/all"), "top", "svg", b"").expect_err("no folder");
+        assert_eq!(
+            error.to_string(),
+            "cannot write /nowhere/at/all/top.svg: no such file or folder"
+        );
+    }
+
+    #[test]
+    fn names_come_from_presets_and_paths() {
+        assert_eq!(
+            ["heavy-top", "my/own.system.toml", ""].map(plain),
+            ["heavy-top", "own.system", "phaselab"]
+        );
+    }
+
+    #[test]
+    fn what_the_dead_left_is_found_and_swept_and_what_the_living_write_is_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        // no process has so large a number
+        let (dead, living) = (i32::MAX, std::process::id());
+        let left = [
+            ".a.csv.DEAD-0123456789abcdef.partial",
+            ".a.csv.DEAD.partial",
+            ".b.csv.DEAD-0.partial",
+        ];
+        let left = left.map(|name| name.replace("DEAD", &dead.to_string()));
+        let mut others = vec![
+            format!(".a.csv.{living}-0123456789abcdef.partial"),
+            ".a.csv.mine.partial".to_owned(),
+            "a.csv".to_owned(),
+        ];
+        for name in left.iter().chain(&others) {
+            fs::write(folder.path().join(name), "").expect("written");
+        }
+        let found = left_behind(folder.path());
+        assert_eq!(found, left.each_ref().map(|name| folder.path().join(name)));
+        sweep(&folder.path().join("a.csv"));
+        others.push(left[2].clone());
+        others.sort();
+        assert_eq!(names(folder.path()), others);
+    }
+}
