@@ -17,7 +17,6 @@ mod history;
 mod key;
 pub mod keymap;
 mod lab;
-mod landscape;
 mod menu;
 mod meter;
 mod mouse;
@@ -25,13 +24,12 @@ mod notice;
 mod palette;
 mod perform;
 mod picker;
-mod plot;
 mod point;
-mod potential;
 mod prompt;
 mod reading;
 mod saved;
 mod sheet;
+mod side;
 mod speed;
 mod spot;
 mod strike;
@@ -52,12 +50,11 @@ pub use meter::Meter;
 pub use mouse::{Act, Mouse};
 pub use notice::Notice;
 pub use picker::Picker;
-pub use plot::{Eye, Lens, Plot};
-pub use potential::Potential;
 pub use prompt::Prompt;
 pub use reading::Reading;
-pub use saved::{Quantity, Saved, SavedPlot};
+pub use saved::Saved;
 pub use sheet::{Asking, Flaw, Sheet, State as SheetState, Unsaved};
+pub use side::{Asker, Computation, UnderWay};
 pub use spot::{Hold, Spot};
 pub use update::LONGEST_PASTE;
 pub use value::{Facts, Target};
@@ -104,6 +101,10 @@ pub struct App {
     news: notice::Queue,
     /// What the mouse holds on to.
     pub hold: Option<Hold>,
+    /// Whether jobs are handed out by [`Effect::Compute`], so that no frame waits for them; else they run at once.
+    pub aside: bool,
+    /// How many jobs were asked for.
+    jobs: u64,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -173,6 +174,8 @@ impl App {
             reading: Reading::default(),
             news: notice::Queue::default(),
             hold: None,
+            aside: false,
+            jobs: 0,
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
@@ -252,7 +255,7 @@ impl App {
             }
             (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
             (Page::Lab, Some(lab)) => match (lab.focus, lab.focused_plot()) {
-                (_, Some((_, Plot::Space(_)))) => [Place::Space, Place::Lab],
+                (_, Some((_, plot))) if plot.kind.is_scene() => [Place::Space, Place::Lab],
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
                 (Pane::Gauges, _) => [Place::Gauges, Place::Lab],

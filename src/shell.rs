@@ -18,7 +18,6 @@ mod files;
 mod fresh;
 mod governor;
 mod input;
-mod job;
 mod loader;
 mod log;
 pub mod options;
@@ -37,6 +36,7 @@ mod stage;
 mod store;
 mod terminal;
 pub(crate) mod whole;
+mod writer;
 
 pub use bandwidth::{Bandwidth, NotBandwidth};
 pub use diagnosis::{Finding, diagnosis};

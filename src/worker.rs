@@ -4,9 +4,10 @@
 //! one, where the newest wins and nobody waits. The mailbox is emptied before each slice of about
 //! two milliseconds, so a held key costs one slice; nothing is computed, and nothing wakes, while
 //! time is held. A panic of the experiment becomes a fault in a snapshot. What is no longer wanted is
-//! stopped within its step, by its token. Never here: terminals, physics, drawing.
+//! stopped within its step, by its token. Beside it a [`Side`] runs jobs, each on a thread of its own. Never here: terminals, physics, drawing.
 
 mod pace;
+mod side;
 mod slice;
 mod subject;
 mod thread;
@@ -22,6 +23,7 @@ use arc_swap::ArcSwapOption;
 use crate::cancel::Cancel;
 use crate::experiment::{Command, Snapshot};
 
+pub use side::Side;
 pub use subject::Subject;
 
 use thread::Letter;

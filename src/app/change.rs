@@ -4,8 +4,9 @@
 //! them. Never here: which key asks for it, or how the history keeps it.
 
 use super::history::Change;
-use super::{App, Effect, Lab, Pane, Plot, Target};
+use super::{App, Effect, Lab, Pane, Target};
 use crate::experiment::{Command, Snapshot, with_given};
+use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::Given;
 
@@ -157,7 +158,6 @@ impl Lab {
         }
         let plots = Box::new([before, plot.clone()]);
         self.history.note(Change::Plot { index, plots });
-        self.survey();
     }
 
     /// Takes the last change back, and says what it was; nothing if there is none.
@@ -240,7 +240,6 @@ impl Lab {
                     *plot = side.of(*plots);
                     self.focus = Pane::Plot(index);
                 }
-                self.survey();
                 Vec::new()
             }
             Change::Method(names) => {
@@ -291,7 +290,7 @@ impl Lab {
 }
 
 /// Which value is given: of which coordinate, and whether it is its rate or momentum.
-pub(super) fn place(given: &Given) -> (usize, bool) {
+fn place(given: &Given) -> (usize, bool) {
     match given {
         Given::Position(i, _) => (*i, false),
         Given::Velocity(i, _) | Given::Momentum(i, _) => (*i, true),

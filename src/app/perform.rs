@@ -5,8 +5,9 @@
 use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
-use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
+use super::{Action, App, Asker, Effect, Notice, Over, Page, Pane, Prompt, Purpose, Way};
 use crate::experiment::{Command, Status};
+use crate::instrument::{Lens, Plot, Sight};
 use crate::integrate::{METHODS, Stepping};
 
 impl App {
@@ -124,18 +125,20 @@ impl App {
                 let Some(target) = lab.selected() else { return Vec::new() };
                 lab.of_file(target).map_or_else(Vec::new, |to| lab.change(target, to))
             }
-            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
-            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
+            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes.chosen())),
+            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes.chosen())),
             Action::Log => self.with_lens(|lens| lens.log = !lens.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, Plot::Phase { .. })) => self.with_lens(|lens| lens.equal = !lens.equal),
+                Some((_, plot)) if plot.kind.has_equal_axes() => {
+                    self.with_lens(|lens| lens.equal = !lens.equal)
+                }
                 _ => self.say("Only where one quantity stands against another can units be equal."),
             },
             Action::Cursor => self.with_lens(|lens| {
                 lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
             Action::NextFrame => self.next_frame(),
-            Action::Home => self.with_plot(Plot::home),
+            Action::Home => self.with_plot(|plot, loaded| plot.home(&loaded.model)),
             _ => Vec::new(),
         }
     }
@@ -170,12 +173,12 @@ impl App {
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
-        let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
+        let picture = pictures.filter(|(_, plot)| plot.kind.is_scene()).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
             return self.say("No picture shows the motion in space; v chooses what a pane shows.");
         };
         lab.redraw(picture, |plot, _| {
-            if let Plot::Space(eye) = plot {
+            if let Sight::Camera(eye) = &mut plot.sight {
                 eye.frame = Some(eye.frame.map_or(0, |frame| frame + 1)).filter(|f| *f < count);
             }
         });
@@ -184,7 +187,7 @@ impl App {
 
     fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
         self.with_plot(|plot, _| {
-            if let Some(lens) = plot.lens() {
+            if let Some(lens) = plot.lens_mut() {
                 change(lens);
             }
         })
@@ -232,6 +235,9 @@ impl App {
                 self.over = editing.then_some(Over::Workbench);
                 return Vec::new();
             }
+            Some(Over::Prompt(Prompt { under_way: Some(_), .. })) => {
+                return vec![Effect::StopComputing(Asker::Prompt)];
+            }
             Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
                 return Vec::new();
             }
@@ -263,7 +269,7 @@ impl App {
             Way::Down => return self.jump(1),
             Way::Left | Way::Right => {}
         }
-        self.with_plot(|plot, _| plot.shift(way))
+        self.with_plot(|plot, _| plot.shift(way.step()))
     }
 
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
@@ -277,7 +283,7 @@ impl App {
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
                         let way = if by < 0 { Way::Up } else { Way::Down };
-                        return self.with_plot(|plot, _| plot.shift(way));
+                        return self.with_plot(|plot, _| plot.shift(way.step()));
                     }
                     lab.select(|place| place.saturating_add_signed(by));
                 }

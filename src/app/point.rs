@@ -2,11 +2,10 @@
 //!
 //! In: an act, the spot it happened at. Out: the changed state and the effects. Never here: bytes, or where a spot is.
 
-use super::change::place;
 use super::mouse::Act;
 use super::spot::{Hold, Spot};
-use super::{Action, App, Effect, Lab, Over, Page, Pane, Plot, Target};
-use crate::system::{ChannelKind, Given};
+use super::{Action, App, Effect, Lab, Over, Page, Pane, Target};
+use crate::system::Given;
 
 /// Lines of text or of a list that the wheel moves by.
 const LINES: isize = 3;
@@ -114,7 +113,7 @@ impl App {
                     Some(given) => lab.start(&given),
                     None => {
                         lab.redraw(index, |plot, _| {
-                            if let Some(lens) = plot.lens() {
+                            if let Some(lens) = plot.lens_mut() {
                                 lens.cursor = Some(place);
                             }
                         });
@@ -172,17 +171,9 @@ impl App {
 }
 
 impl Lab {
-    /// The initial values that a place in a plot stands for, if both its axes are of the state.
-    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<Vec<Given>> {
-        let Plot::Phase { x, y, .. } = self.plots.get(index)? else { return None };
-        let given =
-            |channel: usize, value: f64| match self.loaded.system.channels().get(channel)?.kind {
-                ChannelKind::Position(i) => Some(Given::Position(i, value)),
-                ChannelKind::Velocity(i) => Some(Given::Velocity(i, value)),
-                ChannelKind::Momentum(i) => Some(Given::Momentum(i, value)),
-                _ => None,
-            };
-        let both = [given(*x, at[0])?, given(*y, at[1])?];
-        (place(&both[0]) != place(&both[1])).then(|| both.to_vec())
+    /// The initial values that a place in a plot stands for, if it stands for some.
+    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<[Given; 2]> {
+        let plot = self.plots.get(index)?;
+        plot.kind.start(plot, self.loaded.physics(), at)
     }
 }

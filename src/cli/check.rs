@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::failure::Failure;
 use super::output::{Form, Output};
 use super::{open, stderr};
-use crate::analysis::false_claims;
+use crate::claims::false_claims;
 use crate::mechanics;
 use crate::preset::{Document, Mistake, Severity};
 use crate::printable;

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 
-use crate::analysis::flaws;
+use crate::claims::flaws;
 use crate::experiment::choose_method;
 use crate::expr::nearest;
 use crate::integrate::{METHODS, Settings, method_named};

@@ -3,6 +3,7 @@
 //! In: inputs and frames from the stage. Out: a drawn screen; commands to the worker, loads to the loader, wishes to
 //! the stage. Never here: what a key does, or how anything looks.
 
+use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +16,6 @@ use super::checker::Checker;
 use super::files::{self, News, Watch};
 use super::fresh;
 use super::input::Input;
-use super::job::{Job, Told};
 use super::loader::Loader;
 use super::log::Log;
 use super::product;
@@ -23,17 +23,20 @@ use super::recorder::Recorder;
 use super::request::Request;
 use super::stage::{Pace, Page, Wish};
 use super::store::{NoStore, Store};
+use super::writer::{Told, Writer};
 use crate::app::{
-    Act, App, Checked, Effect, Event, LoadFailure, Loaded, Mouse, Notice, Saved, Unsaved,
+    Act, App, Asker, Checked, Computation, Effect, Event, LoadFailure, Loaded, Mouse, Notice,
+    Saved, Unsaved,
 };
 use crate::experiment::{Export, Ready, Snapshot, Status};
+use crate::instrument::Answer;
 use crate::preset::{Catalog, Document, Origin, is_path};
 use crate::record::{data, plain, still};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{PALETTES, Palette, Theme};
 use crate::view::{self, Detail, Look};
-use crate::worker::Worker;
+use crate::worker::{Side, Worker};
 
 /// The laboratory as it runs.
 pub(super) struct Session {
@@ -52,7 +55,9 @@ pub(super) struct Session {
     /// The state of the texts when they were kept last.
     kept_texts: u64,
     /// The file being written that a key asked for.
-    job: Job,
+    writer: Writer,
+    /// Jobs on the side, for each who asks.
+    sides: HashMap<Asker, Side<Answer>>,
     /// Told once more when the first system is there, for its loading ends what was told before.
     warning: Option<String>,
     /// What happens is written there.
@@ -105,6 +110,7 @@ impl Session {
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
+        app.aside = true;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();
         app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
@@ -124,7 +130,8 @@ impl Session {
             store,
             since: Since::default(),
             kept_texts: 0,
-            job: Job::default(),
+            writer: Writer::new(),
+            sides: HashMap::new(),
             warning: None,
             log,
             fault: None,
@@ -297,6 +304,13 @@ impl Session {
                 }
                 Effect::StopLoading => self.loader.stop(),
                 Effect::StopCheck => self.checker.stop(),
+                Effect::Compute(Computation { ticket, asker, job }) => {
+                    let side = self.sides.entry(asker).or_insert_with(|| Side::new("side"));
+                    side.begin(ticket, job);
+                }
+                Effect::StopComputing(asker) => {
+                    self.sides.remove(&asker);
+                }
                 Effect::Export => self.export(),
                 Effect::Check { ticket, title, text } => {
                     self.checker.check(ticket, Document::new(title, text));
@@ -353,7 +367,7 @@ impl Session {
 
     /// Has a file written that a key asked for; what becomes of it is told.
     fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
-        if let Err(why) = self.job.begin(work) {
+        if let Err(why) = self.writer.begin(work) {
             self.told(Err(why));
         }
     }
@@ -416,6 +430,24 @@ impl Session {
         let (ticket, took) = (answer.ticket, answer.took);
         self.update(Event::Checked(Box::new(Checked { ticket, outcome, took })));
         true
+    }
+
+    /// Takes in what became of jobs on the side, and how far the others are; whether there are any.
+    fn look_aside(&mut self) -> bool {
+        let mut events = Vec::new();
+        let mut busy = false;
+        for side in self.sides.values_mut() {
+            busy |= side.is_busy();
+            if let Some((ticket, outcome)) = side.take() {
+                events.push(Event::Computed { ticket, outcome });
+            } else if let Some((ticket, share)) = side.share() {
+                events.push(Event::Progress { ticket, share });
+            }
+        }
+        for event in events {
+            self.update(event);
+        }
+        busy
     }
 
     /// Writes why the motion cannot go on, once.
@@ -524,6 +556,8 @@ impl Session {
     /// Sets a loaded system in motion.
     fn begin(&mut self, name: String, ready: Ready) -> Loaded {
         let Ready { document, model, equations, system, experiment } = ready;
+        // what is computed on the side is of the system before
+        self.sides.clear();
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, document, model, equations, system }
     }
@@ -626,7 +660,8 @@ impl Page for Session {
         }
         changed |= self.watch(elapsed);
         changed |= self.answer();
-        if let Some(told) = self.job.take() {
+        changed |= self.look_aside();
+        if let Some(told) = self.writer.take() {
             self.told(told);
             changed = true;
         }
@@ -662,6 +697,7 @@ impl Page for Session {
         // a thread at work would take the time that is left
         self.loader.stop();
         self.checker.stop();
+        self.sides.clear();
         let time = match (hurried, self.app.unsaved().is_empty()) {
             (false, _) => UNHURRIED,
             (true, false) => FOR_TEXTS,
@@ -674,7 +710,7 @@ impl Page for Session {
         let kept = self.keep_within(time);
         let recorder = self.recorder.take();
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
-        let written = if hurried { None } else { self.job.wait(UNHURRIED) };
+        let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |told| told.map(|_| ()).map_err(io::Error::other));
         self.left = Some(Left { recorded: recorded.and(written), kept });
     }

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 
 use super::body::Outline;
 use super::seat::Seat;
-use crate::app::Eye;
 use crate::expr::portable;
+use crate::instrument::Eye;
 use crate::model::{Point, Shape};
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
-use phaselab::app::{App, Choice, Drawn, Effect, Event, Key, Menu, Over, Page, Plot, Target};
+use phaselab::app::{App, Choice, Drawn, Effect, Event, Key, Menu, Over, Page, Target};
 use phaselab::experiment::Status;
+use phaselab::instrument::Sight;
 
 use super::scripts::with_blows;
 use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
@@ -137,13 +138,13 @@ fn facts(app: &App) -> Vec<(String, String)> {
     }
     for (index, plot) in lab.plots.iter().enumerate() {
         let about = |name: &str| format!("plot {index}, {name}");
-        match plot {
-            Plot::Space(eye) => {
+        match plot.sight {
+            Sight::Camera(eye) => {
                 fact(&about("direction"), format!("{:.4} {:.4}", eye.yaw, eye.pitch));
                 fact(&about("zoom"), eye.zoom.to_string());
                 fact(&about("frame"), format!("{:?}", eye.frame));
             }
-            Plot::Phase { lens, .. } | Plot::Time { lens, .. } | Plot::Potential { lens, .. } => {
+            Sight::Axes(lens) => {
                 fact(&about("zoom"), format!("{:?}", lens.zoom));
                 fact(&about("pan"), format!("{:?}", lens.pan));
                 fact(&about("log"), lens.log.to_string());

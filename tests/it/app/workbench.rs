@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Page, Plot, Sheet, SheetState,
+    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Page, Sheet, SheetState,
 };
 use phaselab::experiment::{Command, Ready, Snapshot, Status};
+use phaselab::instrument::Plot;
 use phaselab::preset::Document;
 
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
@@ -87,7 +88,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     let lab = app.lab.as_ref().unwrap();
     assert!(lab.zoomed);
     assert_eq!(lab.plots.len(), before.len());
-    let lens = |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
+    let lens = |plots: &[Plot]| plots.iter().filter(|p| p.kind.name() == "phase").count();
     assert_eq!(lens(&lab.plots), lens(&before));
     assert!(lab.loaded.system.channels().iter().any(|channel| channel.name == "new"));
 }

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
+use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Spot, Target};
 use phaselab::experiment::Command;
+use phaselab::instrument::Sight;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{spot, spots};
 use ratatui::layout::Rect;
@@ -125,12 +126,7 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
             assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{spot:?}");
             let mut marked = app.clone();
             let lab = marked.lab.as_mut().unwrap();
-            let lens = match &mut lab.plots[index] {
-                Plot::Phase { lens, .. }
-                | Plot::Time { lens, .. }
-                | Plot::Potential { lens, .. } => lens,
-                other @ Plot::Space(_) => panic!("{other:?} has no axes"),
-            };
+            let lens = lab.plots[index].lens_mut().expect("it has axes");
             lens.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
             assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
@@ -273,9 +269,11 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         act(&mut real, size, Act::Release, (x + 6, y - 1));
         assert_eq!(real.lab().focus, Pane::Plot(picture));
         let after = real.lab().plots.clone();
-        match (&before[picture], &after[picture], grabbed) {
-            (Plot::Space(a), Plot::Space(b), _) => assert!(a.yaw != b.yaw && a.pitch != b.pitch),
-            (_, Plot::Phase { .. }, Spot::Plot { at: from, .. }) => {
+        match (before[picture].sight, after[picture].sight, grabbed) {
+            (Sight::Camera(a), Sight::Camera(b), _) => {
+                assert!(a.yaw != b.yaw && a.pitch != b.pitch);
+            }
+            (_, Sight::Axes(_), Spot::Plot { at: from, .. }) => {
                 let Some(Spot::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1)) else {
                     panic!("nothing there")
                 };

@@ -4,8 +4,11 @@
 //! In: a model and what follows from it. Out: a mistake for each claim that is false, at its
 //! place. What is proved symbolically is not integrated. Never here: how claims are written.
 
-use super::brackets::false_brackets;
-use super::start;
+mod brackets;
+mod start;
+
+use brackets::false_brackets;
+
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Happening, Reached, Settings, method_named};
 use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
