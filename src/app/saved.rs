@@ -147,6 +147,10 @@ impl App {
         if matches!(self.over, Some(Over::Menu(_) | Over::Field(_))) {
             self.over = None;
         }
+        // and what was asked of it is no longer derived
+        if let Some(Over::Prompt(prompt)) = &mut self.over {
+            prompt.under_way = None;
+        }
         self.meter.forget();
         let Some(saved) = saved else {
             self.lab = Some(lab);

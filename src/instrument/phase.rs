@@ -126,10 +126,6 @@ impl Instrument for Phase {
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Physics { model, equations, system } = present.physics;
-        // With more degrees of freedom the plane is a shadow of phase space; with explicit time its curves would move.
-        if system.degrees() != 1 || equations.pool.depends(equations.energy, model.symbols.time) {
-            return Need::Nothing;
-        }
         let Some((form, channels)) = plane(system, plot) else { return Need::Nothing };
         let bounds = channels.map(|channel| present.bounds.get(channel).map(|(lo, hi)| [*lo, *hi]));
         let [Some(x), Some(y)] = bounds else { return Need::Nothing };
@@ -138,6 +134,10 @@ impl Instrument for Phase {
             && survey.still_holds(present.parameters, motion)
         {
             return Need::Held;
+        }
+        // With more degrees of freedom the plane is a shadow of phase space; with explicit time its curves would move.
+        if system.degrees() != 1 || equations.pool.depends(equations.energy, model.symbols.time) {
+            return Need::Nothing;
         }
         let (system, parameters, time) =
             (Arc::clone(system), present.parameters.to_vec(), present.time);

@@ -128,8 +128,6 @@ pub enum Sign {
     Disc,
     /// A place beside it.
     Ring,
-    /// A saddle, a fixed point.
-    Cross,
 }
 
 impl From<Ink> for Stroke {

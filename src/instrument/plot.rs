@@ -117,11 +117,6 @@ impl Plot {
         self.columns.get(axis)?.first().copied()
     }
 
-    /// Whether everything is chosen that it needs.
-    pub fn is_whole(&self) -> bool {
-        self.columns.len() >= self.kind.chosen().len()
-    }
-
     /// What it is called without a picture.
     pub fn words(&self, physics: Physics<'_>) -> String {
         self.title(physics).map_or_else(|| self.kind.words(self, physics), str::to_owned)

@@ -214,7 +214,6 @@ fn draw_layer(
             let marker = match sign {
                 Sign::Disc => Marker::Disc,
                 Sign::Ring => Marker::Ring,
-                Sign::Cross => Marker::Cross,
             };
             raster.marker(frame, *at, marker, &pen(canvas, *ink, level));
         }
