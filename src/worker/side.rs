@@ -93,7 +93,7 @@ impl<T> fmt::Debug for Side<T> {
         f.debug_struct("Side")
             .field("name", &self.name)
             .field("under_way", &self.under_way)
-            .finish()
+            .finish_non_exhaustive()
     }
 }
 

@@ -85,7 +85,7 @@ pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftVi
 fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
-        let axes = INSTRUMENTS.into_iter().flat_map(|kind| kind.written());
+        let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
         for key in axes.map(|axis| axis.key).chain(["title", "frame", "shapes"]) {
             table.take(key);
         }
@@ -97,14 +97,14 @@ fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title", mistakes);
     let place = table.place.clone();
-    let Some(kind) = kind else {
+    let Kind::Drawn(kind) = kind else {
         let mut axis = |key| {
             let found = table.take(key);
             found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes))
         };
         let axes = ["x", "y"].map(|key| axis(key).into_iter().collect()).to_vec();
         let (frame, shapes) = (None, None);
-        return Some(DraftView { place, kind, title, axes, frame, shapes });
+        return Some(DraftView { place, kind: None, title, axes, frame, shapes });
     };
     let axes = kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
     let (mut frame, mut shapes) = (None, None);
@@ -134,19 +134,23 @@ fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Mistakes) -> Vec<F
     }
 }
 
-/// The kind of a name; none within where it is left out.
-fn view_kind(
-    written: &Spanned<String>,
-    mistakes: &mut Mistakes,
-) -> Option<Option<&'static dyn Instrument>> {
+/// What a name stands for.
+enum Kind {
+    Drawn(&'static dyn Instrument),
+    /// The format has it and this version does not.
+    LeftOut,
+}
+
+/// The kind of a name.
+fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Kind> {
     let name = written.get_ref().as_str();
     if let Some(kind) = named(name) {
-        return Some(Some(kind));
+        return Some(Kind::Drawn(kind));
     }
     if NOT_YET.contains(&name) {
         let message = format!("views of kind `{name}` are not supported yet by this version");
         mistakes.push(Mistake::warning(written.span(), message).with_help("the view is left out"));
-        return Some(None);
+        return Some(Kind::LeftOut);
     }
     let known = INSTRUMENTS.iter().map(|kind| kind.name()).chain(NOT_YET);
     let help = match nearest(name, known) {
