@@ -158,6 +158,7 @@ impl Lab {
         }
         let plots = Box::new([before, plot.clone()]);
         self.history.note(Change::Plot { index, plots });
+        self.answers.stale = true;
     }
 
     /// Takes the last change back, and says what it was; nothing if there is none.
@@ -240,6 +241,7 @@ impl Lab {
                     *plot = side.of(*plots);
                     self.focus = Pane::Plot(index);
                 }
+                self.answers.stale = true;
                 Vec::new()
             }
             Change::Method(names) => {

@@ -142,6 +142,7 @@ impl Lab {
         self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
         self.asked.see(&snapshot);
         self.snapshot = Some(snapshot);
+        self.answers.stale = true;
         let wishes = std::mem::take(&mut self.wishes);
         self.wishes = wishes.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true

@@ -74,6 +74,8 @@ impl UnderWay {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     entries: Vec<Entry>,
+    /// Whether something has changed since it was last looked at what is needed.
+    pub(super) stale: bool,
 }
 
 /// The answer to what a plot needed last, and the job under way.
@@ -113,6 +115,7 @@ impl Answers {
             |entry: &&mut Entry| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
         let Some(entry) = self.entries.iter_mut().find(waits) else { return false };
         entry.under_way = None;
+        self.stale = true;
         if let Outcome::Done(answer) = outcome {
             entry.answer = Some(answer.clone());
         }
@@ -176,7 +179,9 @@ impl App {
     /// The jobs that the pictures need now; they run at once where they are not handed out.
     pub(super) fn look_after_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
-        let wanted = lab.needs(&mut self.jobs);
+        // a flood of keys that change no picture costs nothing
+        let stale = std::mem::take(&mut lab.answers.stale);
+        let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         if self.aside {
             return;
