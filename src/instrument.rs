@@ -20,13 +20,13 @@ use std::sync::Arc;
 
 use crate::job::Job;
 use crate::model::Model;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;
 pub use present::{Physics, Present};
-pub use sight::{Eye, Lens, Sight};
+pub use sight::{CameraPose, Sight, Viewport};
 
 /// All kinds, in the order in which the lab opens with them.
 pub static INSTRUMENTS: [&dyn Instrument; 4] =
@@ -97,7 +97,12 @@ pub trait Instrument: Sync {
     ) -> Option<Picture>;
 
     /// The initial values that a point of the picture stands for, if it stands for some.
-    fn start(&self, _plot: &Plot, _physics: Physics<'_>, _at: [f64; 2]) -> Option<[Given; 2]> {
+    fn start(
+        &self,
+        _plot: &Plot,
+        _physics: Physics<'_>,
+        _at: [f64; 2],
+    ) -> Option<[InitialOverride; 2]> {
         None
     }
 

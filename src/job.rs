@@ -58,7 +58,7 @@ impl<T> Job<T> {
         Self { name: name.into(), work: Arc::new(work) }
     }
 
-    /// Runs it to its end. A panic is caught and told.
+    /// Runs it to its end. A panic is caught and reported.
     pub fn run(&self, progress: &Progress) -> Outcome<T> {
         // what a panic leaves undone belongs to the job alone, and is dropped with it
         let made = catch_unwind(AssertUnwindSafe(|| (self.work)(progress)));
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_told_with_the_name_of_the_job() {
+    fn a_panic_is_reported_with_the_name_of_the_job() {
         let job: Job<()> = Job::new("the search", |_| panic!("no way"));
         let told = "the search stopped by a defect of the program: no way".to_owned();
         assert_eq!(job.run(&Progress::new()), Outcome::Failed(told));

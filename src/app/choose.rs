@@ -3,7 +3,7 @@
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
 //! Never here: how a list is moved in.
 
-use super::{App, Choice, Choosing, Effect, Field, Item, Lab, Menu, Over, Pane, Purpose};
+use super::{App, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Purpose};
 use crate::instrument::{Axis, Plot, offers};
 use crate::integrate::METHODS;
 
@@ -23,7 +23,7 @@ impl App {
             METHODS.iter().map(item).collect(),
         );
         let now = lab.method().map(Choice::Method);
-        self.over = Some(Over::Menu(menu.at(now)));
+        self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }
 
@@ -33,11 +33,11 @@ impl App {
         };
         let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
         if items.is_empty() {
-            return self.say("There is only one theme here.");
+            return self.notify("There is only one theme here.");
         }
         let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
         let menu = Menu::new("Theme", Choosing::Theme, items);
-        self.over = Some(Over::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
+        self.overlay = Some(Overlay::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
         Vec::new()
     }
 
@@ -54,7 +54,7 @@ impl App {
             items.push(line(&offer.label, &offer.about, Choice::Offer(index)));
         }
         let menu = Menu::new(Axis::ACROSS.heading, Choosing::Contents { plot }, items);
-        self.over = Some(Over::Menu(menu.at(now)));
+        self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }
 
@@ -84,22 +84,22 @@ impl App {
         });
         let purpose = Choosing::Axis { plot, several: axis.several };
         let menu = Menu::new(format!("{}, against {label}", axis.heading), purpose, channels(lab));
-        self.over = Some(Over::Menu(Menu { begun: Some((begun, label)), ..menu.at(now) }));
+        self.overlay = Some(Overlay::Menu(Menu { begun: Some((begun, label)), ..menu.at(now) }));
         Vec::new()
     }
 
     /// Enter, in a list or a field.
     pub(super) fn accept(&mut self) -> Vec<Effect> {
-        match self.over.take() {
-            Some(Over::Menu(menu)) => self.accept_line(menu),
-            Some(Over::Field(field)) => self.accept_value(field),
-            Some(Over::Prompt(prompt)) => self.answer(prompt),
-            Some(Over::Workbench) => {
-                self.over = Some(Over::Workbench);
-                self.accept_on_sheet()
+        match self.overlay.take() {
+            Some(Overlay::Menu(menu)) => self.accept_line(menu),
+            Some(Overlay::Field(field)) => self.accept_value(field),
+            Some(Overlay::Prompt(prompt)) => self.answer(prompt),
+            Some(Overlay::Workbench) => {
+                self.overlay = Some(Overlay::Workbench);
+                self.accept_in_buffer()
             }
             other => {
-                self.over = other;
+                self.overlay = other;
                 Vec::new()
             }
         }
@@ -107,19 +107,19 @@ impl App {
 
     fn accept_line(&mut self, menu: Menu) -> Vec<Effect> {
         let Some((_, item)) = menu.current() else {
-            self.over = Some(Over::Menu(menu));
-            return self.say("Nothing fits what is typed.");
+            self.overlay = Some(Overlay::Menu(menu));
+            return self.notify("Nothing fits what is typed.");
         };
         if let Some(reason) = &item.refusal {
             let sentence = format!("{} cannot be used here: {reason}", item.label);
-            self.over = Some(Over::Menu(menu));
-            return self.say(sentence);
+            self.overlay = Some(Overlay::Menu(menu));
+            return self.notify(sentence);
         }
         match (menu.purpose, item.choice) {
             (_, Choice::Method(name)) => {
                 self.lab.as_mut().map_or(Vec::new(), |lab| lab.integrate_by(name))
             }
-            (_, Choice::Blow(index)) => self.strike_by(index),
+            (_, Choice::Impulse(index)) => self.apply_impulse(index),
             (_, Choice::Theme(index)) => {
                 self.theme = self.themes.get(index).map(|(name, _)| *name);
                 Vec::new()
@@ -146,22 +146,25 @@ impl App {
             Ok(value) => value,
             Err(sentence) => {
                 field.mistake = Some(sentence);
-                self.over = Some(Over::Field(field));
+                self.overlay = Some(Overlay::Field(field));
                 return Vec::new();
             }
         };
         match field.purpose {
             Purpose::Value(target) => {
-                let beyond = lab.facts(target).and_then(|facts| {
-                    let (min, max, _) = facts.range?;
+                let beyond = lab.value_info(target).and_then(|value_info| {
+                    let (min, max, _) = value_info.range?;
                     let outside = !(min..=max).contains(&value);
                     outside.then(|| {
-                        format!("{} is now beyond its usual range, {min} to {max}.", facts.shown)
+                        format!(
+                            "{} is now beyond its usual range, {min} to {max}.",
+                            value_info.shown
+                        )
                     })
                 });
                 let effects = lab.change(target, value);
                 if let Some(sentence) = beyond {
-                    self.say(sentence);
+                    self.notify(sentence);
                 }
                 effects
             }

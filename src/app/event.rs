@@ -7,13 +7,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Act, Asker, Checked, Computation, Key, NotSaved, Spot};
+use super::{Act, Asker, Checked, Computation, HitTarget, Key, SaveError};
+use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::instrument::{Answer, Physics};
 use crate::job::{Outcome, Share};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::preset::Document;
 use crate::system::System;
 
 /// Something that happened.
@@ -26,13 +26,13 @@ pub enum Event {
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
     /// The mouse did something at a spot that `view` has found.
-    Mouse(Act, Spot),
+    Mouse(Act, HitTarget),
     /// The window of the terminal has got the keyboard, or lost it.
     Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
     Snapshot(Arc<Snapshot>),
     /// A system asked for by [`Effect::Load`] is there, or is not.
-    Loaded(Result<Loaded, LoadFailure>),
+    Loaded(Result<Loaded, LoadError>),
     /// A file that was asked for is written, or why it is not: a sentence.
     Written(Result<String, String>),
     /// The system in the lab was built anew from its changed file.
@@ -42,7 +42,7 @@ pub enum Event {
     /// A text that [`Effect::Check`] asked about is right and runs already, or is wrong.
     Checked(Box<Checked>),
     /// A text was saved to this file, or was not.
-    FileSaved(Result<(PathBuf, String), NotSaved>),
+    FileSaved(Result<(PathBuf, String), SaveError>),
     /// The file of the system holds this text now.
     FileRead {
         /// Its text.
@@ -109,7 +109,7 @@ impl Loaded {
 
 /// Why a system could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LoadFailure {
+pub struct LoadError {
     /// What was asked for.
     pub name: String,
     /// What is wrong, as it would be printed, in one or many lines.

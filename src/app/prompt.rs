@@ -8,7 +8,7 @@ use std::time::Duration;
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Asker, Effect, Key, Over, UnderWay};
+use super::{App, Asker, Effect, Key, Overlay, UnderWay};
 use crate::analysis::Inquiry;
 use crate::expr::SyntaxError;
 use crate::instrument::Answer;
@@ -65,7 +65,7 @@ impl Prompt {
 impl App {
     pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
         if self.lab.is_some() {
-            self.over = Some(Over::Prompt(Prompt::default()));
+            self.overlay = Some(Overlay::Prompt(Prompt::default()));
         }
         Vec::new()
     }
@@ -85,7 +85,7 @@ impl App {
             prompt.under_way = Some((text, UnderWay::new(&computation)));
             effects.push(Effect::Compute(computation));
         }
-        self.over = Some(Over::Prompt(prompt));
+        self.overlay = Some(Overlay::Prompt(prompt));
         effects
     }
 }

@@ -6,8 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{App, Effect, Lab, Loaded, Over, Page, Pane, Selection, Sheet, SheetState};
-use crate::experiment::{Command, Moment};
+use super::{App, Effect, Lab, Loaded, Overlay, Page, Pane, Selection, SheetState, SourceBuffer};
+use crate::experiment::{Checkpoint, Command};
 use crate::instrument::{Plot, SavedPlot};
 
 /// A session.
@@ -33,7 +33,7 @@ pub struct Saved {
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
-    pub moment: Moment,
+    pub moment: Checkpoint,
 }
 
 impl Saved {
@@ -45,7 +45,7 @@ impl Saved {
         let Loaded { name, model, system, .. } = &lab.loaded;
         let moment = match &lab.awaited {
             Some(moment) => moment.clone(),
-            None => Moment::of(model, system, lab.seen()?),
+            None => Checkpoint::of(model, system, lab.seen()?),
         };
         Some(Self {
             version: Self::VERSION,
@@ -86,8 +86,8 @@ impl App {
             return self.left.clone();
         }
         let lab = self.lab.as_ref()?;
-        let runs = |sheet: &Sheet| sheet.is_modified() && sheet.state != SheetState::Left;
-        let edited = self.own_sheet().is_some_and(runs);
+        let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
+        let edited = self.own_buffer().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
 
@@ -112,11 +112,11 @@ impl App {
         self.page = saved.page;
         self.remind();
         // the motion belongs to the text that is not saved, and waits until that is checked
-        if saved.edited && self.wake() { Vec::new() } else { self.take_up() }
+        if saved.edited && self.wake() { Vec::new() } else { self.restore() }
     }
 
     /// Has the experiment take up the motion that is waited for, if there is one.
-    pub(super) fn take_up(&mut self) -> Vec<Effect> {
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
         let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
         awaited.map(command).into_iter().collect()
@@ -144,11 +144,11 @@ impl App {
             lab.history = old.history;
         }
         // What is open speaks of the old system's places.
-        if matches!(self.over, Some(Over::Menu(_) | Over::Field(_))) {
-            self.over = None;
+        if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
+            self.overlay = None;
         }
         // and what was asked of it is no longer derived
-        if let Some(Over::Prompt(prompt)) = &mut self.over {
+        if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
             prompt.under_way = None;
         }
         self.meter.forget();
@@ -159,6 +159,6 @@ impl App {
         lab.look_as(&saved);
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
-        self.take_up()
+        self.restore()
     }
 }

@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use super::{App, Effect, Event, Lab, Over};
+use super::{App, Effect, Event, Lab, Overlay};
 use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 
@@ -61,7 +61,7 @@ impl UnderWay {
         }
     }
 
-    /// What is told of it once it has taken a while: its name and how far it is.
+    /// What is reported of it once it has taken a while: its name and how far it is.
     pub fn told(&self) -> Option<String> {
         let share = self.share.total.map_or_else(String::new, |total| {
             format!(" {} %", self.share.done * 100 / total.max(1))
@@ -202,15 +202,15 @@ impl App {
     /// A job has ended. What nobody waits for is dropped.
     pub(super) fn computed(&mut self, ticket: u64, outcome: Outcome<Answer>) -> Vec<Effect> {
         let lab = self.lab.as_mut();
-        let waited = match &mut self.over {
-            Some(Over::Prompt(prompt)) if prompt.awaits(ticket) => {
+        let waited = match &mut self.overlay {
+            Some(Overlay::Prompt(prompt)) if prompt.awaits(ticket) => {
                 prompt.take(&outcome);
                 true
             }
             _ => lab.is_some_and(|lab| lab.answers.take(ticket, &outcome)),
         };
         match outcome {
-            Outcome::Failed(sentence) if waited => self.say(sentence),
+            Outcome::Failed(sentence) if waited => self.notify(sentence),
             _ => Vec::new(),
         }
     }
@@ -222,7 +222,7 @@ impl App {
             .into_iter()
             .flat_map(Answers::all_under_way)
             .for_each(|job| job.reach(ticket, share));
-        if let Some(Over::Prompt(prompt)) = &mut self.over {
+        if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
             prompt.under_way.iter_mut().for_each(|(_, job)| job.reach(ticket, share));
         }
     }

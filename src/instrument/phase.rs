@@ -11,7 +11,7 @@ use super::{
 };
 use crate::analysis::{Landscape, Plane};
 use crate::job::Job;
-use crate::system::{ChannelKind, Form, Given, System};
+use crate::system::{ChannelKind, Form, InitialOverride, System};
 
 /// The levels of the picture; separatrices lie between the first two.
 const LEVELS: Level = 0;
@@ -107,17 +107,22 @@ impl Instrument for Phase {
         Some(Picture::Axes {
             upwards: Upwards::Channel(y, landscape.map(|landscape| landscape.window[1])),
             layers: layers.collect(),
-            happenings: Some((MARK, [Some(x), Some(y)])),
+            occurrences: Some((MARK, [Some(x), Some(y)])),
         })
     }
 
     /// A point stands for initial values where both axes are of the state, and not of one value.
-    fn start(&self, plot: &Plot, physics: Physics<'_>, at: [f64; 2]) -> Option<[Given; 2]> {
+    fn start(
+        &self,
+        plot: &Plot,
+        physics: Physics<'_>,
+        at: [f64; 2],
+    ) -> Option<[InitialOverride; 2]> {
         let kind = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.kind);
         let given = |kind: ChannelKind, value: f64| match kind {
-            ChannelKind::Position(i) => Some(((i, false), Given::Position(i, value))),
-            ChannelKind::Velocity(i) => Some(((i, true), Given::Velocity(i, value))),
-            ChannelKind::Momentum(i) => Some(((i, true), Given::Momentum(i, value))),
+            ChannelKind::Position(i) => Some(((i, false), InitialOverride::Position(i, value))),
+            ChannelKind::Velocity(i) => Some(((i, true), InitialOverride::Velocity(i, value))),
+            ChannelKind::Momentum(i) => Some(((i, true), InitialOverride::Momentum(i, value))),
             _ => None,
         };
         let ((place, first), (other, second)) = (given(kind(0)?, at[0])?, given(kind(1)?, at[1])?);

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::Eye;
+use super::CameraPose;
 use crate::analysis::Landscape;
 
 /// What the line above a picture says.
@@ -60,7 +60,7 @@ pub enum Upwards {
 #[derive(Clone, Debug)]
 pub enum Picture {
     /// Shapes through a camera.
-    Scene(Eye),
+    Scene(CameraPose),
     /// Curves and points on axes.
     Axes {
         /// The axis upwards.
@@ -68,7 +68,7 @@ pub enum Picture {
         /// What is drawn. The level of each says what lies over what.
         layers: Vec<(Level, Layer)>,
         /// The axis and channels along which what happened is marked; time where there is no channel across.
-        happenings: Option<(Level, [Option<usize>; 2])>,
+        occurrences: Option<(Level, [Option<usize>; 2])>,
     },
 }
 

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Eye, INSTRUMENTS, Instrument, Lens, Physics, Sight, is_view_of, named};
+use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, is_view_of, named};
 use crate::model::Model;
 use crate::system::Channel;
 
@@ -38,10 +38,10 @@ pub struct SavedPlot {
     pub view: Option<usize>,
     /// Where it is seen from, if through a camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub eye: Option<Eye>,
+    pub eye: Option<CameraPose>,
     /// The window on its axes, if it has some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lens: Option<Lens>,
+    pub viewport: Option<Viewport>,
     /// What is chosen for each axis, by its key.
     #[serde(flatten)]
     pub axes: BTreeMap<String, Chosen>,
@@ -72,9 +72,9 @@ impl Plot {
         model: &Model,
     ) -> Self {
         let (view, sight) = if kind.is_scene() {
-            (None, Sight::Camera(Eye::on(model, view)))
+            (None, Sight::Camera(CameraPose::on(model, view)))
         } else {
-            (view, Sight::Axes(Lens::WHOLE))
+            (view, Sight::Axes(Viewport::WHOLE))
         };
         Self { kind, columns, view, sight }
     }
@@ -154,7 +154,7 @@ impl Plot {
     fn at_rest(&self) -> Self {
         let sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_rest()),
-            Sight::Axes(lens) => Sight::Axes(lens.at_rest()),
+            Sight::Axes(viewport) => Sight::Axes(viewport.at_rest()),
         };
         Self { sight, ..self.clone() }
     }
@@ -163,7 +163,7 @@ impl Plot {
     pub fn shift(&mut self, [right, up]: [f64; 2]) {
         match &mut self.sight {
             Sight::Camera(eye) => eye.turn(-right * PI / 24.0, up * PI / 24.0),
-            Sight::Axes(lens) => lens.shift([right, up]),
+            Sight::Axes(viewport) => viewport.shift([right, up]),
         }
     }
 
@@ -172,8 +172,8 @@ impl Plot {
         let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
         match &mut self.sight {
             Sight::Camera(eye) => nearer(&mut eye.zoom),
-            Sight::Axes(lens) => {
-                let chosen = lens.zoom.iter_mut().zip(axes).filter(|(_, chosen)| *chosen);
+            Sight::Axes(viewport) => {
+                let chosen = viewport.zoom.iter_mut().zip(axes).filter(|(_, chosen)| *chosen);
                 chosen.for_each(|(zoom, _)| nearer(zoom));
             }
         }
@@ -183,25 +183,25 @@ impl Plot {
     pub fn drag(&mut self, by: [f64; 2]) {
         match &mut self.sight {
             Sight::Camera(eye) => eye.turn(-by[0] * PI, -by[1] * PI),
-            Sight::Axes(lens) => lens.pan = [0, 1].map(|k| lens.pan[k] - by[k]),
+            Sight::Axes(viewport) => viewport.pan = [0, 1].map(|k| viewport.pan[k] - by[k]),
         }
     }
 
     /// Looks closer or from farther away, so that what is at a place (parts of the width and of the height) stays there.
     pub fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
         let anchor = [self.kind.anchor(), 0.5];
-        let before = self.lens().map(|lens| lens.zoom);
+        let before = self.viewport().map(|viewport| viewport.zoom);
         self.zoom(factor, [true; 2]);
-        if let (Some(before), Some(lens)) = (before, self.lens_mut()) {
-            lens.pan = [0, 1].map(|k| {
-                let nearer = lens.zoom[k] / before[k];
-                (lens.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
+        if let (Some(before), Some(viewport)) = (before, self.lens_mut()) {
+            viewport.pan = [0, 1].map(|k| {
+                let nearer = viewport.zoom[k] / before[k];
+                (viewport.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
             });
         }
     }
 
     /// Where it is seen from, if through a camera.
-    pub fn eye(&self) -> Option<Eye> {
+    pub fn eye(&self) -> Option<CameraPose> {
         match self.sight {
             Sight::Camera(eye) => Some(eye),
             Sight::Axes(_) => None,
@@ -209,18 +209,18 @@ impl Plot {
     }
 
     /// The window on its axes, if it has some.
-    pub fn lens(&self) -> Option<Lens> {
+    pub fn viewport(&self) -> Option<Viewport> {
         match self.sight {
             Sight::Camera(_) => None,
-            Sight::Axes(lens) => Some(lens),
+            Sight::Axes(viewport) => Some(viewport),
         }
     }
 
     /// The same, to be changed.
-    pub fn lens_mut(&mut self) -> Option<&mut Lens> {
+    pub fn lens_mut(&mut self) -> Option<&mut Viewport> {
         match &mut self.sight {
             Sight::Camera(_) => None,
-            Sight::Axes(lens) => Some(lens),
+            Sight::Axes(viewport) => Some(viewport),
         }
     }
 
@@ -228,7 +228,7 @@ impl Plot {
     pub fn home(&mut self, model: &Model) {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
-            Sight::Axes(_) => Sight::Axes(Lens::WHOLE),
+            Sight::Axes(_) => Sight::Axes(Viewport::WHOLE),
         };
     }
 }
@@ -253,7 +253,7 @@ impl SavedPlot {
             kind: plot.kind.name().to_owned(),
             view: plot.view,
             eye: plot.eye(),
-            lens: plot.lens(),
+            viewport: plot.viewport(),
             axes: axes.collect(),
         }
     }
@@ -277,14 +277,14 @@ impl SavedPlot {
             (!found.is_empty()).then_some(found)
         };
         let columns = kind.chosen().iter().map(|axis| column(axis.key)).collect::<Option<_>>()?;
-        let sight = match (kind.is_scene(), self.eye, self.lens) {
+        let sight = match (kind.is_scene(), self.eye, self.viewport) {
             (true, Some(eye), _) => {
                 let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
                 let viewed = eye.view.is_none_or(|view| is_view_of(model, view, kind));
                 let fits = framed && viewed && !eye.shapes(model).is_empty();
                 fits.then_some(Sight::Camera(eye))?
             }
-            (false, _, Some(lens)) => Sight::Axes(lens),
+            (false, _, Some(viewport)) => Sight::Axes(viewport),
             _ => return None,
         };
         // of what nothing is chosen a view of the file is shown

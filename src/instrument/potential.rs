@@ -139,7 +139,7 @@ impl Instrument for Potential {
         layers.push((NOW, Layer::Point([now[0], energy], Sign::Ring, Ink::Warn)));
         layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
         let upwards = Upwards::Around(along.y, height(&curve, energy, now[1]));
-        Some(Picture::Axes { upwards, layers, happenings: None })
+        Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 }
 

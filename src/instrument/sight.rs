@@ -1,6 +1,6 @@
 //! How a plot is looked at: through a camera, or through a window on its axes.
 //!
-//! In: moves and magnifications. Out: [`Eye`]s and [`Lens`]es. Never here: what is seen.
+//! In: moves and magnifications. Out: [`CameraPose`]s and [`Viewport`]es. Never here: what is seen.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -13,14 +13,14 @@ use crate::model::{Model, Shape};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sight {
     /// From somewhere in space.
-    Camera(Eye),
+    Camera(CameraPose),
     /// On axes.
-    Axes(Lens),
+    Axes(Viewport),
 }
 
 /// From which frame, and where the camera stands in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Eye {
+pub struct CameraPose {
     /// Turn about the vertical axis, in radians.
     pub yaw: f64,
     /// Height above the horizon, in radians; π/2 looks straight down on the plane of x and y.
@@ -35,7 +35,7 @@ pub struct Eye {
 
 /// The window on the axes of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lens {
+pub struct Viewport {
     /// Magnification across and upwards.
     pub zoom: [f64; 2],
     /// How far the window is moved, in parts of its width and height.
@@ -49,7 +49,7 @@ pub struct Lens {
     pub cursor: Option<[f64; 2]>,
 }
 
-impl Lens {
+impl Viewport {
     /// All of the motion.
     pub const WHOLE: Self =
         Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, equal: false, cursor: None };
@@ -69,7 +69,7 @@ impl Lens {
     }
 }
 
-impl Eye {
+impl CameraPose {
     /// On the shapes of the model, or on those of a view, from the frame the file gives it. Plane motion is seen face on,
     /// motion in space from the side and from above.
     pub fn on(model: &Model, view: Option<usize>) -> Self {

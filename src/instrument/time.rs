@@ -75,7 +75,7 @@ impl Instrument for Time {
             ]
         };
         let layers = channels.iter().enumerate().rev().flat_map(curve).collect();
-        let happenings = Some((MARK, [None, channels.first().copied()]));
-        Some(Picture::Axes { upwards: Upwards::Shared(channels.clone()), layers, happenings })
+        let occurrences = Some((MARK, [None, channels.first().copied()]));
+        Some(Picture::Axes { upwards: Upwards::Shared(channels.clone()), layers, occurrences })
     }
 }

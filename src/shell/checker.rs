@@ -5,15 +5,15 @@
 
 use std::time::{Duration, Instant};
 
-use crate::experiment::Ready;
+use crate::diagnostic::{Diagnostic, Document};
+use crate::experiment::Prepared;
 use crate::job::{Job, Outcome};
-use crate::preset::{Document, Mistake};
 use crate::worker::Side;
 
 /// Checks texts.
 #[derive(Debug)]
 pub(super) struct Checker {
-    side: Side<Result<Box<Ready>, Vec<Mistake>>>,
+    side: Side<Result<Box<Prepared>, Vec<Diagnostic>>>,
     begun: Instant,
 }
 
@@ -22,7 +22,7 @@ pub(super) struct Answer {
     /// Which check it was.
     pub(super) ticket: u64,
     /// The experiment it makes, or what is wrong with it.
-    pub(super) outcome: Result<Box<Ready>, Vec<Mistake>>,
+    pub(super) outcome: Result<Box<Prepared>, Vec<Diagnostic>>,
     /// How long that took.
     pub(super) took: Duration,
 }
@@ -43,7 +43,7 @@ impl Checker {
         self.begun = Instant::now();
         // the token is the system's once it is there
         let check = Job::new("checking", move |progress| {
-            let ready = Ready::with(&document, progress.token());
+            let ready = Prepared::with(&document, progress.token());
             ready.map(Box::new).map_err(|unready| unready.mistakes)
         });
         self.side.begin(ticket, check);
@@ -54,7 +54,7 @@ impl Checker {
         let (ticket, outcome) = self.side.take()?;
         let outcome = match outcome {
             Outcome::Done(made) => made,
-            Outcome::Failed(sentence) => Err(vec![Mistake::error(0..0, sentence)]),
+            Outcome::Failed(sentence) => Err(vec![Diagnostic::error(0..0, sentence)]),
             Outcome::Cancelled => return None,
         };
         Some(Answer { ticket, outcome, took: self.begun.elapsed() })

@@ -6,9 +6,9 @@
 use std::sync::Arc;
 
 use super::regular;
-use crate::app::LoadFailure;
+use crate::app::LoadError;
 use crate::cancel::Cancel;
-use crate::experiment::Ready;
+use crate::experiment::Prepared;
 use crate::job::{self, Job};
 use crate::preset::Catalog;
 use crate::worker::Side;
@@ -19,11 +19,11 @@ pub(super) struct Loader {
     catalog: Arc<Catalog>,
     /// What was asked for last.
     name: String,
-    side: Side<Result<Box<Ready>, String>>,
+    side: Side<Result<Box<Prepared>, String>>,
 }
 
 /// What was asked for and what was made of it.
-type Outcome = Result<(String, Box<Ready>), LoadFailure>;
+type Outcome = Result<(String, Box<Prepared>), LoadError>;
 
 impl Loader {
     /// A loader that knows these presets.
@@ -55,12 +55,12 @@ impl Loader {
         };
         Some(match made {
             Ok(ready) => Ok((name, ready)),
-            Err(message) => Err(LoadFailure { name, message }),
+            Err(message) => Err(LoadError { name, message }),
         })
     }
 }
 
-fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Box<Ready>, String> {
+fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Box<Prepared>, String> {
     let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
-    Ready::with(&document, cancel).map(Box::new).map_err(|unready| unready.report)
+    Prepared::with(&document, cancel).map(Box::new).map_err(|unready| unready.report)
 }

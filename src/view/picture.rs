@@ -17,7 +17,7 @@ use super::theme::Role;
 use super::{cursor, space};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
-    Across, Entry, Heading, Ink, Layer, Lens, Level, Picture, Plot, Sign, Upwards,
+    Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
 };
 
 /// For how many seconds of the wall clock, at the file's own speed, a window on time reaches back.
@@ -131,29 +131,29 @@ pub(super) fn draw(
     plot: &Plot,
 ) -> Option<Frame> {
     let (present, answer) = (q.present(), q.lab.answer(plot));
-    let lens = plot.lens().unwrap_or(Lens::WHOLE);
+    let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
     let across = match plot.kind.across(plot, &present, answer) {
         Across::Nothing => None,
-        Across::Channel(channel, range) => Some(q.axis(channel, range, (lens, 0))),
-        Across::Time => Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, lens))),
+        Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
+        Across::Time => Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport))),
     };
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
-    let (upwards, layers, happenings) = match plot.kind.picture(plot, &present, seen, answer)? {
+    let (upwards, layers, occurrences) = match plot.kind.picture(plot, &present, seen, answer)? {
         Picture::Scene(eye) => {
             space::draw(canvas, area, q, &eye);
             return None;
         }
-        Picture::Axes { upwards, layers, happenings } => (upwards, layers, happenings),
+        Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
-    let axes = Axes::new(across?, axis_upwards(q, &upwards, lens));
-    let axes = if lens.equal { axes.equal() } else { axes };
+    let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
+    let axes = if viewport.equal { axes.equal() } else { axes };
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     for (level, layer) in &layers {
         draw_layer(canvas, &mut raster, (&frame, q), (*level, layer));
     }
-    let marks = happenings.map_or_else(Marks::none, |(level, columns)| {
+    let marks = occurrences.map_or_else(Marks::none, |(level, columns)| {
         let place = |row: &[f64]| {
             let [x, y] = columns.map(|column| row.get(column.map_or(0, |c| 1 + c)).copied());
             Some([x?, y?])
@@ -163,17 +163,17 @@ pub(super) fn draw(
         marks
     });
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, (lens, &marks));
+    cursor::draw(canvas, area, &frame, (viewport, &marks));
     Some(frame)
 }
 
-fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, lens: Lens) -> Axis {
+fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Axis {
     match upwards {
-        Upwards::Channel(channel, range) => q.axis(*channel, *range, (lens, 1)),
-        Upwards::Shared(channels) => common_axis(q, channels, lens),
+        Upwards::Channel(channel, range) => q.axis(*channel, *range, (viewport, 1)),
+        Upwards::Shared(channels) => common_axis(q, channels, viewport),
         Upwards::Around(channel, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
-            let scale = through(Scale::linear(lo, hi), (lens, 1));
+            let scale = through(Scale::linear(lo, hi), (viewport, 1));
             Axis::new(q.name(*channel), q.unit(*channel), scale)
         }
     }
@@ -273,25 +273,25 @@ fn levels(
 }
 
 /// The stretch of time shown: it stands still until it is full, then moves along.
-fn window(q: &Quantities<'_>, lens: Lens) -> Scale {
+fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
     let speed = q.lab.loaded.model.run.speed;
     let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
     let start = q.lab.loaded.model.run.start;
     let end = q.snapshot.time.max(start + span);
-    let span = span / lens.zoom[0];
-    let shift = lens.pan[0] * span;
+    let span = span / viewport.zoom[0];
+    let shift = viewport.pan[0] * span;
     Scale::linear(end - span + shift, end + shift)
 }
 
 /// One axis for all quantities: their names stand in the frame, the unit here if they share it.
-fn common_axis(q: &Quantities<'_>, channels: &[usize], lens: Lens) -> Axis {
+fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Axis {
     if let [only] = channels {
-        return q.axis(*only, None, (lens, 1));
+        return q.axis(*only, None, (viewport, 1));
     }
-    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Lens::WHOLE, 1))).collect();
+    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
     let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
     let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
     let unit = axes.first().map_or("", |axis| &axis.unit);
     let shared = axes.iter().all(|axis| axis.unit == unit);
-    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (lens, 1)))
+    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (viewport, 1)))
 }

@@ -1,4 +1,4 @@
-//! The table of instruments: every row drawn, named, kept, offered and told of; and jobs on the side of the lab.
+//! The table of instruments: every row drawn, named, kept, offered and reported of; and jobs on the side of the lab.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -99,14 +99,14 @@ fn sessions_are_read_as_they_were_written_before() {
         assert_eq!(plot.kind.name(), name);
         plot
     };
-    let lens = "[lens]\nzoom = [1.0, 2.0]\npan = [0.0, 0.5]\nlog = false\n";
+    let viewport = "[lens]\nzoom = [1.0, 2.0]\npan = [0.0, 0.5]\nlog = false\n";
     let eye = "[eye]\nyaw = 0.5\npitch = 0.25\nzoom = 2.0\n";
     assert_eq!(check(&format!("kind = \"space\"\n{eye}"), "space").eye().unwrap().zoom, 2.0);
     let axes = "x = { name = \"theta\", place = 0 }\ny = { name = \"p_theta\", place = 2 }\n";
     let phase = check(&format!("kind = \"phase\"\n{axes}{lens}"), "phase");
     assert_eq!((phase.columns, phase.sight), (vec![vec![0], vec![2]], phase.sight));
     let time = "kind = \"time\"\ny = [{ name = \"theta\", place = 0 }]\n";
-    assert_eq!(check(&format!("{time}{lens}"), "time").lens().unwrap().zoom, [1.0, 2.0]);
+    assert_eq!(check(&format!("{time}{lens}"), "time").viewport().unwrap().zoom, [1.0, 2.0]);
     check(&format!("kind = \"potential\"\nview = 3\n{lens}"), "potential");
 }
 
@@ -227,7 +227,7 @@ fn a_job_that_takes_long_is_shown_with_its_progress() {
 }
 
 #[test]
-fn a_job_that_panics_is_told_and_the_lab_goes_on() {
+fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
     let (mut app, asked) = aside();
     let outcome = Outcome::Failed("level curves stopped by a defect".to_owned());
     app.update(Event::Computed { ticket: asked[0].ticket, outcome });

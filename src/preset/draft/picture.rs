@@ -5,14 +5,15 @@ use toml::de::DeValue;
 
 use super::table::Table;
 use super::vector::{Formulas, optional_point, point};
-use super::{Formula, Mistake, Mistakes, Place, value};
-use crate::expr::nearest;
+use super::{Formula, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::instrument::{Axis, INSTRUMENTS, Instrument, NOT_YET, listed, named};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// Its kind; `None` where the format has it and this version does not: it is read and left out.
     pub(in crate::preset) kind: Option<&'static dyn Instrument>,
     pub(in crate::preset) title: String,
@@ -27,7 +28,7 @@ pub(in crate::preset) struct DraftView {
 /// A shape as written.
 pub(in crate::preset) struct DraftShape {
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// What it is.
     pub(in crate::preset) kind: DraftShapeKind,
 }
@@ -77,12 +78,12 @@ pub(in crate::preset) enum DraftShapeKind {
 const SHAPES: [&str; 9] =
     ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
 
-pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftView> {
+pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftView> {
     let tables = top.tables("views", "this view", mistakes);
     tables.into_iter().filter_map(|table| view(table, mistakes)).collect()
 }
 
-fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
+fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
@@ -117,7 +118,7 @@ fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
 }
 
 /// What is written for an axis: one expression, or a list of them where it takes several.
-fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Mistakes) -> Vec<Formula> {
+fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Vec<Formula> {
     let key = axis.key;
     let Some((_, found)) = table.require(key, &format!("write {key} = \"...\"")) else {
         return Vec::new();
@@ -126,7 +127,7 @@ fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Mistakes) -> Vec<F
     match found.get_ref() {
         DeValue::Array(items) if axis.several => {
             if items.is_empty() {
-                mistakes.push(Mistake::error(found.span(), "this list is empty"));
+                mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
             }
             items.iter().filter_map(|v| value::formula(v, &called, mistakes)).collect()
         }
@@ -142,14 +143,15 @@ enum Kind {
 }
 
 /// The kind of a name.
-fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Kind> {
+fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Kind> {
     let name = written.get_ref().as_str();
     if let Some(kind) = named(name) {
         return Some(Kind::Drawn(kind));
     }
     if NOT_YET.contains(&name) {
         let message = format!("views of kind `{name}` are not supported yet by this version");
-        mistakes.push(Mistake::warning(written.span(), message).with_help("the view is left out"));
+        mistakes
+            .push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
         return Some(Kind::LeftOut);
     }
     let known = INSTRUMENTS.iter().map(|kind| kind.name()).chain(NOT_YET);
@@ -158,11 +160,11 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Kind>
         None => format!("the kinds are {}", listed("", "and")),
     };
     let message = format!("there is no view of kind `{name}`");
-    mistakes.push(Mistake::error(written.span(), message).with_help(help));
+    mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
     None
 }
 
-pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
+pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
     let Some(mut table) = top.table("space", mistakes) else { return Vec::new() };
     let all = shapes_of(&mut table, mistakes);
     table.finish(mistakes);
@@ -170,7 +172,7 @@ pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftS
 }
 
 /// The list of shapes of a table.
-fn shapes_of(table: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
+fn shapes_of(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
     let mut all = Vec::new();
     for item in table.list("shapes", mistakes) {
         let shape = "{ line = [\"0\", \"0\", \"0\"], to = [\"x\", \"y\", \"0\"] }";
@@ -181,7 +183,7 @@ fn shapes_of(table: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> 
     all
 }
 
-fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
+fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape> {
     let given: Vec<&'static str> = SHAPES.into_iter().filter(|kind| table.has(kind)).collect();
     let [kind] = given[..] else {
         let message = match given[..] {
@@ -193,12 +195,12 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
             .find_map(|(key, _)| nearest(key.get_ref(), SHAPES).map(|near| (key.span(), near)));
         let mistake = match misspelt {
             Some((place, near)) if given.is_empty() => {
-                Mistake::error(place, message).with_help(format!("did you mean `{near}`?"))
+                Diagnostic::error(place, message).with_help(format!("did you mean `{near}`?"))
             }
             _ => {
                 let help =
                     format!("the shapes are {}; each is a table of its own", SHAPES.join(", "));
-                Mistake::error(table.place.clone(), message).with_help(help)
+                Diagnostic::error(table.place.clone(), message).with_help(help)
             }
         };
         mistakes.push(mistake);
@@ -238,7 +240,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
 }
 
 /// A number or expression that has to be there.
-fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Mistakes) -> Option<Formula> {
+fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Diagnostics) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
     value::formula(found, &format!("`{key}`"), mistakes)
 }

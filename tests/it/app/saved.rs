@@ -97,7 +97,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
         let name = |i: &usize| lab.loaded.system.channels()[*i].name.clone();
         let names = lab.plots.iter().map(|plot| {
             let names: Vec<String> = plot.columns.iter().flatten().map(name).collect();
-            (plot.kind.name(), names, plot.lens())
+            (plot.kind.name(), names, plot.viewport())
         });
         names.collect::<Vec<_>>()
     };

@@ -1,4 +1,4 @@
-//! Jobs with real threads: the newest counts, a stop is obeyed, a panic is told.
+//! Jobs with real threads: the newest counts, a stop is obeyed, a panic is reported.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -82,7 +82,7 @@ fn progress_never_becomes_less() {
 }
 
 #[test]
-fn a_panic_on_the_side_is_told() {
+fn a_panic_on_the_side_is_reported() {
     let mut side: Side<()> = Side::new("test");
     side.begin(1, Job::new("the search", |_| panic!("there is a hole")));
     let told = "the search stopped by a defect of the program: there is a hole".to_owned();
