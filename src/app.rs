@@ -20,19 +20,17 @@ mod impulse;
 pub mod key;
 pub mod keymap;
 mod lab;
-mod landscape;
 mod menu;
 mod notification;
 mod palette;
 mod perform;
 mod picker;
-mod plot;
 mod pointer;
-mod potential;
 mod prompt;
 mod rate;
 mod reading;
 mod saved;
+mod side;
 mod speed;
 mod update;
 mod value;
@@ -50,12 +48,11 @@ pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
 pub use notification::Notification;
 pub use picker::Picker;
-pub use plot::{CameraPose, Plot, Viewport};
-pub use potential::Potential;
 pub use prompt::Prompt;
 pub use rate::RateMeter;
 pub use reading::Reading;
-pub use saved::{Quantity, Saved, SavedPlot};
+pub use saved::Saved;
+pub use side::{Asker, Computation, UnderWay};
 pub use update::LONGEST_PASTE;
 pub use value::{ValueId, ValueInfo};
 pub use workbench::Workbench;
@@ -101,6 +98,10 @@ pub struct App {
     notifications: notification::NotificationQueue,
     /// What the mouse holds on to.
     pub hold: Option<Grab>,
+    /// Whether jobs are handed out by [`Effect::Compute`], so that no frame waits for them; else they run at once.
+    pub aside: bool,
+    /// How many jobs were asked for.
+    jobs: u64,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -170,6 +171,8 @@ impl App {
             reading: Reading::default(),
             notifications: notification::NotificationQueue::default(),
             hold: None,
+            aside: false,
+            jobs: 0,
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
@@ -251,7 +254,7 @@ impl App {
             }
             (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
             (Page::Lab, Some(lab)) => match (lab.focus, lab.focused_plot()) {
-                (_, Some((_, Plot::Space(_)))) => [Place::Space, Place::Lab],
+                (_, Some((_, plot))) if plot.kind.is_scene() => [Place::Space, Place::Lab],
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
                 (Pane::Gauges, _) => [Place::Gauges, Place::Lab],

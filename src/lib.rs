@@ -8,12 +8,15 @@
 pub mod analysis;
 pub mod app;
 pub mod cancel;
+pub mod claims;
 pub mod cli;
 pub mod diagnostic;
 pub mod experiment;
 pub mod expr;
 pub mod file;
+pub mod instrument;
 pub mod integrate;
+pub mod job;
 pub mod mechanics;
 pub mod model;
 pub mod num;

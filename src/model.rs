@@ -22,7 +22,7 @@ pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, Scale};
-pub use picture::{Channel, Point, Shape, View, ViewKind};
+pub use picture::{Channel, Point, Shape, View};
 pub use scope::{Allowed, Scope};
 
 /// A mechanical system as a file describes it, checked.

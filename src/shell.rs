@@ -24,7 +24,6 @@ mod file_writer;
 mod files;
 mod frame_loop;
 mod governor;
-mod job;
 mod loader;
 mod log;
 pub mod options;
@@ -37,6 +36,7 @@ mod session;
 mod signals;
 mod store;
 mod terminal;
+mod writer;
 
 pub use bandwidth::{Bandwidth, BandwidthError};
 pub use cast_player::CastPlayer;

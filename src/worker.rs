@@ -4,10 +4,11 @@
 //! one, where the newest wins and nobody waits. The mailbox is emptied before each slice of about
 //! two milliseconds, so a held key costs one slice; nothing is computed, and nothing wakes, while
 //! time is held. A panic of the experiment becomes a fault in a snapshot. What is no longer wanted is
-//! stopped within its step, by its token. Never here: terminals, physics, drawing.
+//! stopped within its step, by its token. Beside it a [`Side`] runs jobs, each on a thread of its own. Never here: terminals, physics, drawing.
 
 mod pace;
 mod runnable;
+mod side;
 mod slice;
 mod thread;
 
@@ -23,6 +24,7 @@ use crate::cancel::Cancel;
 use crate::experiment::{Command, Snapshot};
 
 pub use runnable::Runnable;
+pub use side::Side;
 
 use thread::Message;
 

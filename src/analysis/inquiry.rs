@@ -3,6 +3,7 @@
 //! In: a typed text, a model and what follows from it. Out: an [`Inquiry`] with its answer, or a mistake at its place.
 //! Never here: where it is typed or shown; the motion, but for the values one hands in.
 
+use crate::cancel::Cancel;
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol, SyntaxError, Zero};
 use crate::mechanics::{self, ChainRule, Class, Equations, NoClosedForm, Recognised};
@@ -49,7 +50,21 @@ impl Inquiry {
     /// # Errors
     /// What is wrong with the text, with its place in it.
     pub fn of(model: &Model, equations: &Equations, text: &str) -> Result<Inquiry, SyntaxError> {
+        Self::with(model, equations, text, equations.pool.cancel())
+    }
+
+    /// The same, with a token by which it can be stopped; what it then returns says nothing.
+    ///
+    /// # Errors
+    /// Those of [`Inquiry::of`].
+    pub fn with(
+        model: &Model,
+        equations: &Equations,
+        text: &str,
+        cancel: &Cancel,
+    ) -> Result<Inquiry, SyntaxError> {
         let mut equations = equations.clone();
+        equations.pool.set_cancel(cancel.clone());
         let parts = parts(text);
         let mut read = |(start, part): &(usize, &str)| read(model, &mut equations, *start, part);
         let answer = match parts.as_slice() {

@@ -136,6 +136,18 @@ pub enum Direction {
     Right,
 }
 
+impl Direction {
+    /// One step: to the right and upwards.
+    pub(super) fn step(self) -> [f64; 2] {
+        match self {
+            Self::Left => [-1.0, 0.0],
+            Self::Right => [1.0, 0.0],
+            Self::Up => [0.0, 1.0],
+            Self::Down => [0.0, -1.0],
+        }
+    }
+}
+
 /// The axes of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "one axis, the other, or both")]
@@ -143,4 +155,11 @@ pub enum Axes {
     Both,
     Across,
     Upwards,
+}
+
+impl Axes {
+    /// Whether the one across is meant, and the one upwards.
+    pub(super) fn chosen(self) -> [bool; 2] {
+        [self != Self::Upwards, self != Self::Across]
+    }
 }

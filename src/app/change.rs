@@ -4,8 +4,9 @@
 //! them. Never here: which key asks for it, or how the history keeps it.
 
 use super::history::Change;
-use super::{App, Effect, Lab, Pane, Plot, ValueId};
+use super::{App, Effect, Lab, Pane, ValueId};
 use crate::experiment::{Command, Snapshot, with_override};
+use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
@@ -157,7 +158,7 @@ impl Lab {
         }
         let plots = Box::new([before, plot.clone()]);
         self.history.note(Change::Plot { index, plots });
-        self.survey();
+        self.answers.stale = true;
     }
 
     /// Takes the last change back, and says what it was; nothing if there is none.
@@ -242,7 +243,7 @@ impl Lab {
                     *plot = side.of(*plots);
                     self.focus = Pane::Plot(index);
                 }
-                self.survey();
+                self.answers.stale = true;
                 Vec::new()
             }
             Change::Method(names) => {
@@ -293,7 +294,7 @@ impl Lab {
 }
 
 /// Which value is given: of which coordinate, and whether it is its rate or momentum.
-pub(super) fn place(given: &InitialOverride) -> (usize, bool) {
+fn place(given: &InitialOverride) -> (usize, bool) {
     match given {
         InitialOverride::Position(i, _) => (*i, false),
         InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => (*i, true),

@@ -3,12 +3,9 @@
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
 //! Never here: how a list is moved in.
 
-use super::plot::Viewport;
-use super::{
-    App, CameraPose, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Plot, Purpose,
-};
+use super::{App, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Purpose};
+use crate::instrument::{Axis, Plot, offers};
 use crate::integrate::METHODS;
-use crate::model::ViewKind;
 
 impl App {
     pub(super) fn open_methods(&mut self) -> Vec<Effect> {
@@ -26,10 +23,7 @@ impl App {
             METHODS.iter().map(item).collect(),
         );
         let now = lab.method().map(Choice::Method);
-        self.overlay = Some(Overlay::Menu(match now {
-            Some(now) => menu.on(now),
-            None => menu,
-        }));
+        self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }
 
@@ -48,51 +42,49 @@ impl App {
     }
 
     pub(super) fn open_axes(&mut self) -> Vec<Effect> {
-        let Some((plot, shown)) = self.lab.as_ref().and_then(Lab::focused_plot) else {
-            return Vec::new();
-        };
-        let now = match shown {
-            Plot::Space(_) => Choice::Space,
-            Plot::Phase { x, .. } => Choice::Channel(*x),
-            Plot::Time { .. } => Choice::Time,
-            Plot::Potential { view, .. } => Choice::View(*view),
-        };
         let Some(lab) = &self.lab else { return Vec::new() };
+        let Some((plot, shown)) = lab.focused_plot() else { return Vec::new() };
         let mut items = Vec::new();
-        if !lab.loaded.model.space.is_empty() {
-            items.push(line("motion in space", "the picture of the thing itself", Choice::Space));
+        let mut now = None;
+        for (index, (kind, offer)) in offers(lab.loaded.physics()).into_iter().enumerate() {
+            let begins = shown.kind == kind
+                && shown.view == offer.view
+                && shown.columns.starts_with(&offer.columns);
+            now = now.or(begins.then_some(Choice::Offer(index)));
+            items.push(line(&offer.label, &offer.about, Choice::Offer(index)));
         }
-        for (index, view) in lab.loaded.model.views.iter().enumerate() {
-            if let (ViewKind::Potential, Some(x), Some(y)) = (view.kind, &view.x, view.y.first()) {
-                let label = format!("potential over {}", x.written);
-                items.push(line(&label, &y.written, Choice::View(index)));
-            }
-        }
-        items.push(line("t", "time, with one or several quantities upwards", Choice::Time));
-        items.extend(channels(lab));
-        let menu = Menu::new("Along the axis", Choosing::Across { plot }, items).on(now);
-        self.overlay = Some(Overlay::Menu(menu));
+        let menu = Menu::new(Axis::ACROSS.heading, Choosing::Contents { plot }, items);
+        self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }
 
-    fn open_upwards(&mut self, plot: usize, x: Option<usize>) -> Vec<Effect> {
+    /// Takes what is offered for a plot; further axes are then asked for.
+    fn take_offer(&mut self, plot: usize, index: usize) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
-        let now = match lab.plots.get(plot) {
-            Some(Plot::Phase { y, .. }) => Some(*y),
-            Some(Plot::Time { y, .. }) => y.first().copied(),
-            _ => None,
+        let physics = lab.loaded.physics();
+        let Some((kind, offer)) = offers(physics).into_iter().nth(index) else {
+            return Vec::new();
         };
-        let across = x.and_then(|x| lab.loaded.system.channels().get(x));
-        let across = across.map_or("t", |channel| &channel.shown);
-        let menu = Menu::new(
-            format!("Upwards, against {across}"),
-            Choosing::Upwards { plot, x },
-            channels(lab),
-        );
-        self.overlay = Some(Overlay::Menu(match now {
-            Some(now) => menu.on(Choice::Channel(now)),
-            None => menu,
-        }));
+        let begun = Plot::new(kind, (offer.columns, offer.view), physics.model);
+        self.choose_on(plot, begun, offer.label)
+    }
+
+    /// Shows what was begun for a plot where all its axes are chosen; else asks for the next.
+    fn choose_on(&mut self, plot: usize, begun: Plot, label: String) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some(axis) = begun.kind.chosen().get(begun.columns.len()) else {
+            lab.redraw(plot, |plot, _| *plot = begun);
+            lab.focus = Pane::Plot(plot);
+            return Vec::new();
+        };
+        let shown = lab.plots.get(plot);
+        let now = shown.and_then(|shown| {
+            let same = shown.kind.chosen().iter().position(|other| other.key == axis.key);
+            shown.column(same?).map(Choice::Channel)
+        });
+        let purpose = Choosing::Axis { plot, several: axis.several };
+        let menu = Menu::new(format!("{}, against {label}", axis.heading), purpose, channels(lab));
+        self.overlay = Some(Overlay::Menu(Menu { begun: Some((begun, label)), ..menu.at(now) }));
         Vec::new()
     }
 
@@ -136,31 +128,15 @@ impl App {
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
             (_, Choice::Pane(pane)) => self.look_at(pane),
-            (Choosing::Across { plot }, Choice::Space) => {
-                self.put(plot, |lab| Plot::Space(CameraPose::for_shapes(&lab.loaded)))
-            }
-            (Choosing::Across { plot }, Choice::View(view)) => {
-                self.put(plot, |_| Plot::Potential { view, viewport: Viewport::WHOLE })
-            }
-            (Choosing::Across { plot }, Choice::Time) => self.open_upwards(plot, None),
-            (Choosing::Across { plot }, Choice::Channel(x)) => self.open_upwards(plot, Some(x)),
-            (Choosing::Upwards { plot, x: Some(x) }, Choice::Channel(y)) => {
-                self.put(plot, |_| Plot::Phase { x, y, viewport: Viewport::WHOLE })
-            }
-            (Choosing::Upwards { plot, x: None }, Choice::Channel(_)) => {
-                self.put(plot, |_| Plot::Time { y: menu.channels(), viewport: Viewport::WHOLE })
+            (Choosing::Contents { plot }, Choice::Offer(index)) => self.take_offer(plot, index),
+            (Choosing::Axis { plot, .. }, Choice::Channel(_)) => {
+                let channels = menu.channels();
+                let Some((mut begun, label)) = menu.begun else { return Vec::new() };
+                begun.columns.push(channels);
+                self.choose_on(plot, begun, label)
             }
             _ => Vec::new(),
         }
-    }
-
-    fn put(&mut self, plot: usize, make: impl FnOnce(&Lab) -> Plot) -> Vec<Effect> {
-        if let Some(lab) = &mut self.lab {
-            let new = make(lab);
-            lab.redraw(plot, |plot, _| *plot = new);
-            lab.focus = Pane::Plot(plot);
-        }
-        Vec::new()
     }
 
     fn accept_value(&mut self, mut field: Field) -> Vec<Effect> {
@@ -210,11 +186,7 @@ fn line(label: &str, about: &str, choice: Choice) -> Item {
 
 /// A line for every channel that can be told from the others.
 fn channels(lab: &Lab) -> Vec<Item> {
-    let all = lab.loaded.system.channels();
-    let named =
-        all.iter().enumerate().filter(|(_, channel)| !channel.name.is_empty()).filter(
-            |(index, channel)| !all[..*index].iter().any(|before| before.name == channel.name),
-        );
+    let named = lab.loaded.physics().named();
     named
         .map(|(index, channel)| {
             let unit = if channel.unit.is_empty() {

@@ -9,9 +9,11 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEventKind};
 
-use super::{Checked, HitTarget, SaveError};
+use super::{Asker, Checked, Computation, HitTarget, SaveError};
 use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
+use crate::instrument::{Answer, Physics};
+use crate::job::{Outcome, Share};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::System;
@@ -50,6 +52,20 @@ pub enum Event {
         /// Whether it was read because [`Effect::Reread`] asked for it.
         asked: bool,
     },
+    /// A job that [`Effect::Compute`] asked for has ended.
+    Computed {
+        /// Its number.
+        ticket: u64,
+        /// What became of it.
+        outcome: Outcome<Answer>,
+    },
+    /// A job is so far.
+    Progress {
+        /// Its number.
+        ticket: u64,
+        /// How far.
+        share: Share,
+    },
     /// The watched file of the system is there again, or is there no longer.
     FileThere(bool),
     /// The screen was drawn, and this is what came of it.
@@ -86,6 +102,13 @@ pub struct Loaded {
     pub system: Arc<System>,
 }
 
+impl Loaded {
+    /// The system as instruments look at it.
+    pub fn physics(&self) -> Physics<'_> {
+        Physics { model: &self.model, equations: &self.equations, system: &self.system }
+    }
+}
+
 /// Why a system could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoadError {
@@ -116,6 +139,10 @@ pub enum Effect {
         /// The text.
         text: String,
     },
+    /// Run a job, and no longer the one before of the same asker; [`Event::Computed`] answers.
+    Compute(Computation),
+    /// The job of an asker is no longer wanted; nothing answers.
+    StopComputing(Asker),
     /// Check no text any more; nothing answers.
     StopCheck,
     /// Write a text to its file, if that still holds what is known of it. [`Event::FileSaved`] answers.

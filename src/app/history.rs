@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use super::Plot;
+use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 

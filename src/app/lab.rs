@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::change::PendingChanges;
 use super::history::History;
-use super::landscape::{self, Survey};
-use super::plot::{CameraPose, Plot};
+use super::side::Answers;
 use super::{Loaded, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
-use crate::expr::Zero;
+use crate::expr::{Symbol, Zero};
+use crate::instrument::{CameraPose, Plot, Present};
 use crate::model::Shape;
 
 /// A pane of the lab.
@@ -58,8 +58,8 @@ pub struct Lab {
     /// What is selected in the lists.
     pub selection: Selection,
     rods: Rods,
-    /// The energy over the phase plane of one degree of freedom, for each plane that is shown.
-    pub(super) surveys: Vec<Survey>,
+    /// What was computed on the side for the pictures, and what is.
+    pub(super) answers: Answers,
     /// Values asked for and not yet seen.
     pub(super) pending: Vec<(ValueId, f64)>,
     /// What else was asked for and not yet seen.
@@ -108,7 +108,7 @@ fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
 impl Lab {
     /// A system as it is first seen.
     pub fn new(loaded: Loaded) -> Self {
-        let plots = Plot::opening(&loaded);
+        let plots = Plot::opening(loaded.physics());
         let rods = rods(&loaded);
         Self {
             loaded,
@@ -118,7 +118,7 @@ impl Lab {
             focus: Pane::Parameters,
             zoomed: false,
             selection: Selection::default(),
-            surveys: Vec::new(),
+            answers: Answers::default(),
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,
@@ -142,16 +142,32 @@ impl Lab {
         self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
         self.asked.see(&snapshot);
         self.snapshot = Some(snapshot);
-        self.survey();
+        self.answers.stale = true;
         let pending = std::mem::take(&mut self.pending);
         self.pending =
             pending.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true
     }
 
-    /// Surveys the landscapes that the pictures need and do not have.
-    pub(super) fn survey(&mut self) {
-        self.surveys = self.seen().map_or_else(Vec::new, |seen| landscape::surveyed(self, seen));
+    /// The present as instruments look at it, once the motion was seen.
+    pub fn present(&self) -> Option<Present<'_>> {
+        self.seen().map(|snapshot| self.present_of(snapshot))
+    }
+
+    /// The same of a snapshot that fits the system.
+    pub fn present_of<'a>(&'a self, snapshot: &'a Snapshot) -> Present<'a> {
+        Present {
+            physics: self.loaded.physics(),
+            time: snapshot.time,
+            parameters: &snapshot.parameters,
+            values: &snapshot.values,
+            bounds: &snapshot.bounds,
+        }
+    }
+
+    /// The present value of a symbol of the system; not a number for one that has none.
+    pub fn now(&self, symbol: Symbol) -> f64 {
+        self.present().map_or(f64::NAN, |present| present.now(symbol))
     }
 
     /// What an eye sees: each shape, and whether it is a rod.
@@ -176,6 +192,7 @@ impl Lab {
     /// Time has passed.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
+        self.answers.tick(elapsed);
     }
 
     /// The panes in the order in which Tab visits them.

@@ -7,6 +7,7 @@ use tui_input::Input;
 use super::action::Action;
 use super::fuzzy::{Fit, Query, Texts};
 use super::{Pane, ValueId};
+use crate::instrument::Plot;
 
 /// A list from which one line, or several, can be taken.
 #[derive(Clone, Debug)]
@@ -23,6 +24,8 @@ pub struct Menu {
     pub selected: usize,
     /// The lines marked besides, counted among all.
     pub marked: Vec<usize>,
+    /// What is being chosen for a plot, and what it was called where it was begun.
+    pub begun: Option<(Plot, String)>,
 }
 
 /// What a list is for.
@@ -36,17 +39,17 @@ pub enum Choosing {
     Impulse,
     /// A theme.
     Theme,
-    /// What runs along the axis of the plot of this index.
-    Across {
+    /// What the plot of this index shows.
+    Contents {
         /// Its place among the plots.
         plot: usize,
     },
-    /// What runs up its other axis; several against time.
-    Upwards {
+    /// What runs along the next axis of what was begun for it.
+    Axis {
         /// Its place among the plots.
         plot: usize,
-        /// The channel across, or time.
-        x: Option<usize>,
+        /// Whether the axis takes several quantities.
+        several: bool,
     },
 }
 
@@ -74,12 +77,8 @@ pub enum Choice {
     Action(Action),
     /// The impulse of this index.
     Impulse(usize),
-    /// The picture in space.
-    Space,
-    /// The view of the file of this index.
-    View(usize),
-    /// Time.
-    Time,
+    /// What is offered for a plot, by its place among all that is.
+    Offer(usize),
     /// A channel.
     Channel(usize),
     /// The system of this place in the catalog.
@@ -97,7 +96,15 @@ impl Menu {
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
         let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
         let filter = (!plain).then(Input::default);
-        Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
+        Self {
+            title: title.into(),
+            purpose,
+            items,
+            filter,
+            selected: 0,
+            marked: Vec::new(),
+            begun: None,
+        }
     }
 
     /// The list with the line of a choice selected.
@@ -105,6 +112,15 @@ impl Menu {
     pub fn on(mut self, choice: Choice) -> Self {
         self.selected = self.items.iter().position(|item| item.choice == choice).unwrap_or(0);
         self
+    }
+
+    /// The same where there is a choice, else the list as it is.
+    #[must_use]
+    pub fn at(self, choice: Option<Choice>) -> Self {
+        match choice {
+            Some(choice) => self.on(choice),
+            None => self,
+        }
     }
 
     /// The places of the lines that fit what is typed, the best first, and how each fits.
@@ -147,7 +163,7 @@ impl Menu {
 
     /// Whether several lines may be taken.
     pub fn takes_several(&self) -> bool {
-        matches!(self.purpose, Choosing::Upwards { x: None, .. })
+        matches!(self.purpose, Choosing::Axis { several: true, .. })
     }
 
     /// Marks the selected line, or takes its mark away.

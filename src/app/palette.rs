@@ -4,7 +4,7 @@
 //! Never here: how a line is searched, drawn or carried out.
 
 use super::keymap::{Binding, KEYS, Place};
-use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, Plot, ValueId};
+use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, ValueId};
 use crate::integrate::METHODS;
 use crate::system::System;
 
@@ -235,43 +235,24 @@ impl Lab {
         self.panes().map(line).collect()
     }
 
-    /// What is said before the name of a pane where that is but two quantities.
+    /// What is said before the name of a pane where that is but names of quantities.
     fn kind_of(&self, pane: Pane) -> &'static str {
-        match pane {
-            Pane::Plot(index) if matches!(self.plots.get(index), Some(Plot::Phase { .. })) => {
-                "phase plane, "
-            }
-            _ => "",
-        }
+        let plot = if let Pane::Plot(index) = pane { self.plots.get(index) } else { None };
+        plot.map_or("", |plot| plot.kind.lead())
     }
 
     /// What a pane is called: its title, or the quantities it shows.
     pub fn name_of(&self, pane: Pane) -> String {
-        let Pane::Plot(index) = pane else {
-            let name = match pane {
-                Pane::Parameters => "parameters",
-                Pane::Initial => "initial values",
-                Pane::Gauges | Pane::Plot(_) => "gauges",
-            };
-            return name.to_owned();
+        let name = match pane {
+            Pane::Plot(index) => {
+                let plot = self.plots.get(index);
+                return plot
+                    .map_or_else(|| "nothing".to_owned(), |p| p.words(self.loaded.physics()));
+            }
+            Pane::Parameters => "parameters",
+            Pane::Initial => "initial values",
+            Pane::Gauges => "gauges",
         };
-        let channels = self.loaded.system.channels();
-        let shown = |channel: &usize| channels.get(*channel).map_or("?", |c| c.shown.as_str());
-        let plot = self.plots.get(index);
-        if let Some(title) = plot.and_then(|plot| plot.title(&self.loaded)) {
-            return title.to_owned();
-        }
-        match plot {
-            None => "nothing".to_owned(),
-            Some(Plot::Space(_)) => "motion in space".to_owned(),
-            Some(Plot::Phase { x, y, .. }) => {
-                format!("{} against {}", shown(y), shown(x))
-            }
-            Some(Plot::Potential { .. }) => "potential".to_owned(),
-            Some(Plot::Time { y, .. }) => {
-                let names: Vec<&str> = y.iter().map(shown).collect();
-                format!("{} against t", names.join(", "))
-            }
-        }
+        name.to_owned()
     }
 }

@@ -6,9 +6,10 @@ use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
-    Action, App, Direction, Effect, Notification, Overlay, Page, Pane, Plot, Purpose, Viewport,
+    Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
 };
 use crate::experiment::{Command, Status};
+use crate::instrument::{Plot, Sight, Viewport};
 use crate::integrate::{METHODS, Stepping};
 
 impl App {
@@ -130,11 +131,11 @@ impl App {
                 let Some(target) = lab.selected() else { return Vec::new() };
                 lab.of_file(target).map_or_else(Vec::new, |to| lab.change(target, to))
             }
-            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
-            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
+            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes.chosen())),
+            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes.chosen())),
             Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, Plot::Phase { .. })) => {
+                Some((_, plot)) if plot.kind.has_equal_axes() => {
                     self.with_viewport(|viewport| viewport.equal = !viewport.equal)
                 }
                 _ => self
@@ -144,7 +145,7 @@ impl App {
                 viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
             Action::NextFrame => self.next_frame(),
-            Action::Home => self.with_plot(Plot::home),
+            Action::Home => self.with_plot(|plot, loaded| plot.home(&loaded.model)),
             _ => Vec::new(),
         }
     }
@@ -179,13 +180,13 @@ impl App {
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
-        let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
+        let picture = pictures.filter(|(_, plot)| plot.kind.is_scene()).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
             return self
                 .notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
         lab.redraw(picture, |plot, _| {
-            if let Plot::Space(eye) = plot {
+            if let Sight::Camera(eye) = &mut plot.sight {
                 eye.frame = Some(eye.frame.map_or(0, |frame| frame + 1)).filter(|f| *f < count);
             }
         });
@@ -194,7 +195,7 @@ impl App {
 
     fn with_viewport(&mut self, change: impl FnOnce(&mut Viewport)) -> Vec<Effect> {
         self.with_plot(|plot, _| {
-            if let Some(viewport) = plot.viewport() {
+            if let Some(viewport) = plot.viewport_mut() {
                 change(viewport);
             }
         })
@@ -242,6 +243,9 @@ impl App {
                 self.overlay = editing.then_some(Overlay::Workbench);
                 return Vec::new();
             }
+            Some(Overlay::Prompt(Prompt { under_way: Some(_), .. })) => {
+                return vec![Effect::StopComputing(Asker::Prompt)];
+            }
             Some(
                 Overlay::Message(_) | Overlay::Menu(_) | Overlay::Field(_) | Overlay::Prompt(_),
             ) => {
@@ -275,7 +279,7 @@ impl App {
             Direction::Down => return self.jump(1),
             Direction::Left | Direction::Right => {}
         }
-        self.with_plot(|plot, _| plot.shift(way))
+        self.with_plot(|plot, _| plot.shift(way.step()))
     }
 
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
@@ -289,7 +293,7 @@ impl App {
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
                         let way = if by < 0 { Direction::Up } else { Direction::Down };
-                        return self.with_plot(|plot, _| plot.shift(way));
+                        return self.with_plot(|plot, _| plot.shift(way.step()));
                     }
                     lab.select(|place| place.saturating_add_signed(by));
                 }

@@ -4,10 +4,9 @@
 
 use crossterm::event::{MouseButton, MouseEventKind};
 
-use super::change::place;
 use super::hit_target::{Grab, HitTarget};
-use super::{Action, App, Effect, Lab, Overlay, Page, Pane, Plot, ValueId};
-use crate::system::{ChannelKind, InitialOverride};
+use super::{Action, App, Effect, Lab, Overlay, Page, Pane, ValueId};
+use crate::system::InitialOverride;
 
 /// Lines of text or of a list that the wheel moves by.
 const LINES: isize = 3;
@@ -117,7 +116,7 @@ impl App {
                     Some(given) => lab.start(&given),
                     None => {
                         lab.redraw(index, |plot, _| {
-                            if let Some(viewport) = plot.viewport() {
+                            if let Some(viewport) = plot.viewport_mut() {
                                 viewport.cursor = Some(place);
                             }
                         });
@@ -175,17 +174,9 @@ impl App {
 }
 
 impl Lab {
-    /// The initial values that a place in a plot stands for, if both its axes are of the state.
-    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<Vec<InitialOverride>> {
-        let Plot::Phase { x, y, .. } = self.plots.get(index)? else { return None };
-        let given =
-            |channel: usize, value: f64| match self.loaded.system.channels().get(channel)?.kind {
-                ChannelKind::Position(i) => Some(InitialOverride::Position(i, value)),
-                ChannelKind::Velocity(i) => Some(InitialOverride::Velocity(i, value)),
-                ChannelKind::Momentum(i) => Some(InitialOverride::Momentum(i, value)),
-                _ => None,
-            };
-        let both = [given(*x, at[0])?, given(*y, at[1])?];
-        (place(&both[0]) != place(&both[1])).then(|| both.to_vec())
+    /// The initial values that a place in a plot stands for, if it stands for some.
+    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<[InitialOverride; 2]> {
+        let plot = self.plots.get(index)?;
+        plot.kind.start(plot, self.loaded.physics(), at)
     }
 }

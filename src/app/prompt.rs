@@ -2,15 +2,18 @@
 //!
 //! In: characters. Out: the question, its answer, or a mistake at its place. Never here: how either is found.
 
+use std::sync::Arc;
+use std::time::Duration;
+
 use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Lab, Overlay};
+use super::{App, Asker, Effect, Overlay, UnderWay};
 use crate::analysis::Inquiry;
-use crate::expr::{Symbol, SyntaxError};
-use crate::mechanics::body_values;
-use crate::system::ChannelKind;
+use crate::expr::SyntaxError;
+use crate::instrument::Answer;
+use crate::job::{Job, Outcome};
 
 /// A question being typed, and what was answered to the last one.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +24,8 @@ pub struct Prompt {
     pub answered: Option<(String, Box<Inquiry>)>,
     /// What is wrong with what was typed when it was last to be answered.
     pub mistake: Option<SyntaxError>,
+    /// The question that is being answered.
+    pub under_way: Option<(String, UnderWay)>,
 }
 
 impl Prompt {
@@ -28,6 +33,32 @@ impl Prompt {
     pub(super) fn press(&mut self, key: KeyEvent) {
         if edit(&mut self.input, key) {
             self.mistake = None;
+        }
+    }
+
+    /// Time has passed.
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        if let Some((_, job)) = &mut self.under_way {
+            job.tick(elapsed);
+        }
+    }
+
+    /// Whether the job of a number is the one it waits for.
+    pub(super) fn awaits(&self, ticket: u64) -> bool {
+        self.under_way.as_ref().is_some_and(|(_, job)| job.ticket == ticket)
+    }
+
+    /// The answer is there, or there will be none.
+    pub(super) fn take(&mut self, outcome: &Outcome<Answer>) {
+        let Some((text, _)) = self.under_way.take() else { return };
+        let Outcome::Done(answer) = outcome else { return };
+        match answer.of::<Result<Inquiry, SyntaxError>>() {
+            Some(Ok(inquiry)) => {
+                self.mistake = None;
+                self.answered = Some((text, Box::new(inquiry.clone())));
+            }
+            Some(Err(mistake)) => (self.mistake, self.answered) = (Some(mistake.clone()), None),
+            None => {}
         }
     }
 }
@@ -40,56 +71,22 @@ impl App {
         Vec::new()
     }
 
-    /// Answers what is typed; the prompt stays for the next question.
+    /// Asks what is typed; the prompt stays for the answer and for the next question.
     pub(super) fn answer(&mut self, mut prompt: Prompt) -> Vec<Effect> {
         let text = prompt.input.value().to_owned();
+        let mut effects = Vec::new();
         if let Some(lab) = self.lab.as_ref().filter(|_| !text.trim().is_empty()) {
-            match Inquiry::of(&lab.loaded.model, &lab.loaded.equations, &text) {
-                Ok(inquiry) => {
-                    prompt.mistake = None;
-                    prompt.answered = Some((text, Box::new(inquiry)));
-                }
-                Err(mistake) => (prompt.mistake, prompt.answered) = (Some(mistake), None),
-            }
+            let (model, equations) =
+                (Arc::clone(&lab.loaded.model), Arc::clone(&lab.loaded.equations));
+            let asked = text.clone();
+            let job = Job::new("deriving", move |progress| {
+                Answer::new(Inquiry::with(&model, &equations, &asked, progress.token()))
+            });
+            let computation = self.computation(Asker::Prompt, job);
+            prompt.under_way = Some((text, UnderWay::new(&computation)));
+            effects.push(Effect::Compute(computation));
         }
         self.overlay = Some(Overlay::Prompt(prompt));
-        Vec::new()
-    }
-}
-
-impl Lab {
-    /// The present value of a symbol of the system; not a number for one that has none.
-    pub fn now(&self, symbol: Symbol) -> f64 {
-        let Some(snapshot) = self.seen() else { return f64::NAN };
-        let (model, equations) = (&self.loaded.model, &self.loaded.equations);
-        if symbol == equations.symbols.time {
-            return snapshot.time;
-        }
-        if let Some(index) = model.parameters.iter().position(|p| p.symbol == symbol) {
-            return snapshot.parameters[index];
-        }
-        let coordinates = equations.coordinates.iter().enumerate();
-        let of_coordinate = coordinates.flat_map(|(i, c)| {
-            [
-                (c.position, ChannelKind::Position(i)),
-                (c.velocity, ChannelKind::Velocity(i)),
-                (c.momentum, ChannelKind::Momentum(i)),
-            ]
-        });
-        let rows = equations.constraints.iter().enumerate();
-        let multipliers = rows.map(|(k, row)| (row.multiplier, ChannelKind::Multiplier(k)));
-        let energy = [(equations.symbols.energy, ChannelKind::Energy)];
-        let entries = equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate();
-        let attitude = entries.map(|(i, symbol)| (*symbol, ChannelKind::Attitude(i)));
-        let mut known = of_coordinate.chain(multipliers).chain(energy).chain(attitude);
-        let kind = known.find(|(s, _)| *s == symbol);
-        let channels = self.loaded.system.channels();
-        let place = kind.and_then(|(_, kind)| channels.iter().position(|c| c.kind == kind));
-        if let Some(place) = place {
-            return snapshot.values[place];
-        }
-        let body = equations.supplements.body.as_ref();
-        let constants = body_values(model, &equations.pool, body, &snapshot.parameters);
-        constants.into_iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| value)
+        effects
     }
 }

@@ -6,11 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    App, CameraPose, Effect, Lab, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
-    SourceBuffer, Viewport,
-};
+use super::{App, Effect, Lab, Loaded, Overlay, Page, Pane, Selection, SheetState, SourceBuffer};
 use crate::experiment::{Checkpoint, Command};
+use crate::instrument::{Plot, SavedPlot};
 
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,47 +36,6 @@ pub struct Saved {
     pub moment: Checkpoint,
 }
 
-/// A picture by the names of what it shows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum SavedPlot {
-    /// The motion in space.
-    Space {
-        /// Where it is seen from.
-        eye: CameraPose,
-    },
-    /// One quantity against another.
-    Phase {
-        /// Across.
-        x: Quantity,
-        /// Upwards.
-        y: Quantity,
-        /// How it is looked at.
-        viewport: Viewport,
-    },
-    /// The potential of a view of the file.
-    Potential {
-        /// Its place among the views.
-        view: usize,
-        /// How it is looked at.
-        viewport: Viewport,
-    },
-    /// Quantities against time.
-    Time {
-        /// Upwards.
-        y: Vec<Quantity>,
-        /// How it is looked at.
-        viewport: Viewport,
-    },
-}
-
-/// A channel by its name, and by its place where it has none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Quantity {
-    name: String,
-    place: usize,
-}
-
 impl Saved {
     /// The version of this form that this program writes and reads.
     pub const VERSION: u32 = 1;
@@ -99,63 +56,8 @@ impl Saved {
             zoomed: lab.zoomed,
             selection: lab.selection,
             edited: false,
-            plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, &lab.loaded)).collect(),
+            plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             moment,
-        })
-    }
-}
-
-impl SavedPlot {
-    fn of(plot: &Plot, loaded: &Loaded) -> Self {
-        let quantity = |&place: &usize| {
-            let channel = loaded.system.channels().get(place);
-            Quantity { name: channel.map_or_else(String::new, |c| c.name.clone()), place }
-        };
-        match plot {
-            Plot::Space(eye) => Self::Space { eye: *eye },
-            Plot::Phase { x, y, viewport } => {
-                Self::Phase { x: quantity(x), y: quantity(y), viewport: *viewport }
-            }
-            Plot::Potential { view, viewport } => {
-                Self::Potential { view: *view, viewport: *viewport }
-            }
-            Plot::Time { y, viewport } => {
-                Self::Time { y: y.iter().map(quantity).collect(), viewport: *viewport }
-            }
-        }
-    }
-
-    /// The picture in a system, if that has all it shows.
-    fn place(&self, loaded: &Loaded) -> Option<Plot> {
-        let (model, channels) = (&loaded.model, loaded.system.channels());
-        let channel = |quantity: &Quantity| {
-            let named = |c: &crate::system::Channel| c.name == quantity.name;
-            match quantity.name.as_str() {
-                "" => Some(quantity.place).filter(|&i| channels.get(i).is_some_and(named)),
-                _ => channels.iter().position(named),
-            }
-        };
-        Some(match self {
-            Self::Space { eye } => {
-                let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
-                let viewed = eye.view.is_none_or(|view| view < model.views.len());
-                if !(framed && viewed) || eye.shapes(model).is_empty() {
-                    return None;
-                }
-                Plot::Space(*eye)
-            }
-            Self::Phase { x, y, viewport } => {
-                Plot::Phase { x: channel(x)?, y: channel(y)?, viewport: *viewport }
-            }
-            Self::Potential { view, viewport } => {
-                let kind = model.views.get(*view)?.kind;
-                let potential = kind == crate::model::ViewKind::Potential;
-                potential.then_some(Plot::Potential { view: *view, viewport: *viewport })?
-            }
-            Self::Time { y, viewport } => {
-                let y: Vec<usize> = y.iter().filter_map(channel).collect();
-                (!y.is_empty()).then_some(Plot::Time { y, viewport: *viewport })?
-            }
         })
     }
 }
@@ -163,8 +65,8 @@ impl SavedPlot {
 impl Lab {
     /// Looks at the system as a session did, as far as it is the same.
     fn look_as(&mut self, saved: &Saved) {
-        let plots: Vec<Plot> =
-            saved.plots.iter().filter_map(|plot| plot.place(&self.loaded)).collect();
+        let physics = self.loaded.physics();
+        let plots: Vec<Plot> = saved.plots.iter().filter_map(|plot| plot.place(physics)).collect();
         // pictures of a system with other quantities are better opened anew
         if plots.len() == saved.plots.len() {
             self.plots = plots;
@@ -244,6 +146,10 @@ impl App {
         // What is open speaks of the old system's places.
         if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
             self.overlay = None;
+        }
+        // and what was asked of it is no longer derived
+        if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
+            prompt.under_way = None;
         }
         self.meter.forget();
         let Some(saved) = saved else {

@@ -23,6 +23,12 @@ const LONG_TEXT: &str = "The pasted text was too long; as much of its beginning 
 impl App {
     /// Takes an event in, and says what is to be done about it.
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
+        let mut effects = self.handle(event);
+        self.look_after_jobs(&mut effects);
+        effects
+    }
+
+    pub(super) fn handle(&mut self, event: Event) -> Vec<Effect> {
         match event {
             Event::Key(key) => pressed(key).map_or_else(Vec::new, |key| self.press(key)),
             Event::Paste(text) => self.paste(&text),
@@ -44,6 +50,9 @@ impl App {
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
+                if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
+                    prompt.tick(elapsed);
+                }
                 let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
                 preview.into_iter().chain(self.tick_buffer(elapsed)).collect()
             }
@@ -54,6 +63,11 @@ impl App {
             }
             Event::FileRead { text, asked } => {
                 self.changed_on_disk(&text, asked);
+                Vec::new()
+            }
+            Event::Computed { ticket, outcome } => self.computed(ticket, outcome),
+            Event::Progress { ticket, share } => {
+                self.progressed(ticket, share);
                 Vec::new()
             }
             Event::FileThere(there) => {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{open, stderr};
-use crate::analysis::false_claims;
+use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::mechanics;
 use crate::printable;

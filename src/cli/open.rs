@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 
-use crate::analysis::flaws;
+use crate::claims::flaws;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};

@@ -3,7 +3,7 @@
 //! In: a document, its system, a [`Snapshot`]. Out: a text that reads without a mistake. Never here: writing it.
 
 use super::{Checkpoint, Prepared, Snapshot};
-use crate::analysis::false_claims;
+use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::{AttitudeSource, Model};
 use crate::num::math;

@@ -6,8 +6,8 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use super::{Experiment, Setup};
-use crate::analysis::flaws;
 use crate::cancel::Cancel;
+use crate::claims::flaws;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations};
 use crate::model::Model;

@@ -15,31 +15,16 @@ pub struct Channel {
 /// One pane.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// What kind of pane.
-    pub kind: ViewKind,
+    /// The name of its kind, one of the table of instruments.
+    pub kind: String,
     /// A title, or empty.
     pub title: String,
-    /// What runs along the axis.
-    pub x: Option<Channel>,
-    /// What runs up the axis; several in one time series.
-    pub y: Vec<Channel>,
+    /// What is written for each axis of the kind, in their order.
+    pub axes: Vec<Vec<Channel>>,
     /// The frame a picture in space is seen from; the axes of `[space]` where there is none.
     pub frame: Option<usize>,
     /// What a picture in space draws in place of the model's shapes.
     pub shapes: Option<Vec<Shape>>,
-}
-
-/// The kinds of panes this version draws.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ViewKind {
-    /// The motion in space, from the file's shapes.
-    Space,
-    /// Two quantities against each other.
-    Phase,
-    /// Quantities against time.
-    Time,
-    /// A potential along a coordinate, with the energy.
-    Potential,
 }
 
 /// A point in space: three expressions, z up; a plane system leaves the third at zero.

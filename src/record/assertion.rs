@@ -7,6 +7,7 @@ use crate::app::{App, Lab};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::experiment::{Snapshot, Status};
+use crate::instrument::{INSTRUMENTS, named};
 use crate::model::{Allowed, Scope};
 
 use super::script::{Assert, Measure, Relation, Text};
@@ -184,6 +185,9 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
     if let Some(at) = channels.iter().position(|channel| channel.name == written.text) {
         return Ok(snapshot.values[at]);
     }
+    if let Some(value) = measured_of_plot(lab, written)? {
+        return Ok(value);
+    }
     let mut pool = lab.loaded.equations.pool.clone();
     let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
     let Some(e) = scope.read(&mut pool, &written.text) else {
@@ -203,6 +207,39 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
     }
     let message = format!("`{}` has no value here", written.text);
     Err(Diagnostic::error(written.place.clone(), message))
+}
+
+/// The value of a measure of a plot, `KIND.WORD`; nothing where the text is none.
+fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic> {
+    let Some((kind, word)) = written.text.split_once('.') else { return Ok(None) };
+    let is_word = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic());
+    if !is_word(kind) || !is_word(word) {
+        return Ok(None);
+    }
+    let part = |text: &str, from: usize| {
+        let start = written.place.start + from;
+        Text { text: text.to_owned(), place: start..start + text.len() }
+    };
+    let system = "this version";
+    let known = named(kind).ok_or_else(|| {
+        let names = INSTRUMENTS.iter().map(|kind| kind.name());
+        missing("kind of plot", &part(kind, 0), names, system)
+    })?;
+    let measure =
+        known.measures().iter().find(|measure| measure.word == word).ok_or_else(|| {
+            let words = known.measures().iter().map(|measure| measure.word);
+            missing("number of a plot of this kind", &part(word, kind.len() + 1), words, system)
+        })?;
+    let refused = |message| Err(Diagnostic::error(written.place.clone(), message));
+    let mut plots = lab.plots.iter().filter(|plot| plot.kind == known).peekable();
+    let Some(present) = lab.present().filter(|_| plots.peek().is_some()) else {
+        return refused(format!("no pane shows a plot of kind `{kind}`"));
+    };
+    // of several it is the first that has the number
+    match plots.find_map(|plot| (measure.value)(plot, &present, lab.answer(plot))) {
+        Some(value) => Ok(Some(value)),
+        None => refused(format!("no plot of kind `{kind}` has `{word}` here")),
+    }
 }
 
 /// What is not there, and the nearest that is.

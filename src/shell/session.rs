@@ -3,6 +3,7 @@
 //! In: inputs and frames from the stage. Out: a drawn screen; commands to the worker, loads to the loader, wishes to
 //! the stage. Never here: what a key does, or how anything looks.
 
+use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,21 +19,24 @@ use super::atomic_file;
 use super::checker::Checker;
 use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
-use super::job::{Job, Told};
 use super::loader::Loader;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::store::{Store, StoreError};
-use crate::app::{App, Checked, Effect, Event, LoadError, Loaded, Notification, Saved, Unsaved};
+use super::writer::{Told, Writer};
+use crate::app::{
+    App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Saved, Unsaved,
+};
 use crate::diagnostic::Document;
 use crate::experiment::{Export, Prepared, Snapshot, Status};
+use crate::instrument::Answer;
 use crate::preset::{Catalog, Origin, is_path};
 use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{PALETTES, Palette, Theme};
 use crate::view::{self, Detail, RenderStyle};
-use crate::worker::Worker;
+use crate::worker::{Side, Worker};
 
 /// The laboratory as it runs.
 pub(super) struct Session {
@@ -51,7 +55,9 @@ pub(super) struct Session {
     /// The state of the texts when they were kept last.
     kept_texts: u64,
     /// The file being written that a key asked for.
-    job: Job,
+    writer: Writer,
+    /// Jobs on the side, for each who asks.
+    sides: HashMap<Asker, Side<Answer>>,
     /// Told once more when the first system is there, for its loading ends what was reported before.
     warning: Option<String>,
     /// The fault last told of there.
@@ -101,6 +107,7 @@ impl Session {
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
+        app.aside = true;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();
         app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
@@ -120,7 +127,8 @@ impl Session {
             store,
             since: Since::default(),
             kept_texts: 0,
-            job: Job::default(),
+            writer: Writer::new(),
+            sides: HashMap::new(),
             warning: None,
             fault: None,
             recorder: None,
@@ -292,6 +300,13 @@ impl Session {
                 }
                 Effect::StopLoading => self.loader.stop(),
                 Effect::StopCheck => self.checker.stop(),
+                Effect::Compute(Computation { ticket, asker, job }) => {
+                    let side = self.sides.entry(asker).or_insert_with(|| Side::new("side"));
+                    side.begin(ticket, job);
+                }
+                Effect::StopComputing(asker) => {
+                    self.sides.remove(&asker);
+                }
                 Effect::Export => self.export(),
                 Effect::Check { ticket, title, text } => {
                     self.checker.check(ticket, Document::new(title, text));
@@ -348,7 +363,7 @@ impl Session {
 
     /// Has a file written that a key asked for; what becomes of it is reported.
     fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
-        if let Err(why) = self.job.begin(work) {
+        if let Err(why) = self.writer.begin(work) {
             self.told(Err(why));
         }
     }
@@ -411,6 +426,24 @@ impl Session {
         let (ticket, took) = (answer.ticket, answer.took);
         self.update(Event::Checked(Box::new(Checked { ticket, outcome, took })));
         true
+    }
+
+    /// Takes in what became of jobs on the side, and how far the others are; whether there are any.
+    fn look_aside(&mut self) -> bool {
+        let mut events = Vec::new();
+        let mut busy = false;
+        for side in self.sides.values_mut() {
+            busy |= side.is_busy();
+            if let Some((ticket, outcome)) = side.take() {
+                events.push(Event::Computed { ticket, outcome });
+            } else if let Some((ticket, share)) = side.share() {
+                events.push(Event::Progress { ticket, share });
+            }
+        }
+        for event in events {
+            self.update(event);
+        }
+        busy
     }
 
     /// Writes why the motion cannot go on, once.
@@ -520,6 +553,8 @@ impl Session {
     /// Sets a loaded system in motion.
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
         let Prepared { document, model, equations, system, experiment } = ready;
+        // what is computed on the side is of the system before
+        self.sides.clear();
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, document, model, equations, system }
     }
@@ -625,7 +660,8 @@ impl Screen for Session {
         }
         changed |= self.watch(elapsed);
         changed |= self.answer();
-        if let Some(told) = self.job.take() {
+        changed |= self.look_aside();
+        if let Some(told) = self.writer.take() {
             self.told(told);
             changed = true;
         }
@@ -661,6 +697,7 @@ impl Screen for Session {
         // a thread at work would take the time that is left
         self.loader.stop();
         self.checker.stop();
+        self.sides.clear();
         let time = match (hurried, self.app.unsaved().is_empty()) {
             (false, _) => UNHURRIED,
             (true, false) => FOR_TEXTS,
@@ -673,7 +710,7 @@ impl Screen for Session {
         let kept = self.keep_within(time);
         let recorder = self.recorder.take();
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
-        let written = if hurried { None } else { self.job.wait(UNHURRIED) };
+        let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |told| told.map(|_| ()).map_err(io::Error::other));
         self.left = Some(Left { recorded: recorded.and(written), kept });
     }

@@ -78,7 +78,7 @@ impl ObservableList {
         }
         list.precise = list.channels.len();
         for view in &model.views {
-            for c in view.x.iter().chain(&view.y) {
+            for c in view.axes.iter().flatten() {
                 list.add_hidden(&c.written, c.expression);
                 list.name(c);
             }

@@ -9,7 +9,7 @@ use super::marks::Marks;
 use super::number::readable;
 use super::plot::Frame;
 use super::theme::Role;
-use crate::app::Viewport;
+use crate::instrument::Viewport;
 
 /// Draws the cursor, if there is one, and reads its coordinates, and what happened there, in the upper right corner of the area.
 pub(super) fn draw(

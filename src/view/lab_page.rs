@@ -13,8 +13,8 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
-use super::{equations, gauges, phase, potential, series, space};
-use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, Plot, ValueId};
+use super::{equations, gauges, picture};
+use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, ValueId};
 use crate::experiment::{Failure, Status};
 
 /// Draws all panes that have a place.
@@ -132,43 +132,18 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
         canvas.pane(area, &[], focused);
         return;
     };
-    let potential = match plot {
-        Plot::Potential { view, .. } => lab.potential(*view),
-        _ => None,
-    };
     // Between the corners, with a blank at each side.
     let room = usize::from(area.width.saturating_sub(6));
-    let mut title = match plot {
-        Plot::Space(eye) => space::title(canvas, lab, eye),
-        Plot::Phase { x, y, .. } => {
-            let title = plot.title(&lab.loaded).unwrap_or("Phase");
-            phase::title(canvas, &q, ([*x, *y], title), room)
-        }
-        Plot::Time { y, .. } => series::title(canvas, &q, (y, plot.title(&lab.loaded)), room),
-        Plot::Potential { .. } => match &potential {
-            Some(shown) => potential::title(canvas, &q, shown, room),
-            None => Vec::new(),
-        },
-    };
+    let mut title = picture::title(canvas, &q, plot, room);
     if let Some((role, _)) = gauges::departed(q.snapshot, canvas.look.glyphs) {
         title.insert(0, canvas.span(role, "! "));
     }
     let inner = canvas.pane(area, &title, focused);
     canvas.spot(area, HitTarget::Pane(Pane::Plot(index)));
-    let frame = match plot {
-        Plot::Space(eye) => {
-            space::draw(canvas, inner, &q, eye);
-            canvas.region(inner, Region::Space(index));
-            None
-        }
-        Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
-        Plot::Time { y, viewport } => Some(series::draw(canvas, inner, &q, (y, *viewport))),
-        Plot::Potential { viewport, .. } => {
-            potential.map(|shown| potential::draw(canvas, inner, &q, (&shown, *viewport)))
-        }
-    };
-    if let Some(frame) = frame {
-        canvas.region(frame.area, Region::Plot(index, frame));
+    match picture::draw(canvas, inner, &q, plot) {
+        Some(frame) => canvas.region(frame.area, Region::Plot(index, frame)),
+        None if plot.kind.is_scene() => canvas.region(inner, Region::Space(index)),
+        None => {}
     }
 }
 

@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 
 use super::wrap::words;
-use crate::app::{Lab, Pane, Plot, ValueId};
+use crate::app::{Lab, Pane, ValueId};
 
 /// The least screen on which anything can be done.
 pub(super) const LEAST: (u16, u16) = (40, 10);
@@ -166,7 +166,7 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
 fn plot_slot(lab: &Lab) -> Slot {
     let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
     // Where there is room for one picture it is the motion itself.
-    let motion = lab.plots.iter().position(|plot| matches!(plot, Plot::Space(_)));
+    let motion = lab.plots.iter().position(|plot| plot.kind.is_scene());
     Slot::Pane(focused.unwrap_or(Pane::Plot(motion.unwrap_or(0))))
 }
 

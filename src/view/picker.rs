@@ -8,12 +8,12 @@ use tui_input::Input;
 use super::canvas::{Canvas, columns, row};
 use super::highlight::found_in;
 use super::layout::{split_columns, split_rows};
+use super::picture;
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use super::{phase, potential, series, space};
-use crate::app::{App, Fit, HitTarget, Picker, Plot};
+use crate::app::{App, Fit, HitTarget, Picker};
 use crate::preset::{Entry, Origin};
 
 /// Columns of the list where something stands beside it.
@@ -175,16 +175,8 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
         }
         return;
     };
-    let space = lab.plots.iter().find(|plot| matches!(plot, Plot::Space(_)));
-    match space.or(lab.plots.first()) {
-        Some(Plot::Space(eye)) => space::draw(canvas, area, &q, eye),
-        Some(plot @ Plot::Phase { .. }) => drop(phase::draw(canvas, area, &q, plot)),
-        Some(Plot::Time { y, viewport }) => drop(series::draw(canvas, area, &q, (y, *viewport))),
-        Some(Plot::Potential { view, viewport }) => {
-            if let Some(shown) = lab.potential(*view) {
-                potential::draw(canvas, area, &q, (&shown, *viewport));
-            }
-        }
-        None => {}
+    let space = lab.plots.iter().find(|plot| plot.kind.is_scene());
+    if let Some(plot) = space.or(lab.plots.first()) {
+        picture::draw(canvas, area, &q, plot);
     }
 }

@@ -5,9 +5,10 @@
 use super::RenderStyle;
 use super::plot::ticks::nice_range;
 use super::plot::{Axis, Scale};
-use crate::app::{Lab, Viewport};
+use crate::app::Lab;
 use crate::experiment::Snapshot;
 use crate::expr::Expr;
+use crate::instrument::{Present, Viewport};
 use crate::model::Point;
 
 /// Quantities of a lab, as its snapshot has them.
@@ -27,6 +28,11 @@ impl<'a> Quantities<'a> {
     /// The quantities as a snapshot has them, if it fits the system.
     pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a RenderStyle) -> Option<Self> {
         lab.fits(snapshot).then_some(Self { lab, snapshot, look })
+    }
+
+    /// The same as instruments look at it.
+    pub(super) fn present(&self) -> Present<'a> {
+        self.lab.present_of(self.snapshot)
     }
 
     /// A channel's name as this terminal shows it.

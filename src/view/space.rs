@@ -8,11 +8,11 @@ mod scene;
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span, row};
+use super::canvas::{Canvas, row};
 use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
-use crate::app::{CameraPose, Lab};
+use crate::instrument::CameraPose;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use crate::num::math;
@@ -31,24 +31,6 @@ const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 
 /// The longest apparent force seen so far is this part of the picture.
 const LONGEST: f64 = 0.25;
-
-/// The heading.
-pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &CameraPose) -> Vec<Span> {
-    let model = &lab.loaded.model;
-    let view = eye.view.and_then(|view| model.views.get(view));
-    // A view's title speaks of the frame that the file gave it.
-    let own = view.filter(|view| view.frame == eye.frame).map(|view| view.title.as_str());
-    let own = own.filter(|title| !title.is_empty());
-    let mut spans = vec![canvas.span(Role::Title, own.unwrap_or("Motion"))];
-    if let (None, Some(frame)) = (own, eye.frame.and_then(|frame| model.frames.get(frame))) {
-        spans.push(canvas.span(Role::Dim, format!("  seen from {}", frame.name)));
-    }
-    if eye.zoom != 1.0 {
-        let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
-        spans.push(canvas.span(Role::Dim, format!("  ×{zoom}")));
-    }
-    spans
-}
 
 /// The picture inside the frame.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &CameraPose) {

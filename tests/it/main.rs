@@ -13,6 +13,7 @@ mod experiment;
 mod expr;
 mod expr_parse;
 mod hand;
+mod instrument;
 mod layers;
 mod mechanics;
 mod methods;

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use phaselab::analysis::flaws;
+use phaselab::claims::flaws;
 use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};

@@ -2,3 +2,4 @@
 //! test waits for a condition, for at most a minute.
 
 mod protocol;
+mod side;

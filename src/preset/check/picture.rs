@@ -7,10 +7,9 @@ use toml::Spanned;
 use super::Check;
 use crate::diagnostic::Diagnostic;
 use crate::expr::Expr;
-use crate::model::{Allowed, Channel, Point, Scope, Shape, View, ViewKind};
-use crate::preset::draft::{
-    DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formula, Formulas,
-};
+use crate::instrument::Instrument;
+use crate::model::{Allowed, Channel, Point, Scope, Shape, View};
+use crate::preset::draft::{DraftShape, DraftShapeKind, DraftView, Formula, Formulas};
 
 /// Into how many pieces a path is cut where the file does not say.
 const SAMPLES: usize = 96;
@@ -23,34 +22,43 @@ impl Check<'_> {
     pub(super) fn views(&mut self, written: &[DraftView], nodes: &mut usize) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
         for view in written {
-            let mut channel = |check: &mut Self, formula: &Formula| {
-                let expression = check.formula(&mut scope, "a view", formula)?;
-                Some(Channel { written: formula.get_ref().trim().to_owned(), expression })
-            };
-            let x = view.x.as_ref().and_then(|formula| channel(self, formula));
-            if let (DraftViewKind::Potential, Some(x), Some(written)) = (view.kind, &x, &view.x) {
-                self.along_a_coordinate(x, written);
+            let mut axes = Vec::new();
+            for (place, formulas) in view.axes.iter().enumerate() {
+                let axis = view.kind.and_then(|kind| kind.written().get(place));
+                let mut channels = Vec::new();
+                for formula in formulas {
+                    let Some(expression) = self.formula(&mut scope, "a view", formula) else {
+                        continue;
+                    };
+                    let written = formula.get_ref().trim().to_owned();
+                    let channel = Channel { written, expression };
+                    if axis.is_some_and(|axis| axis.coordinate) {
+                        self.along_a_coordinate(&channel, formula, view.kind);
+                    }
+                    channels.push(channel);
+                }
+                axes.push(channels);
             }
-            let y = view.y.iter().filter_map(|formula| channel(self, formula)).collect();
-            let kind = match view.kind {
-                DraftViewKind::Space => ViewKind::Space,
-                DraftViewKind::Phase => ViewKind::Phase,
-                DraftViewKind::Time => ViewKind::Time,
-                DraftViewKind::Potential => ViewKind::Potential,
-                DraftViewKind::NotYet => continue,
-            };
+            let Some(kind) = view.kind else { continue };
+            let (kind, title) = (kind.name().to_owned(), view.title.clone());
             let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
             let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
-            self.model.views.push(View { kind, title: view.title.clone(), x, y, frame, shapes });
+            self.model.views.push(View { kind, title, axes, frame, shapes });
         }
     }
 
-    /// A potential runs along a coordinate, for all else is held while it varies.
-    fn along_a_coordinate(&mut self, x: &Channel, written: &Formula) {
+    /// What an axis runs along is a coordinate where all else is held while it varies.
+    fn along_a_coordinate(
+        &mut self,
+        x: &Channel,
+        written: &Formula,
+        kind: Option<&'static dyn Instrument>,
+    ) {
+        let kind = kind.map_or("view", |kind| kind.name());
         let symbol = self.model.pool.as_symbol(x.expression);
         if !self.model.coordinates.iter().any(|c| Some(c.position) == symbol) {
             let names: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
-            let message = "a potential runs along a coordinate, and this is none";
+            let message = format!("a {kind} runs along a coordinate, and this is none");
             let help = format!("write one of {}", names.join(", "));
             self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
         }

@@ -3,35 +3,26 @@
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::table::{Table, Value};
+use super::table::Table;
 use super::vector::{Formulas, optional_point, point};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::instrument::{Axis, INSTRUMENTS, Instrument, NOT_YET, listed, named};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
     /// Where it stands.
     pub(in crate::preset) place: SourceRange,
-    pub(in crate::preset) kind: DraftViewKind,
+    /// Its kind; `None` where the format has it and this version does not: it is read and left out.
+    pub(in crate::preset) kind: Option<&'static dyn Instrument>,
     pub(in crate::preset) title: String,
-    pub(in crate::preset) x: Option<Formula>,
-    pub(in crate::preset) y: Vec<Formula>,
+    /// What is written for each axis of the kind.
+    pub(in crate::preset) axes: Vec<Vec<Formula>>,
     /// From which frame the picture in space is seen.
     pub(in crate::preset) frame: Option<Spanned<String>>,
     /// What is drawn in place of the shapes of `[space]`.
     pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
-}
-
-/// The kinds of views.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(in crate::preset) enum DraftViewKind {
-    Space,
-    Phase,
-    Time,
-    Potential,
-    /// The format has it and this version does not: it is read and left out.
-    NotYet,
 }
 
 /// A shape as written.
@@ -84,13 +75,6 @@ pub(in crate::preset) enum DraftShapeKind {
     },
 }
 
-const VIEWS: [(&str, DraftViewKind); 4] = [
-    ("phase", DraftViewKind::Phase),
-    ("space", DraftViewKind::Space),
-    ("time", DraftViewKind::Time),
-    ("potential", DraftViewKind::Potential),
-];
-const VIEWS_NOT_YET: [&str; 5] = ["section", "spectrum", "ensemble", "transformation", "action"];
 const SHAPES: [&str; 9] =
     ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
 
@@ -100,9 +84,10 @@ pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<Draf
 }
 
 fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
-    let help = "write kind = \"phase\", \"space\", \"time\" or \"potential\"";
-    let Some((_, found)) = table.require("kind", help) else {
-        for key in ["title", "x", "y", "frame", "shapes"] {
+    let help = format!("write kind = {}", listed("\"", "or"));
+    let Some((_, found)) = table.require("kind", &help) else {
+        let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
+        for key in axes.map(|axis| axis.key).chain(["title", "frame", "shapes"]) {
             table.take(key);
         }
         table.finish(mistakes);
@@ -112,42 +97,35 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     let kind = view_kind(&written, mistakes)?;
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title", mistakes);
-    let mut axis = |key, mistakes: &mut Diagnostics| {
-        let found = match kind {
-            DraftViewKind::NotYet => table.take(key),
-            _ => table.require(key, &format!("write {key} = \"...\"")),
+    let place = table.place.clone();
+    let Kind::Drawn(kind) = kind else {
+        let mut axis = |key| {
+            let found = table.take(key);
+            found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes))
         };
-        found.map_or(Vec::new(), |(_, v)| several(v, key, kind, mistakes))
+        let axes = ["x", "y"].map(|key| axis(key).into_iter().collect()).to_vec();
+        let (frame, shapes) = (None, None);
+        return Some(DraftView { place, kind: None, title, axes, frame, shapes });
     };
-    let (x, y) = match kind {
-        DraftViewKind::Space => (Vec::new(), Vec::new()),
-        DraftViewKind::Time => (Vec::new(), axis("y", mistakes)),
-        DraftViewKind::Phase | DraftViewKind::Potential | DraftViewKind::NotYet => {
-            (axis("x", mistakes), axis("y", mistakes))
-        }
-    };
+    let axes = kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
     let (mut frame, mut shapes) = (None, None);
-    if kind == DraftViewKind::Space {
+    if kind.is_scene() {
         frame = table.text("frame", mistakes);
         shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
     }
-    let place = table.place.clone();
-    if kind != DraftViewKind::NotYet {
-        table.finish(mistakes);
-    }
-    Some(DraftView { place, kind, title, x: x.into_iter().next(), y, frame, shapes })
+    table.finish(mistakes);
+    Some(DraftView { place, kind: Some(kind), title, axes, frame, shapes })
 }
 
-/// What runs up the axis: one expression, or a list of them in a time series.
-fn several(
-    found: &Value<'_>,
-    key: &str,
-    kind: DraftViewKind,
-    mistakes: &mut Diagnostics,
-) -> Vec<Formula> {
+/// What is written for an axis: one expression, or a list of them where it takes several.
+fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Vec<Formula> {
+    let key = axis.key;
+    let Some((_, found)) = table.require(key, &format!("write {key} = \"...\"")) else {
+        return Vec::new();
+    };
     let called = format!("`{key}`");
     match found.get_ref() {
-        DeValue::Array(items) if kind == DraftViewKind::Time => {
+        DeValue::Array(items) if axis.several => {
             if items.is_empty() {
                 mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
             }
@@ -157,21 +135,29 @@ fn several(
     }
 }
 
-fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<DraftViewKind> {
+/// What a name stands for.
+enum Kind {
+    Drawn(&'static dyn Instrument),
+    /// The format has it and this version does not.
+    LeftOut,
+}
+
+/// The kind of a name.
+fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Kind> {
     let name = written.get_ref().as_str();
-    if let Some((_, kind)) = VIEWS.iter().find(|(known, _)| *known == name) {
-        return Some(*kind);
+    if let Some(kind) = named(name) {
+        return Some(Kind::Drawn(kind));
     }
-    if VIEWS_NOT_YET.contains(&name) {
+    if NOT_YET.contains(&name) {
         let message = format!("views of kind `{name}` are not supported yet by this version");
         mistakes
             .push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
-        return Some(DraftViewKind::NotYet);
+        return Some(Kind::LeftOut);
     }
-    let known = VIEWS.iter().map(|(name, _)| *name).chain(VIEWS_NOT_YET);
+    let known = INSTRUMENTS.iter().map(|kind| kind.name()).chain(NOT_YET);
     let help = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "the kinds are phase, space, time and potential".to_owned(),
+        None => format!("the kinds are {}", listed("", "and")),
     };
     let message = format!("there is no view of kind `{name}`");
     mistakes.push(Diagnostic::error(written.span(), message).with_help(help));

@@ -217,11 +217,12 @@ fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 }
 
 /// What an `Assert` claims, as it is written.
-pub const CLAIMS: [(&str, &str); 9] = [
+pub const CLAIMS: [(&str, &str); 10] = [
     (
         "EXPR = EXPR within EPS",
         "an expression of state, parameters and time has this value; also `<` and `>`",
     ),
+    ("KIND.WORD > EXPR", "a number of a plot of that kind, as `phase.saddles`; also `<` and `=`"),
     ("drift NAME < EPS", "the gauge of that name has drifted by no more since its reference"),
     ("greatest NAME = EXPR within EPS", "the greatest value of a column since the motion began"),
     ("least NAME = EXPR within EPS", "the least"),

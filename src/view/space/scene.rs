@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::body::Outline;
 use super::reference_frame::ReferenceFrame;
-use crate::app::CameraPose;
+use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
 use crate::view::plot::Bounds;

@@ -1,6 +1,6 @@
 //! What a file says of brackets, true and false.
 
-use phaselab::analysis::false_claims;
+use phaselab::claims::false_claims;
 use phaselab::mechanics::derive;
 use phaselab::model::{ExpectedBracket, Model};
 

@@ -6,8 +6,9 @@ use std::time::Duration;
 
 use crossterm::event::KeyEvent;
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
-use phaselab::app::{App, Choice, Drawn, Effect, Event, Menu, Overlay, Page, Plot, ValueId};
+use phaselab::app::{App, Choice, Drawn, Effect, Event, Menu, Overlay, Page, ValueId};
 use phaselab::experiment::Status;
+use phaselab::instrument::Sight;
 
 use super::scripts::with_impulses;
 use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
@@ -140,15 +141,13 @@ fn facts(app: &App) -> Vec<(String, String)> {
     }
     for (index, plot) in lab.plots.iter().enumerate() {
         let about = |name: &str| format!("plot {index}, {name}");
-        match plot {
-            Plot::Space(eye) => {
+        match plot.sight {
+            Sight::Camera(eye) => {
                 fact(&about("direction"), format!("{:.4} {:.4}", eye.yaw, eye.pitch));
                 fact(&about("zoom"), eye.zoom.to_string());
                 fact(&about("frame"), format!("{:?}", eye.frame));
             }
-            Plot::Phase { viewport, .. }
-            | Plot::Time { viewport, .. }
-            | Plot::Potential { viewport, .. } => {
+            Sight::Axes(viewport) => {
                 fact(&about("zoom"), format!("{:?}", viewport.zoom));
                 fact(&about("pan"), format!("{:?}", viewport.pan));
                 fact(&about("log"), viewport.log.to_string());

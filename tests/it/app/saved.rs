@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Effect, Event, Page, Pane, Plot, Saved};
+use phaselab::app::{App, Effect, Event, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
 use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
@@ -95,10 +95,9 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     assert_eq!((lab.focus, lab.plots.len()), (before.focus, before.plots.len()));
     let names = |lab: &phaselab::app::Lab| {
         let name = |i: &usize| lab.loaded.system.channels()[*i].name.clone();
-        let names = lab.plots.iter().map(|plot| match plot {
-            Plot::Phase { x, y, viewport } => (vec![name(x), name(y)], Some(*viewport)),
-            Plot::Time { y, viewport } => (y.iter().map(name).collect(), Some(*viewport)),
-            _ => (Vec::new(), None),
+        let names = lab.plots.iter().map(|plot| {
+            let names: Vec<String> = plot.columns.iter().flatten().map(name).collect();
+            (plot.kind.name(), names, plot.viewport())
         });
         names.collect::<Vec<_>>()
     };
@@ -114,8 +113,7 @@ fn a_system_that_lost_what_was_shown_opens_its_own_views() {
     let lab = app.lab.as_ref().unwrap();
     assert!(!lab.plots.is_empty());
     for plot in &lab.plots {
-        if let Plot::Phase { x, y, .. } = plot {
-            assert!(lab.loaded.system.channels().len() > *x.max(y));
-        }
+        let known = |channel: &usize| *channel < lab.loaded.system.channels().len();
+        assert!(plot.columns.iter().flatten().all(known));
     }
 }

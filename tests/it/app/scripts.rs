@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Effect, Event, LoadError, Overlay, Page, Pane, Plot};
+use phaselab::app::{App, Effect, Event, LoadError, Overlay, Page, Pane};
 use phaselab::experiment::Command;
 
 use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
@@ -27,12 +27,16 @@ fn place(app: &App) -> String {
         }
         (Page::Lab, Some(lab)) => {
             let pane = match lab.focus {
-                Pane::Plot(i) => match &lab.plots[i] {
-                    Plot::Space(_) => "space".to_owned(),
-                    Plot::Phase { x, y, .. } => format!("phase {x} {y}"),
-                    Plot::Potential { view, .. } => format!("potential {view}"),
-                    Plot::Time { y, .. } => format!("time {y:?}"),
-                },
+                Pane::Plot(i) => {
+                    let plot = &lab.plots[i];
+                    let column = |column: &Vec<usize>| match (&column[..], plot.kind.name()) {
+                        ([one], "phase") => format!(" {one}"),
+                        (several, _) => format!(" {several:?}"),
+                    };
+                    let columns: String = plot.columns.iter().map(column).collect();
+                    let view = plot.view.map_or_else(String::new, |view| format!(" {view}"));
+                    format!("{}{columns}{view}", plot.kind.name())
+                }
                 Pane::Parameters => format!("parameter {}", lab.selection.parameter),
                 Pane::Initial => format!("initial {}", lab.selection.initial),
                 Pane::Gauges => format!("gauge {}", lab.selection.gauge),

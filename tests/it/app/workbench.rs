@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, Overlay, Page, Plot, SaveError, SheetState,
-    SourceBuffer,
+    App, Caret, Checked, Effect, Event, Loaded, Overlay, Page, SaveError, SheetState, SourceBuffer,
 };
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
+use phaselab::instrument::Plot;
 
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 
@@ -88,8 +88,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     let lab = app.lab.as_ref().unwrap();
     assert!(lab.zoomed);
     assert_eq!(lab.plots.len(), before.len());
-    let viewport =
-        |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
+    let viewport = |plots: &[Plot]| plots.iter().filter(|p| p.kind.name() == "phase").count();
     assert_eq!(viewport(&lab.plots), viewport(&before));
     assert!(lab.loaded.system.channels().iter().any(|channel| channel.name == "new"));
 }

@@ -1,6 +1,6 @@
 //! What is no Poisson structure is refused with the triple that fails; what is no Casimir, too.
 
-use phaselab::analysis::{false_claims, flaws};
+use phaselab::claims::{false_claims, flaws};
 use phaselab::{mechanics, preset};
 
 use super::{BODY, LOTKA_VOLTERRA, TOP};

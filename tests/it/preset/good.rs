@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use phaselab::diagnostic::{Severity, report};
 use phaselab::expr::Expr;
-use phaselab::model::{Mechanics, Model, Scale, Shape, ViewKind};
+use phaselab::model::{Mechanics, Model, Scale, Shape};
 use phaselab::num::Number;
 use phaselab::preset::{Catalog, Checked, Origin, read};
 
@@ -293,10 +293,10 @@ x = "x"
 "#,
     );
     let Checked { model, warnings } = checked(&text);
-    let kinds: Vec<ViewKind> = model.views.iter().map(|v| v.kind).collect();
-    assert_eq!(kinds, [ViewKind::Space, ViewKind::Phase, ViewKind::Time, ViewKind::Time]);
+    let kinds: Vec<&str> = model.views.iter().map(|v| v.kind.as_str()).collect();
+    assert_eq!(kinds, ["space", "phase", "time", "time"]);
     assert_eq!(model.views[0].title, "the thing itself");
-    let written: Vec<&str> = model.views[2].y.iter().map(|c| c.written.as_str()).collect();
+    let written: Vec<&str> = model.views[2].axes[0].iter().map(|c| c.written.as_str()).collect();
     assert_eq!(written, ["x", "energy", "x''"]);
     assert_eq!(warnings.len(), 1);
     assert_eq!(warnings[0].severity, Severity::Warning);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use phaselab::analysis::false_claims;
 use phaselab::cancel::Cancel;
+use phaselab::claims::false_claims;
 use phaselab::diagnostic::{Document, Severity};
 use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
 use phaselab::mechanics::derive;

@@ -110,6 +110,19 @@ fn claims_are_held_against_the_moment() {
     );
     check("Assert greatest theta = theta0 within 1e-12", &[]);
     check("Assert \"kinetic energy\" > 0", &[]);
+    check("Assert phase.saddles = 2 within 0", &[]);
+    check("Assert phase.separatrices > 0", &[]);
+    check("Assert phase.saddles < 1", &["2:1 this is false: phase.saddles is 2, not below 1"]);
+    check(
+        "Assert phas.saddles > 0",
+        &["2:8 this version has no kind of plot `phas`; did you mean `phase`?"],
+    );
+    check(
+        "Assert phase.sadles > 0",
+        &[
+            "2:14 this version has no number of a plot of this kind `sadles`; did you mean `saddles`?",
+        ],
+    );
     check("Assert status running", &[]);
     check(
         "Assert status runing",

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Notification, Plot, Viewport};
+use phaselab::app::{App, Event, Notification};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
+use phaselab::instrument::{Along, Plot};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
-use phaselab::model::{Shape, ViewKind};
+use phaselab::model::Shape;
 use phaselab::system::ChannelKind;
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -198,10 +199,7 @@ fn the_cursor_reads_the_cell_it_stands_on() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab c");
     let plot = &app.lab.as_ref().unwrap().plots[1];
-    assert!(matches!(
-        plot,
-        Plot::Phase { viewport: Viewport { cursor: Some([0.5, 0.5]), .. }, .. }
-    ));
+    assert_eq!((plot.kind.name(), plot.viewport().unwrap().cursor), ("phase", Some([0.5, 0.5])));
     let buffer = screen(&app, &rich(), (120, 40));
     let (x, y) = find(&buffer, "┼").unwrap();
     assert!((40..80).contains(&x) && y < 24, "in the phase portrait");
@@ -348,7 +346,7 @@ fn a_body_seen_from_itself_stands_still() {
         app.update(Event::Snapshot(Arc::new(now)));
         let lab = app.lab.as_ref().unwrap();
         let drawn = |plot: &Plot| {
-            let Plot::Space(eye) = plot else { return false };
+            let Some(eye) = plot.eye() else { return false };
             eye.shapes(&handle.model).iter().any(|shape| matches!(shape, Shape::Body { .. }))
         };
         let place = lab.plots.iter().position(drawn).unwrap();
@@ -385,8 +383,8 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     now.bounds = bounds.into();
     let potential = |app: &phaselab::app::App, r: f64| {
         let lab = app.lab.as_ref().unwrap();
-        let view = lab.loaded.model.views.iter().position(|v| v.kind == ViewKind::Potential);
-        lab.potential(view.unwrap()).unwrap().at(lab, r)
+        let view = lab.loaded.model.views.iter().position(|v| v.kind == "potential");
+        Along::of(lab.loaded.physics(), view.unwrap()).unwrap().at(&lab.present().unwrap(), r)
     };
     app.update(Event::Loaded(Ok(planet.clone())));
     app.update(Event::Snapshot(Arc::new(now.clone())));
@@ -431,7 +429,7 @@ fn a_body_is_drawn_as_it_stands() {
         app.update(Event::Snapshot(Arc::new(now)));
         let model = &handle.model;
         let drawn = |plot: &Plot| {
-            let Plot::Space(eye) = plot else { return false };
+            let Some(eye) = plot.eye() else { return false };
             let body = |shape: &Shape| matches!(shape, Shape::Body { .. });
             eye.shapes(model).iter().any(body)
         };
@@ -488,7 +486,7 @@ fn a_frame_is_chosen_from_any_pane() {
     assert!(find(&buffer, "f frame").is_some(), "the hint stands where parameters are focused");
     press(&mut app, "f");
     let first = &app.lab.as_ref().unwrap().plots[0];
-    assert!(matches!(first, Plot::Space(eye) if eye.frame.is_some()), "{first:?}");
+    assert!(first.eye().is_some_and(|eye| eye.frame.is_some()), "{first:?}");
 }
 
 #[test]
@@ -527,7 +525,7 @@ fn a_view_of_any_kind_is_called_what_the_file_calls_it() {
         assert_eq!(buffer[(x, y)].fg, rich().theme[Role::Title].fg.unwrap());
     }
     press(&mut app, ": s w i n g Enter");
-    assert!(matches!(app.lab.as_ref().unwrap().focused_plot(), Some((_, Plot::Time { .. }))));
+    assert_eq!(app.lab.as_ref().unwrap().focused_plot().unwrap().1.kind.name(), "time");
 }
 
 #[test]

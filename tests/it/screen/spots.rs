@@ -5,8 +5,9 @@ use std::sync::Arc;
 use crossterm::event::MouseButton::Left;
 use crossterm::event::MouseEventKind;
 use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
-use phaselab::app::{App, Event, Grab, HitTarget, Overlay, Page, Pane, Plot, ValueId};
+use phaselab::app::{App, Event, Grab, HitTarget, Overlay, Page, Pane, ValueId};
 use phaselab::experiment::Command;
+use phaselab::instrument::Sight;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
@@ -130,12 +131,7 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
             assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{spot:?}");
             let mut marked = app.clone();
             let lab = marked.lab.as_mut().unwrap();
-            let viewport = match &mut lab.plots[index] {
-                Plot::Phase { viewport, .. }
-                | Plot::Time { viewport, .. }
-                | Plot::Potential { viewport, .. } => viewport,
-                other @ Plot::Space(_) => panic!("{other:?} has no axes"),
-            };
+            let viewport = lab.plots[index].viewport_mut().expect("it has axes");
             viewport.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
             assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
@@ -280,9 +276,11 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         act(&mut real, size, Up(Left), (x + 6, y - 1));
         assert_eq!(real.lab().focus, Pane::Plot(picture));
         let after = real.lab().plots.clone();
-        match (&before[picture], &after[picture], grabbed) {
-            (Plot::Space(a), Plot::Space(b), _) => assert!(a.yaw != b.yaw && a.pitch != b.pitch),
-            (_, Plot::Phase { .. }, HitTarget::Plot { at: from, .. }) => {
+        match (before[picture].sight, after[picture].sight, grabbed) {
+            (Sight::Camera(a), Sight::Camera(b), _) => {
+                assert!(a.yaw != b.yaw && a.pitch != b.pitch);
+            }
+            (_, Sight::Axes(_), HitTarget::Plot { at: from, .. }) => {
                 let Some(HitTarget::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1))
                 else {
                     panic!("nothing there")

@@ -85,9 +85,9 @@ fn channels_are_found_by_their_expressions() {
     let (model, system) = compile(PENDULUM);
     let view = &model.views[0];
     let place = |c: &model::Channel| system.channel_of(c.expression);
-    assert_eq!(view.x.as_ref().and_then(place), Some(0));
-    assert_eq!(place(&view.y[0]), Some(2));
-    let sine = place(&model.views[1].y[0]).expect("it is watched");
+    assert_eq!(place(&view.axes[0][0]), Some(0));
+    assert_eq!(place(&view.axes[1][0]), Some(2));
+    let sine = place(&model.views[1].axes[0][0]).expect("it is watched");
     assert_eq!(system.channels()[sine].kind, ChannelKind::Expression);
     assert!(sine >= system.columns());
     let state = system.initial(0.0, &parameters(&model), &[]).expect("regular");

@@ -4,8 +4,11 @@
 //! In: a model and what follows from it. Out: a mistake for each claim that is false, at its
 //! place. What is proved symbolically is not integrated. Never here: how claims are written.
 
-use super::brackets::false_brackets;
-use super::start;
+mod brackets;
+mod start;
+
+use brackets::false_brackets;
+
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol};
@@ -73,7 +76,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
             return mistakes;
         }
     };
-    match ClaimRun::begin(model, equations, &system) {
+    match Motion::begin(model, equations, &system) {
         Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
         Err(mistake) => mistakes.push(mistake),
     }
@@ -164,7 +167,7 @@ fn own_method_starts(model: &Model, system: &System, state: &State, parameters: 
 }
 
 /// The motion that claims are held against.
-struct ClaimRun<'a> {
+struct Motion<'a> {
     system: &'a System,
     course: integrate::Propagator,
     observer: Observer,
@@ -206,13 +209,13 @@ fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     constraint.map_or(0..0, |c| c.place.clone())
 }
 
-impl<'a> ClaimRun<'a> {
+impl<'a> Motion<'a> {
     /// The motion at its start, of which the first step is known to succeed.
     fn begin(
         model: &Model,
         equations: &Equations,
         system: &'a System,
-    ) -> Result<ClaimRun<'a>, Diagnostic> {
+    ) -> Result<Motion<'a>, Diagnostic> {
         let refused = |place: SourceRange, why: String| {
             Diagnostic::error(place, format!("the motion cannot begin: {why}"))
         };
@@ -222,7 +225,7 @@ impl<'a> ClaimRun<'a> {
         let course = integrate::Propagator::new(system, method, Settings::default(), &parameters);
         let course = course.map_err(|refusal| refused(0..0, refusal.to_string()))?;
         let allowed = steps_for(equations);
-        let mut motion = ClaimRun {
+        let mut motion = Motion {
             system,
             course,
             observer: system.observer(&parameters),

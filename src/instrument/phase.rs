@@ -1,0 +1,208 @@
+//! `phase`: one quantity against another, with its fading trail and, for one degree of freedom, the level curves of the
+//! energy behind it.
+//!
+//! The level curves are its job: they are surveyed anew only where a parameter changed or the motion left the window.
+
+use std::sync::Arc;
+
+use super::{
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need,
+    Offer, Physics, Picture, Plot, Present, Sign, Upwards,
+};
+use crate::analysis::{Landscape, Plane};
+use crate::job::Job;
+use crate::system::{ChannelKind, Form, InitialOverride, System};
+
+/// The levels of the picture; separatrices lie between the first two.
+const LEVELS: Level = 0;
+const TRAIL: Level = 2;
+const MARK: Level = 3;
+const NOW: Level = 4;
+
+/// The row.
+pub(super) struct Phase;
+
+/// A landscape and what it was surveyed for.
+struct Survey {
+    /// Nothing where there is no energy to be seen.
+    landscape: Option<Arc<Landscape>>,
+    parameters: Vec<f64>,
+    motion: [[f64; 2]; 2],
+    periodic: bool,
+}
+
+impl Instrument for Phase {
+    fn name(&self) -> &'static str {
+        "phase"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::ACROSS, Axis::UPWARDS]
+    }
+
+    fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {
+        let pair = |(i, x)| Some(vec![vec![x], vec![physics.channel(ChannelKind::Momentum(i))?]]);
+        physics.positions().filter_map(pair).collect()
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |(index, channel): (usize, &crate::system::Channel)| {
+            let unit = match channel.unit.as_str() {
+                "" => String::new(),
+                unit => format!(" [{unit}]"),
+            };
+            Offer {
+                label: channel.shown.clone(),
+                about: format!("{}{unit}", channel.name),
+                columns: vec![vec![index]],
+                view: None,
+            }
+        };
+        physics.named().map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
+        format!("{y} against {x}")
+    }
+
+    fn lead(&self) -> &'static str {
+        "phase plane, "
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let title = plot.title(present.physics);
+        Some(Heading {
+            title: title.unwrap_or("Phase").to_owned(),
+            given: title.is_some(),
+            entries: vec![
+                Entry::Channel(plot.column(0)?),
+                Entry::Channel(plot.column(1)?),
+                Entry::Happenings,
+            ],
+        })
+    }
+
+    fn across(&self, plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let window = landscape(answer).map(|landscape| landscape.window[0]);
+        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, window))
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let [x, y] = [plot.column(0)?, plot.column(1)?];
+        let landscape = landscape(answer);
+        let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
+        let now = Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent);
+        let layers = levels.into_iter().chain([(TRAIL, Layer::Trail([x, y])), (NOW, now)]);
+        Some(Picture::Axes {
+            upwards: Upwards::Channel(y, landscape.map(|landscape| landscape.window[1])),
+            layers: layers.collect(),
+            occurrences: Some((MARK, [Some(x), Some(y)])),
+        })
+    }
+
+    /// A point stands for initial values where both axes are of the state, and not of one value.
+    fn start(
+        &self,
+        plot: &Plot,
+        physics: Physics<'_>,
+        at: [f64; 2],
+    ) -> Option<[InitialOverride; 2]> {
+        let kind = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.kind);
+        let given = |kind: ChannelKind, value: f64| match kind {
+            ChannelKind::Position(i) => Some(((i, false), InitialOverride::Position(i, value))),
+            ChannelKind::Velocity(i) => Some(((i, true), InitialOverride::Velocity(i, value))),
+            ChannelKind::Momentum(i) => Some(((i, true), InitialOverride::Momentum(i, value))),
+            _ => None,
+        };
+        let ((place, first), (other, second)) = (given(kind(0)?, at[0])?, given(kind(1)?, at[1])?);
+        (place != other).then_some([first, second])
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Physics { model, equations, system } = present.physics;
+        let Some((form, channels)) = plane(system, plot) else { return Need::Nothing };
+        let bounds = channels.map(|channel| present.bounds.get(channel).map(|(lo, hi)| [*lo, *hi]));
+        let [Some(x), Some(y)] = bounds else { return Need::Nothing };
+        let motion = [x, y];
+        if let Some(survey) = answer.and_then(Answer::of::<Survey>)
+            && survey.still_holds(present.parameters, motion)
+        {
+            return Need::Held;
+        }
+        // With more degrees of freedom the plane is a shadow of phase space; with explicit time its curves would move.
+        if system.degrees() != 1 || equations.pool.depends(equations.energy, model.symbols.time) {
+            return Need::Nothing;
+        }
+        let (system, parameters, time) =
+            (Arc::clone(system), present.parameters.to_vec(), present.time);
+        let period = system.period(channels[0], &parameters);
+        Need::Job(Job::new("level curves of the energy", move |_| {
+            let parameters = &parameters;
+            let plane = Plane { system: &system, parameters, time, form, period };
+            Answer::new(Survey {
+                landscape: Landscape::survey(&plane, motion).map(Arc::new),
+                parameters: parameters.clone(),
+                motion,
+                periodic: period.is_some(),
+            })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "saddles",
+                about: "how many saddles the energy has in the window",
+                value: |_, _, answer| landscape(answer).map(|l| l.saddles.len() as f64),
+            },
+            Measure {
+                word: "separatrices",
+                about: "how many curves part kinds of motion there",
+                value: |_, _, answer| landscape(answer).map(|l| l.separatrices.len() as f64),
+            },
+        ]
+    }
+}
+
+fn landscape(answer: Option<&Answer>) -> Option<&Arc<Landscape>> {
+    answer?.of::<Survey>()?.landscape.as_ref()
+}
+
+/// The form of the phase plane that a plot shows, and its channels.
+fn plane(system: &System, plot: &Plot) -> Option<(Form, [usize; 2])> {
+    let channels = [plot.column(0)?, plot.column(1)?];
+    let [x, y] = channels.map(|channel| system.channels().get(channel).map(|c| c.kind));
+    match (x?, y?) {
+        (ChannelKind::Position(0), ChannelKind::Velocity(0)) => Some((Form::Velocity, channels)),
+        (ChannelKind::Position(0), ChannelKind::Momentum(0)) => Some((Form::Momentum, channels)),
+        _ => None,
+    }
+}
+
+impl Survey {
+    /// Whether the parameters are the same and the motion neither left the window nor shrank to a small part of it.
+    /// A periodic coordinate wraps, and its window stays.
+    fn still_holds(&self, parameters: &[f64], motion: [[f64; 2]; 2]) -> bool {
+        let Some(landscape) = &self.landscape else {
+            return self.parameters == parameters && self.motion == motion;
+        };
+        let held = |axis: usize| {
+            let [lo, hi] = motion[axis];
+            let [from, to] = landscape.window[axis];
+            let before = self.motion[axis];
+            lo >= from && hi <= to && (hi - lo) >= 0.3 * (before[1] - before[0])
+        };
+        self.parameters == parameters && (self.periodic || held(0)) && held(1)
+    }
+}

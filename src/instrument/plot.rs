@@ -1,0 +1,297 @@
+//! The contents of a pane: a kind, the quantities chosen for it, and how it is looked at.
+//!
+//! In: views of a file, choices, moves. Out: [`Plot`]s, and what is kept of them in a session. Never here: what a single kind
+//! shows.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, is_view_of, named};
+use crate::model::Model;
+use crate::system::Channel;
+
+/// The channels of each axis, in the order of the axes.
+pub type Columns = Vec<Vec<usize>>;
+
+/// The contents of a pane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// What kind it is.
+    pub kind: &'static dyn Instrument,
+    /// What is chosen for its axes.
+    pub columns: Columns,
+    /// The view of the file it shows, where nothing is chosen.
+    pub view: Option<usize>,
+    /// How it is looked at.
+    pub sight: Sight,
+}
+
+/// A plot by the names of what it shows, as a session keeps it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedPlot {
+    /// The kind's name.
+    pub kind: String,
+    /// The view of the file, by its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<usize>,
+    /// Where it is seen from, if through a camera.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eye: Option<CameraPose>,
+    /// The window on its axes, if it has some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "lens")]
+    pub viewport: Option<Viewport>,
+    /// What is chosen for each axis, by its key.
+    #[serde(flatten)]
+    pub axes: BTreeMap<String, Chosen>,
+}
+
+/// What is chosen for an axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Chosen {
+    /// For one that takes one quantity.
+    One(Quantity),
+    /// For one that takes several.
+    Several(Vec<Quantity>),
+}
+
+/// A channel by its name, and by its place where it has none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    name: String,
+    place: usize,
+}
+
+impl Plot {
+    /// A plot of a kind as it is first seen.
+    pub fn new(
+        kind: &'static dyn Instrument,
+        (columns, view): (Columns, Option<usize>),
+        model: &Model,
+    ) -> Self {
+        let (view, sight) = if kind.is_scene() {
+            (None, Sight::Camera(CameraPose::on(model, view)))
+        } else {
+            (view, Sight::Axes(Viewport::WHOLE))
+        };
+        Self { kind, columns, view, sight }
+    }
+
+    /// What the screen opens with: the file's views, then what every system has, so that a large screen is used.
+    pub fn opening(physics: Physics<'_>) -> Vec<Self> {
+        let mut plots: Vec<Self> = Vec::new();
+        let views = 0..physics.model.views.len();
+        let of_file = views.filter_map(|view| Self::of_view(physics, view));
+        let of_every = INSTRUMENTS.into_iter().flat_map(|kind| {
+            let all = kind.opening(physics).into_iter();
+            all.map(move |columns| Self::new(kind, (columns, None), physics.model))
+        });
+        for plot in of_file.chain(of_every) {
+            if !plots.iter().any(|p| p.shows_the_same(&plot, physics.model)) {
+                plots.push(plot);
+            }
+        }
+        plots
+    }
+
+    /// What a view of the file shows; nothing where one of its quantities is no channel.
+    pub fn of_view(physics: Physics<'_>, index: usize) -> Option<Self> {
+        let view = physics.model.views.get(index)?;
+        let kind = named(&view.kind)?;
+        let channel = |c: &crate::model::Channel| physics.system.channel_of(c.expression);
+        let chosen = kind.chosen();
+        let columns: Columns = (chosen.iter().enumerate())
+            .map(|(axis, _)| {
+                view.axes.get(axis).into_iter().flatten().filter_map(channel).collect()
+            })
+            .collect();
+        let whole = columns.iter().all(|column| !column.is_empty());
+        let view = chosen.is_empty().then_some(index);
+        whole.then(|| Self::new(kind, (columns, view), physics.model))
+    }
+
+    /// The only channel, or the first, of an axis.
+    pub fn column(&self, axis: usize) -> Option<usize> {
+        self.columns.get(axis)?.first().copied()
+    }
+
+    /// What it is called without a picture.
+    pub fn words(&self, physics: Physics<'_>) -> String {
+        self.title(physics).map_or_else(|| self.kind.words(self, physics), str::to_owned)
+    }
+
+    /// The title that the file gives to a view of the same quantities.
+    pub fn title<'a>(&self, physics: Physics<'a>) -> Option<&'a str> {
+        let views = physics.model.views.iter().enumerate();
+        let same = |index| {
+            let plot = Self::of_view(physics, index);
+            plot.is_some_and(|plot| plot.shows_the_same(self, physics.model))
+        };
+        let titled = views.filter(|(_, view)| !view.title.is_empty());
+        titled.filter(|(index, _)| same(*index)).map(|(_, view)| view.title.as_str()).next()
+    }
+
+    /// Whether both show the same, however they are looked at.
+    pub fn shows_the_same(&self, other: &Self, model: &Model) -> bool {
+        let seen = |plot: &Self| match plot.sight {
+            Sight::Camera(eye) => Some((eye.frame, eye.own_shapes(model))),
+            Sight::Axes(_) => None,
+        };
+        self.kind == other.kind
+            && self.columns == other.columns
+            && self.view == other.view
+            && seen(self) == seen(other)
+    }
+
+    /// Whether the other shows the same from another place: turned, moved, closer or with another cursor.
+    pub fn differs_smoothly(&self, other: &Self) -> bool {
+        self.at_rest() == other.at_rest()
+    }
+
+    /// The same seen from the place of the beginning.
+    fn at_rest(&self) -> Self {
+        let sight = match self.sight {
+            Sight::Camera(eye) => Sight::Camera(eye.at_rest()),
+            Sight::Axes(viewport) => Sight::Axes(viewport.at_rest()),
+        };
+        Self { sight, ..self.clone() }
+    }
+
+    /// Turns the picture, or moves the window, by steps to the right and upwards.
+    pub fn shift(&mut self, [right, up]: [f64; 2]) {
+        match &mut self.sight {
+            Sight::Camera(eye) => eye.turn(-right * PI / 24.0, up * PI / 24.0),
+            Sight::Axes(viewport) => viewport.shift([right, up]),
+        }
+    }
+
+    /// Looks closer or from farther away: across, upwards, or both.
+    pub fn zoom(&mut self, factor: f64, axes: [bool; 2]) {
+        let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
+        match &mut self.sight {
+            Sight::Camera(eye) => nearer(&mut eye.zoom),
+            Sight::Axes(viewport) => {
+                let chosen = viewport.zoom.iter_mut().zip(axes).filter(|(_, chosen)| *chosen);
+                chosen.for_each(|(zoom, _)| nearer(zoom));
+            }
+        }
+    }
+
+    /// What the mouse holds goes with it, by parts of the width and of the height: the picture turns, the window moves.
+    pub fn drag(&mut self, by: [f64; 2]) {
+        match &mut self.sight {
+            Sight::Camera(eye) => eye.turn(-by[0] * PI, -by[1] * PI),
+            Sight::Axes(viewport) => viewport.pan = [0, 1].map(|k| viewport.pan[k] - by[k]),
+        }
+    }
+
+    /// Looks closer or from farther away, so that what is at a place (parts of the width and of the height) stays there.
+    pub fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
+        let anchor = [self.kind.anchor(), 0.5];
+        let before = self.viewport().map(|viewport| viewport.zoom);
+        self.zoom(factor, [true; 2]);
+        if let (Some(before), Some(viewport)) = (before, self.viewport_mut()) {
+            viewport.pan = [0, 1].map(|k| {
+                let nearer = viewport.zoom[k] / before[k];
+                (viewport.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
+            });
+        }
+    }
+
+    /// Where it is seen from, if through a camera.
+    pub fn eye(&self) -> Option<CameraPose> {
+        match self.sight {
+            Sight::Camera(eye) => Some(eye),
+            Sight::Axes(_) => None,
+        }
+    }
+
+    /// The window on its axes, if it has some.
+    pub fn viewport(&self) -> Option<Viewport> {
+        match self.sight {
+            Sight::Camera(_) => None,
+            Sight::Axes(viewport) => Some(viewport),
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn viewport_mut(&mut self) -> Option<&mut Viewport> {
+        match &mut self.sight {
+            Sight::Camera(_) => None,
+            Sight::Axes(viewport) => Some(viewport),
+        }
+    }
+
+    /// The view as it was at first.
+    pub fn home(&mut self, model: &Model) {
+        self.sight = match self.sight {
+            Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
+            Sight::Axes(_) => Sight::Axes(Viewport::WHOLE),
+        };
+    }
+}
+
+impl SavedPlot {
+    /// A plot as it is kept.
+    pub fn of(plot: &Plot, physics: Physics<'_>) -> Self {
+        let quantity = |&place: &usize| {
+            let channel = physics.system.channels().get(place);
+            Quantity { name: channel.map_or_else(String::new, |c| c.name.clone()), place }
+        };
+        let axes = plot.kind.chosen().iter().zip(&plot.columns).filter_map(|(axis, column)| {
+            let mut quantities = column.iter().map(quantity);
+            let chosen = if axis.several {
+                Chosen::Several(quantities.collect())
+            } else {
+                Chosen::One(quantities.next()?)
+            };
+            Some((axis.key.to_owned(), chosen))
+        });
+        Self {
+            kind: plot.kind.name().to_owned(),
+            view: plot.view,
+            eye: plot.eye(),
+            viewport: plot.viewport(),
+            axes: axes.collect(),
+        }
+    }
+
+    /// The plot in a system, if that has all it shows.
+    pub fn place(&self, physics: Physics<'_>) -> Option<Plot> {
+        let (model, channels) = (physics.model, physics.system.channels());
+        let kind = named(&self.kind)?;
+        let channel = |quantity: &Quantity| {
+            let named = |c: &Channel| c.name == quantity.name;
+            match quantity.name.as_str() {
+                "" => Some(quantity.place).filter(|&i| channels.get(i).is_some_and(named)),
+                _ => channels.iter().position(named),
+            }
+        };
+        let column = |key: &str| -> Option<Vec<usize>> {
+            let found: Vec<usize> = match self.axes.get(key)? {
+                Chosen::One(quantity) => channel(quantity).into_iter().collect(),
+                Chosen::Several(all) => all.iter().filter_map(channel).collect(),
+            };
+            (!found.is_empty()).then_some(found)
+        };
+        let columns = kind.chosen().iter().map(|axis| column(axis.key)).collect::<Option<_>>()?;
+        let sight = match (kind.is_scene(), self.eye, self.viewport) {
+            (true, Some(eye), _) => {
+                let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
+                let viewed = eye.view.is_none_or(|view| is_view_of(model, view, kind));
+                let fits = framed && viewed && !eye.shapes(model).is_empty();
+                fits.then_some(Sight::Camera(eye))?
+            }
+            (false, _, Some(viewport)) => Sight::Axes(viewport),
+            _ => return None,
+        };
+        // of what nothing is chosen a view of the file is shown
+        let needs_view = kind.chosen().is_empty() && !kind.is_scene();
+        let viewed = self.view.is_some_and(|view| is_view_of(model, view, kind));
+        let view = self.view.filter(|_| needs_view);
+        (!needs_view || viewed).then_some(Plot { kind, columns, view, sight })
+    }
+}

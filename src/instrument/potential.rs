@@ -1,0 +1,168 @@
+//! `potential`: a potential along one coordinate, all else held at the present, with the energy as a line over it and
+//! where the motion is allowed.
+
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics, Picture,
+    Plot, Present, Sign, Stroke, Upwards,
+};
+use crate::expr::{Expr, Symbol};
+
+/// The levels of the picture.
+const ALLOWED: Level = 0;
+const ENERGY: Level = 1;
+const CURVE: Level = 2;
+const NOW: Level = 3;
+
+/// Points of the curve.
+const POINTS: usize = 240;
+
+/// Share of the dots drawn where the motion is allowed.
+const SHADE: f64 = 0.12;
+
+/// What is shown beyond the turning points, in parts of the way between them.
+const BEYOND: f64 = 0.4;
+
+/// The row.
+pub(super) struct Potential;
+
+/// The potential of a view of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    /// The channel of the coordinate.
+    pub x: usize,
+    /// The channel of the potential.
+    pub y: usize,
+    coordinate: Symbol,
+    expression: Expr,
+}
+
+impl Along {
+    /// The potential of a view of a system.
+    pub fn of(physics: Physics<'_>, view: usize) -> Option<Self> {
+        let Physics { model, system, .. } = physics;
+        let view = model.views.get(view).filter(|view| view.kind == Potential.name())?;
+        let [across, up] = [0, 1].map(|axis| Some(view.axes.get(axis)?.first()?.expression));
+        Some(Self {
+            x: system.channel_of(across?)?,
+            y: system.channel_of(up?)?,
+            coordinate: model.pool.as_symbol(across?)?,
+            expression: up?,
+        })
+    }
+
+    /// The value where the coordinate has another value, and velocities, momenta and all else those of the present.
+    pub fn at(&self, present: &Present<'_>, x: f64) -> f64 {
+        let at = |symbol| if symbol == self.coordinate { x } else { present.now(symbol) };
+        present.physics.model.pool.evaluate(self.expression, &at)
+    }
+}
+
+impl Instrument for Potential {
+    fn name(&self) -> &'static str {
+        "potential"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const { &[Axis { coordinate: true, ..Axis::ACROSS }, Axis::UPWARDS] }
+    }
+
+    fn chosen(&self) -> &'static [Axis] {
+        &[]
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let views = physics.model.views.iter().enumerate();
+        let offer = |(index, view): (usize, &crate::model::View)| {
+            let [x, y] = [0, 1].map(|axis| view.axes.get(axis)?.first());
+            Some(Offer {
+                label: format!("potential over {}", x?.written),
+                about: y?.written.clone(),
+                columns: Vec::new(),
+                view: Some(index),
+            })
+        };
+        views.filter(|(_, view)| view.kind == self.name()).filter_map(offer).collect()
+    }
+
+    fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {
+        "potential".to_owned()
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let along = Along::of(present.physics, plot.view?)?;
+        let title = present.physics.model.views.get(plot.view?).map_or("", |view| &view.title);
+        let energy = present.now(present.physics.model.symbols.energy);
+        Some(Heading {
+            title: if title.is_empty() { "Potential" } else { title }.to_owned(),
+            given: !title.is_empty(),
+            entries: vec![
+                Entry::Channel(along.x),
+                Entry::Channel(along.y),
+                Entry::Number("E".to_owned(), energy),
+            ],
+        })
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        let along = plot.view.and_then(|view| Along::of(present.physics, view));
+        along.map_or(Across::Nothing, |along| {
+            Across::Channel(along.x, Some(range(present, along.x)))
+        })
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        [from, to]: [f64; 2],
+        _answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let along = Along::of(present.physics, plot.view?)?;
+        let energy = present.now(present.physics.model.symbols.energy);
+        let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;
+        let curve: Vec<[f64; 2]> = (0..POINTS).map(|i| [x(i), along.at(present, x(i))]).collect();
+        let now = [present.value(along.x), present.value(along.y)];
+        let mut layers = Vec::new();
+        for pair in curve.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let allowed = a[1] <= energy && b[1] <= energy;
+            let [left, right] = [[a[0], energy], [b[0], energy]];
+            let (line, bright) =
+                if allowed { (Ink::Warn, Ink::Accent) } else { (Ink::Level, Ink::Plain) };
+            if allowed {
+                let stroke = Stroke { ink: Ink::Level, covering: Some(SHADE) };
+                layers.push((ALLOWED, Layer::Line(vec![a, left], stroke)));
+            }
+            layers.push((ENERGY, Layer::Line(vec![left, right], line.into())));
+            layers.push((CURVE, Layer::Line(vec![a, b], bright.into())));
+        }
+        layers.push((NOW, Layer::Point([now[0], energy], Sign::Ring, Ink::Warn)));
+        layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+        let upwards = Upwards::Around(along.y, height(&curve, energy, now[1]));
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+}
+
+/// The range of a coordinate: one period, or somewhat more than the motion has reached.
+fn range(present: &Present<'_>, channel: usize) -> [f64; 2] {
+    if let Some(period) = present.physics.system.period(channel, present.parameters) {
+        return [-period / 2.0, period / 2.0];
+    }
+    let (lo, hi) = present.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN));
+    let reached = (hi - lo).max(0.1 * lo.abs().max(hi.abs())).max(f64::MIN_POSITIVE);
+    // What has kept its sign all the time, as a distance does, is not shown beyond zero.
+    let low = lo - BEYOND * reached;
+    let low = if lo > 0.0 { low.max(0.05 * lo) } else { low };
+    [low, hi + BEYOND * reached]
+}
+
+/// From the bottom of the curve to well above the energy.
+fn height(curve: &[[f64; 2]], energy: f64, now: f64) -> [f64; 2] {
+    let finite = |v: &f64| v.is_finite();
+    let values = curve.iter().map(|point| point[1]).filter(finite);
+    let bottom = values.clone().fold(f64::INFINITY, f64::min).min(now).min(energy);
+    let top = values.fold(f64::NEG_INFINITY, f64::max).max(energy);
+    let deep = energy - bottom;
+    let room = if deep > 1e-9 * energy.abs().max(bottom.abs()) { deep } else { top - bottom };
+    [bottom - 0.1 * room, (energy + 0.6 * room).min(top.max(energy + 0.1 * room))]
+}

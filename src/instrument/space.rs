@@ -1,0 +1,67 @@
+//! `space`: the motion in space, the shapes of the file through a camera.
+
+use super::{
+    Across, Answer, Columns, Entry, Heading, Instrument, Offer, Physics, Picture, Plot, Present,
+};
+
+/// The row.
+pub(super) struct Space;
+
+impl Instrument for Space {
+    fn name(&self) -> &'static str {
+        "space"
+    }
+
+    fn is_scene(&self) -> bool {
+        true
+    }
+
+    fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {
+        if physics.model.space.is_empty() { Vec::new() } else { vec![Vec::new()] }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |columns| Offer {
+            label: "motion in space".to_owned(),
+            about: "the picture of the thing itself".to_owned(),
+            columns,
+            view: None,
+        };
+        self.opening(physics).into_iter().map(offer).collect()
+    }
+
+    fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {
+        "motion in space".to_owned()
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let (eye, model) = (plot.eye()?, present.physics.model);
+        let view = eye.view.and_then(|view| model.views.get(view));
+        // A view's title speaks of the frame that the file gave it.
+        let own = view.filter(|view| view.frame == eye.frame && !view.title.is_empty());
+        let frame = eye.frame.and_then(|frame| model.frames.get(frame));
+        let seen = |name: &str| Entry::Words(format!("seen from {name}"));
+        Some(match own {
+            Some(view) => Heading { title: view.title.clone(), given: true, entries: Vec::new() },
+            None => Heading {
+                title: "Motion".to_owned(),
+                given: false,
+                entries: frame.map(|frame| seen(&frame.name)).into_iter().collect(),
+            },
+        })
+    }
+
+    fn across(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        Across::Nothing
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        _present: &Present<'_>,
+        _seen: [f64; 2],
+        _answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        plot.eye().map(Picture::Scene)
+    }
+}

@@ -1,0 +1,81 @@
+//! `time`: quantities against time, each in its colour.
+
+use super::{
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics,
+    Picture, Plot, Present, Sign, Upwards,
+};
+
+/// The levels of the picture: no curve lies over the marks, and these not over where the motion is.
+const CURVES: Level = 200;
+const MARK: Level = 201;
+const NOW: Level = 202;
+
+/// The row.
+pub(super) struct Time;
+
+impl Instrument for Time {
+    fn name(&self) -> &'static str {
+        "time"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis { several: true, ..Axis::UPWARDS }]
+    }
+
+    /// The window ends at the present.
+    fn anchor(&self) -> f64 {
+        1.0
+    }
+
+    fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {
+        physics.positions().map(|(_, channel)| vec![vec![channel]]).collect()
+    }
+
+    fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
+        vec![Offer {
+            label: "t".to_owned(),
+            about: "time, with one or several quantities upwards".to_owned(),
+            columns: Columns::new(),
+            view: None,
+        }]
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let shown = plot.columns.iter().flatten().map(|channel| physics.shown(*channel));
+        format!("{} against t", shown.collect::<Vec<_>>().join(", "))
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let title = plot.title(present.physics);
+        let curves = plot.columns.first()?.iter().enumerate();
+        let mut entries: Vec<Entry> =
+            curves.map(|(i, channel)| Entry::Curve(i, *channel)).collect();
+        entries.push(Entry::Happenings);
+        Some(Heading { title: title.unwrap_or("Time").to_owned(), given: title.is_some(), entries })
+    }
+
+    fn across(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        Across::Time
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        _answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let channels = plot.columns.first()?;
+        let curve = |(index, &channel): (usize, &usize)| {
+            let level = (channels.len() - index).min(usize::from(CURVES)) as Level;
+            let now = [present.time, present.value(channel)];
+            [
+                (level, Layer::Curve { index, channel }),
+                (NOW, Layer::Point(now, Sign::Disc, Ink::Curve(index))),
+            ]
+        };
+        let layers = channels.iter().enumerate().rev().flat_map(curve).collect();
+        let occurrences = Some((MARK, [None, channels.first().copied()]));
+        Some(Picture::Axes { upwards: Upwards::Shared(channels.clone()), layers, occurrences })
+    }
+}

@@ -1,0 +1,187 @@
+//! A job: a computation on the side of the one experiment, with a name, progress, a token that stops it, and a result.
+//!
+//! In: what is to be computed. Out: an [`Outcome`]. It runs wherever it is called: on a thread of its own in the
+//! laboratory, at once where nobody waits for a frame. Never here: threads, clocks, or what is computed.
+
+use std::any::Any;
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::cancel::Cancel;
+
+/// What a job does: it tells how far it is, looks whether it is to stop, and returns a result.
+type Work<T> = dyn Fn(&Progress) -> T + Send + Sync;
+
+/// A computation that can be carried elsewhere before it runs. The same job gives the same result wherever it runs.
+pub struct Job<T> {
+    /// What it does, in a few words: "level curves of the energy".
+    pub name: String,
+    work: Arc<Work<T>>,
+}
+
+/// What became of a job.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome<T> {
+    /// It ran to its end.
+    Done(T),
+    /// Somebody asked it to stop, so what it returned is not used.
+    Cancelled,
+    /// It could not run to its end; a sentence.
+    Failed(String),
+}
+
+/// How far a job is, and whether it is to stop. Clones share both.
+#[derive(Clone, Debug, Default)]
+pub struct Progress {
+    cancel: Cancel,
+    done: Arc<AtomicU64>,
+    total: Arc<AtomicU64>,
+}
+
+/// How far a job is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Share {
+    /// How much is done. It never becomes less.
+    pub done: u64,
+    /// Of how much; `None` where that is not known.
+    pub total: Option<u64>,
+}
+
+impl<T> Job<T> {
+    /// A job of a name.
+    pub fn new(
+        name: impl Into<String>,
+        work: impl Fn(&Progress) -> T + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), work: Arc::new(work) }
+    }
+
+    /// Runs it to its end. A panic is caught and reported.
+    pub fn run(&self, progress: &Progress) -> Outcome<T> {
+        // what a panic leaves undone belongs to the job alone, and is dropped with it
+        let made = catch_unwind(AssertUnwindSafe(|| (self.work)(progress)));
+        match made {
+            _ if progress.is_cancelled() => Outcome::Cancelled,
+            Ok(result) => Outcome::Done(result),
+            Err(panic) => Outcome::Failed(format!(
+                "{} stopped by a defect of the program: {}",
+                self.name,
+                reason(panic.as_ref())
+            )),
+        }
+    }
+}
+
+/// What a panic says.
+fn reason(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given")
+}
+
+impl<T> Clone for Job<T> {
+    fn clone(&self) -> Self {
+        Self { name: self.name.clone(), work: Arc::clone(&self.work) }
+    }
+}
+
+impl<T> fmt::Debug for Job<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Job").field(&self.name).finish()
+    }
+}
+
+/// Jobs are equal where they are the same job.
+impl<T> PartialEq for Job<T> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.work, &other.work)
+    }
+}
+
+impl Progress {
+    /// Nothing is done, and nobody has asked to stop.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The token that stops the job, for what it calls.
+    pub fn token(&self) -> &Cancel {
+        &self.cancel
+    }
+
+    /// Asks the job to stop.
+    pub fn cancel(&self) {
+        self.cancel.cancel();
+    }
+
+    /// Whether somebody asked it to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+
+    /// How much there is to do.
+    pub fn expect(&self, total: u64) {
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    /// So much is done; less than before is not taken.
+    pub fn reach(&self, done: u64) {
+        self.done.fetch_max(done, Ordering::Relaxed);
+    }
+
+    /// How far the job is.
+    pub fn share(&self) -> Share {
+        let total = self.total.load(Ordering::Relaxed);
+        let done = self.done.load(Ordering::Relaxed);
+        let known = (total > 0).then_some(total);
+        Share { done: known.map_or(done, |total| done.min(total)), total: known }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counting() -> Job<u64> {
+        Job::new("counting", |progress| {
+            progress.expect(10);
+            let counted = (1..=10).take_while(|_| !progress.is_cancelled());
+            counted.inspect(|done| progress.reach(*done)).count() as u64
+        })
+    }
+
+    #[test]
+    fn a_job_gives_its_result_and_says_how_far_it_is() {
+        let progress = Progress::new();
+        assert_eq!(progress.share(), Share { done: 0, total: None });
+        assert_eq!(counting().run(&progress), Outcome::Done(10));
+        assert_eq!(progress.share(), Share { done: 10, total: Some(10) });
+    }
+
+    #[test]
+    fn progress_never_becomes_less_nor_more_than_all() {
+        let progress = Progress::new();
+        for (done, shown) in [(3, 3), (2, 3), (7, 7), (0, 7), (40, 40)] {
+            progress.reach(done);
+            assert_eq!(progress.share().done, shown);
+        }
+        progress.expect(20);
+        assert_eq!(progress.share(), Share { done: 20, total: Some(20) });
+    }
+
+    #[test]
+    fn a_job_asked_to_stop_gives_no_result() {
+        let progress = Progress::new();
+        progress.cancel();
+        assert_eq!(counting().run(&progress), Outcome::Cancelled);
+        assert_eq!(progress.share().done, 0);
+    }
+
+    #[test]
+    fn a_panic_is_reported_with_the_name_of_the_job() {
+        let job: Job<()> = Job::new("the search", |_| panic!("no way"));
+        let told = "the search stopped by a defect of the program: no way".to_owned();
+        assert_eq!(job.run(&Progress::new()), Outcome::Failed(told));
+    }
+}

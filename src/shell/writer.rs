@@ -1,0 +1,86 @@
+//! The writer: one file that a key asked for, made and written on the side, so that no key waits for the disk.
+//!
+//! In: what is to be done. Out: a sentence on what became of it, once. One at a time, and none is given up for the next.
+//! Never here: what is written.
+
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use crate::job::{Job, Outcome};
+use crate::worker::Side;
+
+/// What became of it, as a sentence for the user.
+pub(super) type Told = Result<String, String>;
+
+/// The file being written, if there is one.
+#[derive(Debug)]
+pub(super) struct Writer {
+    side: Side<Told>,
+}
+
+impl Writer {
+    /// A writer with nothing to do.
+    pub(super) fn new() -> Self {
+        Self { side: Side::new("writer") }
+    }
+
+    /// Begins to write.
+    ///
+    /// # Errors
+    /// Where a file is being written.
+    pub(super) fn begin(
+        &mut self,
+        work: impl FnOnce() -> Told + Send + 'static,
+    ) -> Result<(), String> {
+        if self.side.is_busy() {
+            return Err("A file is still being written; ask again when it is there.".to_owned());
+        }
+        // a file is written once, though a job could be run again
+        let work = Mutex::new(Some(work));
+        let job = Job::new("The writing of the file", move |_| {
+            let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
+            work.map_or_else(|| Err("The file was written before.".to_owned()), |work| work())
+        });
+        self.side.begin(0, job);
+        Ok(())
+    }
+
+    /// What became of it, once it has ended.
+    pub(super) fn take(&mut self) -> Option<Told> {
+        self.side.take().and_then(|(_, outcome)| told(outcome))
+    }
+
+    /// The same, waited for so long; `None` where there was none, or it takes longer.
+    pub(super) fn wait(&mut self, time: Duration) -> Option<Told> {
+        self.side.wait(time).and_then(told)
+    }
+}
+
+fn told(outcome: Outcome<Told>) -> Option<Told> {
+    match outcome {
+        Outcome::Done(told) => Some(told),
+        Outcome::Failed(sentence) => Some(Err(format!("{sentence}."))),
+        Outcome::Cancelled => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use super::*;
+
+    #[test]
+    fn there_is_one_at_a_time_and_it_is_reported_once() {
+        let (go, wait) = channel::<()>();
+        let mut writer = Writer::new();
+        let work = move || wait.recv().map(|()| "done".to_owned()).map_err(|why| why.to_string());
+        assert_eq!(writer.begin(work), Ok(()));
+        assert_eq!(writer.take(), None);
+        assert!(writer.begin(|| Ok(String::new())).is_err(), "one is under way");
+        go.send(()).expect("it waits");
+        assert_eq!(writer.wait(Duration::from_secs(20)), Some(Ok("done".to_owned())));
+        assert_eq!(writer.take(), None);
+        assert_eq!(writer.begin(|| Ok(String::new())), Ok(()));
+    }
+}

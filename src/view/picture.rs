@@ -1,0 +1,297 @@
+//! The picture of any plot: what its instrument describes, in the characters and colours of this terminal.
+//!
+//! In: a plot, its picture as data, the trail. Out: cells, and where the axes stand. Never here: what a single kind of plot
+//! shows.
+
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use super::canvas::{Canvas, Span, groups, wide};
+use super::colour::ColourDepth;
+use super::marks::{self, Marks};
+use super::number::readable;
+use super::plot::ticks::nice_range;
+use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
+use super::quantity::{Quantities, through};
+use super::theme::Role;
+use super::{cursor, space};
+use crate::analysis::{Curve, Landscape};
+use crate::instrument::{
+    Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
+};
+
+/// For how many seconds of the wall clock, at the file's own speed, a window on time reaches back.
+const SECONDS: f64 = 20.0;
+
+/// A level curve is left out if others share its cells along more than this part of its way, in ASCII and with dots.
+const CROWDED: [f64; 2] = [0.25, 0.35];
+
+/// In more cells than this all levels have room.
+const ROOMY: u32 = 2000;
+
+/// The heading: what is shown, the present values as far as they have room, and what is being computed.
+pub(super) fn title(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    plot: &Plot,
+    room: usize,
+) -> Vec<Span> {
+    let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
+    let mut pieces = vec![vec![canvas.span(Role::Title, &heading.title)]];
+    let curves = curves(&heading);
+    if curves.is_empty() {
+        pieces.extend(heading.entries.iter().map(|entry| piece(canvas, q, entry)));
+    } else {
+        pieces = keys(canvas, q, &heading, &curves, room);
+    }
+    if let Some(eye) = plot.eye().filter(|eye| eye.zoom != 1.0) {
+        let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
+        pieces.push(vec![canvas.span(Role::Dim, format!("  ×{zoom}"))]);
+    }
+    if let Some(told) = q.lab.under_way(plot).and_then(crate::app::UnderWay::told) {
+        pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {told}"))]);
+    }
+    groups(pieces, room)
+}
+
+/// An entry of a heading that is no curve.
+fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
+    let valued = |name: &str, value: f64| {
+        let value = readable(value, 4, canvas.look.glyphs);
+        vec![
+            canvas.span(Role::Dim, format!("  {name}")),
+            canvas.span(Role::Accent, format!(" {value:<8}")),
+        ]
+    };
+    match entry {
+        Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
+        Entry::Number(name, value) => valued(name, *value),
+        Entry::Words(words) => vec![canvas.span(Role::Dim, format!("  {words}"))],
+        Entry::Happenings => marks::legend(canvas, q),
+        Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
+    }
+}
+
+/// The curves of a heading: their numbers and channels.
+fn curves(heading: &Heading) -> Vec<(usize, usize)> {
+    let curve = |entry: &Entry| match entry {
+        Entry::Curve(index, channel) => Some((*index, *channel)),
+        _ => None,
+    };
+    heading.entries.iter().filter_map(curve).collect()
+}
+
+/// Each curve in its colour with its present value; where not all have room, without the values.
+fn keys(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    heading: &Heading,
+    curves: &[(usize, usize)],
+    room: usize,
+) -> Vec<Vec<Span>> {
+    let head = vec![canvas.span(Role::Title, &heading.title)];
+    let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
+    let valued = named().zip(curves).map(|(mut key, (_, channel))| {
+        let value = readable(q.value(*channel), 4, canvas.look.glyphs);
+        key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+        key
+    });
+    let (valued, mut named): (Vec<_>, Vec<_>) = (valued.collect(), named().collect());
+    if wide(&[head.clone(), valued.concat()].concat()) <= room {
+        let others = heading.entries.iter().filter(|entry| !matches!(entry, Entry::Curve(..)));
+        let others = others.map(|entry| piece(canvas, q, entry)).collect();
+        [vec![head], valued, others].concat()
+    } else if heading.given {
+        [vec![head], named].concat()
+    } else {
+        // What a curve is called is worth more than what the picture is.
+        if let Some((first, _)) = named.first_mut().and_then(|key| key.first_mut()) {
+            *first = first.trim_start().to_owned();
+        }
+        named
+    }
+}
+
+/// How a curve is drawn, and what it is called.
+fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
+    let theme = &canvas.look.theme;
+    let [unicode, ascii] = theme.series(index).dash.sample();
+    let sample = canvas.look.glyphs.pick(unicode, ascii);
+    // A colour is seen on one character, a pattern on three.
+    let plain = theme.depth() != ColourDepth::None;
+    let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
+    vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
+}
+
+/// Draws the picture, and says where its axes stand, if it has some.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    q: &Quantities<'_>,
+    plot: &Plot,
+) -> Option<Frame> {
+    let (present, answer) = (q.present(), q.lab.answer(plot));
+    let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
+    let across = match plot.kind.across(plot, &present, answer) {
+        Across::Nothing => None,
+        Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
+        Across::Time => Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport))),
+    };
+    let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
+    let (upwards, layers, occurrences) = match plot.kind.picture(plot, &present, seen, answer)? {
+        Picture::Scene(eye) => {
+            space::draw(canvas, area, q, &eye);
+            return None;
+        }
+        Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
+    };
+    let look = canvas.look;
+    let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
+    let axes = if viewport.equal { axes.equal() } else { axes };
+    let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
+    let mut raster = Raster::new(frame.area, look.glyphs);
+    for (level, layer) in &layers {
+        draw_layer(canvas, &mut raster, (&frame, q), (*level, layer));
+    }
+    let marks = occurrences.map_or_else(Marks::none, |(level, columns)| {
+        let place = |row: &[f64]| {
+            let [x, y] = columns.map(|column| row.get(column.map_or(0, |c| 1 + c)).copied());
+            Some([x?, y?])
+        };
+        let marks = Marks::of(q, place);
+        marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], level));
+        marks
+    });
+    raster.draw(canvas.buffer);
+    cursor::draw(canvas, area, &frame, (viewport, &marks));
+    Some(frame)
+}
+
+fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Axis {
+    match upwards {
+        Upwards::Channel(channel, range) => q.axis(*channel, *range, (viewport, 1)),
+        Upwards::Shared(channels) => common_axis(q, channels, viewport),
+        Upwards::Around(channel, [low, high]) => {
+            let (lo, hi) = nice_range(*low, *high);
+            let scale = through(Scale::linear(lo, hi), (viewport, 1));
+            Axis::new(q.name(*channel), q.unit(*channel), scale)
+        }
+    }
+}
+
+fn draw_layer(
+    canvas: &Canvas<'_>,
+    raster: &mut Raster,
+    (frame, q): (&Frame, &Quantities<'_>),
+    (level, layer): (Level, &Layer),
+) {
+    let look = canvas.look;
+    match layer {
+        Layer::Landscape(landscape) => levels(canvas, raster, frame, landscape, level),
+        Layer::Trail([x, y]) => {
+            let rows = q.snapshot.trail.rows();
+            let past = rows.filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+            let points: Vec<_> = past.chain([[q.value(*x), q.value(*y)]]).collect();
+            raster.trail(frame, &points, look.theme.trail(0), level);
+        }
+        Layer::Curve { index, channel } => {
+            let now = [q.snapshot.time, q.value(*channel)];
+            let rows = q.snapshot.trail.rows();
+            let points = rows.filter_map(|row| Some([*row.first()?, *row.get(1 + channel)?]));
+            let shown = points.filter(|point| point[0] >= frame.x.lo - (frame.x.hi - frame.x.lo));
+            let pen = Pen::shaded(look.theme.series(*index), level);
+            raster.polyline(frame, shown.chain([now]), &pen);
+        }
+        Layer::Line(points, stroke) => {
+            let pen = pen(canvas, stroke.ink, level);
+            let pen = match stroke.covering {
+                Some(share) => pen.covering(share),
+                None => pen,
+            };
+            raster.polyline(frame, points.iter().copied(), &pen);
+        }
+        Layer::Point(at, sign, ink) => {
+            let marker = match sign {
+                Sign::Disc => Marker::Disc,
+                Sign::Ring => Marker::Ring,
+            };
+            raster.marker(frame, *at, marker, &pen(canvas, *ink, level));
+        }
+    }
+}
+
+fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
+    let theme = &canvas.look.theme;
+    match ink {
+        Ink::Plain => Pen::new(theme[Role::Text], level),
+        Ink::Accent => Pen::new(theme[Role::Accent], level),
+        Ink::Warn => Pen::new(theme[Role::Warn], level),
+        Ink::Level => Pen::shaded(theme.line(Role::Level), level),
+        Ink::Separatrix => Pen::shaded(theme.line(Role::Separatrix), level),
+        Ink::Curve(index) => Pen::new(theme.curve(index), level),
+    }
+}
+
+/// Separatrices, and as many levels of the energy as have room beside each other.
+fn levels(
+    canvas: &Canvas<'_>,
+    raster: &mut Raster,
+    frame: &Frame,
+    landscape: &Landscape,
+    lowest: Level,
+) {
+    let look = canvas.look;
+    let crowded = look.glyphs.pick(CROWDED[1], CROWDED[0]);
+    let plain = Pen::new(Style::new(), 0);
+    let trace = |raster: &mut Raster, curves: &[Curve], pen: &Pen| {
+        for curve in curves {
+            raster.polyline(frame, curve.iter().copied(), pen);
+        }
+    };
+    let parting = pen(canvas, Ink::Separatrix, lowest + 1);
+    trace(raster, &landscape.separatrices, &parting);
+    let faint = pen(canvas, Ink::Level, lowest);
+    if frame.area.area() > ROOMY && !look.glyphs.is_ascii() {
+        landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
+    } else {
+        let blank = Raster::new(frame.area, look.glyphs);
+        let mut drawn = blank.clone();
+        trace(&mut drawn, &landscape.separatrices, &plain);
+        for level in &landscape.levels {
+            // Curves that fill the same cells are no curves any more.
+            let mut alone = blank.clone();
+            trace(&mut alone, level, &plain);
+            if alone.shared(&drawn) <= crowded {
+                trace(raster, level, &faint);
+                drawn.absorb(&alone);
+            }
+        }
+    }
+    for saddle in &landscape.saddles {
+        raster.marker(frame, *saddle, Marker::Cross, &parting);
+    }
+}
+
+/// The stretch of time shown: it stands still until it is full, then moves along.
+fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
+    let speed = q.lab.loaded.model.run.speed;
+    let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
+    let start = q.lab.loaded.model.run.start;
+    let end = q.snapshot.time.max(start + span);
+    let span = span / viewport.zoom[0];
+    let shift = viewport.pan[0] * span;
+    Scale::linear(end - span + shift, end + shift)
+}
+
+/// One axis for all quantities: their names stand in the frame, the unit here if they share it.
+fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Axis {
+    if let [only] = channels {
+        return q.axis(*only, None, (viewport, 1));
+    }
+    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
+    let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
+    let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
+    let unit = axes.first().map_or("", |axis| &axis.unit);
+    let shared = axes.iter().all(|axis| axis.unit == unit);
+    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (viewport, 1)))
+}

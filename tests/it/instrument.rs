@@ -1,0 +1,257 @@
+//! The table of instruments: every row drawn, named, kept, offered and reported of; and jobs on the side of the lab.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Duration;
+
+use phaselab::app::{App, Asker, Computation, Effect, Event, Saved};
+use phaselab::experiment::{Command, Snapshot};
+use phaselab::instrument::{Answer, INSTRUMENTS, NOT_YET, Plot, SavedPlot, named, offers};
+use phaselab::job::{Outcome, Progress, Share};
+use phaselab::preset;
+
+use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::screen::{rich, rows};
+
+/// The first plot of a kind that the pendulum opens with, which has all of them.
+fn plot(app: &App, name: &str) -> (usize, Plot) {
+    let plots = app.lab.as_ref().unwrap().plots.iter().enumerate();
+    let of_kind = plots.filter(|(_, plot)| plot.kind.name() == name);
+    of_kind.map(|(index, plot)| (index, plot.clone())).next().unwrap_or_else(|| panic!("{name}"))
+}
+
+fn screen(app: &App, width: u16, height: u16) -> Vec<String> {
+    let area = ratatui::layout::Rect::new(0, 0, width, height);
+    let mut buffer = ratatui::buffer::Buffer::empty(area);
+    phaselab::view::draw(app, &rich(), area, &mut buffer);
+    rows(&buffer)
+}
+
+#[test]
+fn every_kind_has_a_name_of_its_own() {
+    let names: Vec<&str> = INSTRUMENTS.iter().map(|kind| kind.name()).chain(NOT_YET).collect();
+    let different: BTreeSet<&str> = names.iter().copied().collect();
+    assert_eq!(different.len(), names.len(), "{names:?}");
+    for kind in INSTRUMENTS {
+        assert!(kind.name().chars().all(|c| c.is_ascii_lowercase()), "{kind:?}");
+        assert!(named(kind.name()).is_some_and(|found| found == kind));
+        let keys: BTreeSet<&str> = kind.written().iter().map(|axis| axis.key).collect();
+        assert_eq!(keys.len(), kind.written().len(), "{kind:?} has an axis twice");
+        for taken in ["kind", "title", "view", "eye", "lens", "frame", "shapes"] {
+            assert!(!keys.contains(taken), "{kind:?} has an axis called {taken}");
+        }
+    }
+}
+
+#[test]
+fn every_kind_is_drawn_told_of_and_kept() {
+    for kind in INSTRUMENTS {
+        let mut app = in_lab();
+        let (index, shown) = plot(&app, kind.name());
+        press(&mut app, &["Tab"].repeat(3 + index).join(" "));
+        press(&mut app, "z");
+        let lab = app.lab.as_ref().unwrap();
+        assert_eq!(lab.focused_plot().unwrap().1, &shown);
+        let drawn = screen(&app, 80, 24);
+        let body = &drawn[2..22];
+        let marks = body.concat().chars().filter(|c| !c.is_whitespace()).count();
+        assert!(marks > 100, "{kind:?} {drawn:#?}");
+        // its title stands in the frame, and its words on the page of plain reading
+        let present = lab.present().unwrap();
+        let heading = kind.heading(&shown, &present).expect("a heading");
+        assert!(drawn[1].contains(&heading.title), "{kind:?} {drawn:#?}");
+        let words = shown.words(lab.loaded.physics());
+        assert!(!words.trim().is_empty() && !kind.words(&shown, present.physics).is_empty());
+        press(&mut app, "9 G");
+        let told = (0..40).any(|_| {
+            press(&mut app, "Up");
+            screen(&app, 80, 24).iter().any(|row| row.contains(&words))
+        });
+        assert!(told, "{kind:?}: {words}");
+    }
+}
+
+#[test]
+fn every_kind_is_kept_in_a_session() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab + x Right");
+    let saved = app.saved().expect("a lab is open");
+    let text = toml::to_string(&saved).expect("it can be written");
+    let read: Saved = toml::from_str(&text).expect("it can be read");
+    let kinds: BTreeSet<&str> = read.plots.iter().map(|plot| plot.kind.as_str()).collect();
+    assert_eq!(kinds, INSTRUMENTS.iter().map(|kind| kind.name()).collect(), "{text}");
+    let pendulum = pendulum();
+    let plots: Vec<Option<Plot>> =
+        read.plots.iter().map(|plot| plot.place(pendulum.physics())).collect();
+    let before = &app.lab.as_ref().unwrap().plots;
+    assert_eq!(plots, before.iter().cloned().map(Some).collect::<Vec<_>>());
+    // a session of another program may name what is not there
+    let strange = SavedPlot { kind: "spiral".to_owned(), ..read.plots[0].clone() };
+    assert_eq!(strange.place(pendulum.physics()), None);
+}
+
+/// What a session of the first version of the form holds of a picture.
+#[test]
+fn sessions_are_read_as_they_were_written_before() {
+    let check = |text: &str, name: &str| {
+        let saved: SavedPlot = toml::from_str(text).expect(text);
+        let plot = saved.place(pendulum().physics()).expect(text);
+        assert_eq!(plot.kind.name(), name);
+        plot
+    };
+    let viewport = "[lens]\nzoom = [1.0, 2.0]\npan = [0.0, 0.5]\nlog = false\n";
+    let eye = "[eye]\nyaw = 0.5\npitch = 0.25\nzoom = 2.0\n";
+    assert_eq!(check(&format!("kind = \"space\"\n{eye}"), "space").eye().unwrap().zoom, 2.0);
+    let axes = "x = { name = \"theta\", place = 0 }\ny = { name = \"p_theta\", place = 2 }\n";
+    let phase = check(&format!("kind = \"phase\"\n{axes}{viewport}"), "phase");
+    assert_eq!((phase.columns, phase.sight), (vec![vec![0], vec![2]], phase.sight));
+    let time = "kind = \"time\"\ny = [{ name = \"theta\", place = 0 }]\n";
+    assert_eq!(check(&format!("{time}{viewport}"), "time").viewport().unwrap().zoom, [1.0, 2.0]);
+    check(&format!("kind = \"potential\"\nview = 3\n{viewport}"), "potential");
+}
+
+#[test]
+fn every_kind_can_be_chosen() {
+    let pendulum = pendulum();
+    let offered = offers(pendulum.physics());
+    for kind in INSTRUMENTS {
+        let own: Vec<_> = offered.iter().filter(|(of, _)| *of == kind).collect();
+        assert!(!own.is_empty(), "{kind:?}");
+        for (_, offer) in own {
+            assert!(!offer.label.is_empty() && !offer.about.is_empty(), "{offer:?}");
+            let columns = offer.columns.clone();
+            let plot = Plot::new(kind, (columns, offer.view), &pendulum.model);
+            // each further axis has a heading under which it is asked for
+            for axis in &kind.chosen()[plot.columns.len()..] {
+                assert!(!axis.heading.is_empty(), "{axis:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_misspelt_kind_gets_the_nearest_of_the_table() {
+    for kind in INSTRUMENTS {
+        let wrong: String = kind.name().chars().skip(1).collect();
+        let text = format!(
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
+             [[views]]\nkind = \"{wrong}\"\n"
+        );
+        let mistakes = preset::read(&text).expect_err("there is no such kind");
+        let help = format!("did you mean `{}`?", kind.name());
+        assert_eq!(mistakes[0].help.as_deref(), Some(help.as_str()), "{wrong}");
+    }
+}
+
+/// A lab whose jobs are handed out, and what was asked for until the pendulum was seen.
+fn aside() -> (App, Vec<Computation>) {
+    let (mut app, _) = App::new(catalog(), Some("pendulum"));
+    app.aside = true;
+    app.update(Event::Loaded(Ok(pendulum())));
+    let effects = app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    (app, computations(effects))
+}
+
+fn computations(effects: Vec<Effect>) -> Vec<Computation> {
+    let asked = effects.into_iter().filter_map(|effect| match effect {
+        Effect::Compute(computation) => Some(computation),
+        _ => None,
+    });
+    asked.collect()
+}
+
+fn ran(computation: &Computation) -> Event {
+    let outcome = computation.job.run(&Progress::new());
+    Event::Computed { ticket: computation.ticket, outcome }
+}
+
+fn answer(app: &App) -> Option<Answer> {
+    let (_, shown) = plot(app, "phase");
+    app.lab.as_ref().unwrap().answer(&shown).cloned()
+}
+
+#[test]
+fn no_frame_waits_for_level_curves_and_the_old_ones_stay() {
+    let (mut app, asked) = aside();
+    let (index, _) = plot(&app, "phase");
+    assert_eq!(asked.iter().map(|c| c.asker).collect::<Vec<_>>(), [Asker::Plot(index)]);
+    assert_eq!(answer(&app), None, "nothing was computed yet");
+    let before = screen(&app, 120, 40);
+    assert_eq!(app.update(ran(&asked[0])), []);
+    let first = answer(&app).expect("the curves are there");
+    assert_ne!(screen(&app, 120, 40), before);
+    // the same screen as where they are computed at once
+    assert_eq!(screen(&app, 120, 40)[1..38], screen(&in_lab(), 120, 40)[1..38]);
+    // another parameter: the old curves stay until the new ones are there, and are asked for once
+    let mut seen = snapshot(&pendulum(), 2.1);
+    let mut parameters = seen.parameters.to_vec();
+    parameters[0] *= 1.5;
+    seen.parameters = parameters.into();
+    let asked = computations(app.update(Event::Snapshot(Arc::new(seen.clone()))));
+    assert_eq!((asked.len(), answer(&app)), (1, Some(first.clone())));
+    assert_eq!(computations(app.update(Event::Snapshot(Arc::new(seen)))), []);
+    app.update(ran(&asked[0]));
+    assert!(answer(&app).is_some_and(|answer| answer != first));
+}
+
+#[test]
+fn an_answer_that_nobody_waits_for_is_dropped() {
+    let (mut app, asked) = aside();
+    let late = ran(&asked[0]);
+    // another system is there meanwhile, which has a plane of its own
+    let other = loaded("pendulum", 2);
+    app.update(Event::Loaded(Ok(other.clone())));
+    app.update(late.clone());
+    assert_eq!(answer(&app), None);
+    let seen = Snapshot { epoch: 2, ..snapshot(&other, 1.0) };
+    let asked = computations(app.update(Event::Snapshot(Arc::new(seen))));
+    app.update(late);
+    assert_eq!((asked.len(), answer(&app)), (1, None));
+    app.update(ran(&asked[0]));
+    assert!(answer(&app).is_some());
+}
+
+#[test]
+fn a_job_that_takes_long_is_shown_with_its_progress() {
+    let (mut app, asked) = aside();
+    let told = |app: &App| screen(app, 160, 50).concat().contains("level curves of the energy");
+    app.update(Event::Tick(Duration::from_millis(290)));
+    assert!(!told(&app), "what is there at once is not worth a word");
+    app.update(Event::Tick(Duration::from_millis(20)));
+    assert!(told(&app));
+    let share = Share { done: 1, total: Some(4) };
+    app.update(Event::Progress { ticket: asked[0].ticket, share });
+    assert!(screen(&app, 160, 50).concat().contains("energy 25 %"));
+    app.update(ran(&asked[0]));
+    assert!(!told(&app));
+}
+
+#[test]
+fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
+    let (mut app, asked) = aside();
+    let outcome = Outcome::Failed("level curves stopped by a defect".to_owned());
+    app.update(Event::Computed { ticket: asked[0].ticket, outcome });
+    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("by a defect")));
+    assert_eq!(press(&mut app, "r"), [Effect::Tell(Command::Reset)]);
+}
+
+#[test]
+fn the_prompt_is_answered_on_the_side_and_its_question_given_up_with_it() {
+    let (mut app, asked) = aside();
+    app.update(ran(&asked[0]));
+    press(&mut app, "{");
+    press(&mut app, "t h e t a");
+    let asked = computations(press(&mut app, "Enter"));
+    assert_eq!(asked.iter().map(|c| c.asker).collect::<Vec<_>>(), [Asker::Prompt]);
+    let waiting = screen(&app, 80, 24).concat();
+    assert!(!waiting.contains("conserved:"), "{waiting}");
+    app.update(ran(&asked[0]));
+    assert_ne!(screen(&app, 80, 24).concat(), waiting, "the answer is there");
+    // a question that takes long, and Esc
+    let asked = computations(press(&mut app, "Enter"));
+    app.update(Event::Tick(Duration::from_millis(400)));
+    assert!(screen(&app, 80, 24).concat().contains("deriving"));
+    assert_eq!(press(&mut app, "Esc"), [Effect::StopComputing(Asker::Prompt)]);
+    app.update(ran(&asked[0]));
+    assert!(app.overlay.is_none());
+}
