@@ -14,6 +14,7 @@ mod compiled;
 mod conditions;
 mod constrained;
 mod exact;
+mod expansion;
 mod fault;
 mod hold;
 mod jet;

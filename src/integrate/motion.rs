@@ -8,7 +8,8 @@ mod happening;
 mod watch;
 
 use super::calendar::Calendar;
-use super::crossing::{Crossings, Found};
+use super::crossing::Found;
+use super::crossings::Crossings;
 use super::haste::Haste;
 use super::{Method, Refusal, Settings, Stepper, Unstable};
 use crate::expr::Double;
@@ -284,13 +285,12 @@ impl Motion {
     }
 
     /// Looks for events in what was computed beyond `clear`, up to the next blow, as far as the
-    /// functions are simple.
+    /// functions can be followed in one go.
     fn scan(&mut self) -> Result<(), Fault> {
         let end = self.stepper.time();
         let mut end = self.calendar.next(self.clear).map_or(end, |blow| blow.min(end));
         if let Some(crossings) = &mut self.crossings {
-            end = crossings.stretch(self.stepper.as_mut(), self.clear, end)?;
-            self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
+            (self.waiting, end) = crossings.scan(self.stepper.as_mut(), self.clear, end)?;
         }
         self.clear = self.waiting.map_or(end, |found| found.exact.high);
         Ok(())

@@ -7,9 +7,11 @@
 
 use std::sync::Arc;
 
+use super::expansion::{self, Expansion};
 use super::motion::Writer;
 use super::program::Program;
-use super::resolution::{self, Resolution};
+use super::resolution::Resolution;
+use super::series::Series;
 use super::value::Values;
 use super::watch;
 use super::{Fault, FaultKind, Form, State, System};
@@ -126,7 +128,7 @@ impl Occasions {
                 })
                 .collect(),
             when: watch::program(writer, &functions)?,
-            pace: resolution::program(writer, &functions)?,
+            pace: expansion::program(writer, &functions)?,
             change: watch::program(writer, &changes)?,
             schedule,
             quadratic: writer.is_quadratic(),
@@ -142,6 +144,8 @@ pub struct Triggers {
     quick: Values<f64>,
     exact: Values<Double>,
     resolution: Resolution,
+    /// What expands the functions along a step whose series is known, once there was one.
+    expansion: Option<Expansion>,
     rounded: Vec<f64>,
     inputs: Vec<Double>,
     /// The state looked at last, in the native form, where momenta alone do not tell it.
@@ -157,6 +161,37 @@ impl Triggers {
         self.quick.set_parameters(&inputs);
         self.exact.set_parameters(&inputs);
         self.resolution.set_parameters(&inputs);
+        self.expansion = None;
+    }
+
+    /// Expands the functions along a step whose series is known, about a time `x` after the series' origin, in its unit,
+    /// and gives how far after it these expansions tell the functions but for a part `cut_off` of their size; `None`
+    /// where there are none.
+    pub fn expand(&mut self, series: &Series, x: f64, cut_off: f64) -> Option<f64> {
+        let order = series.order();
+        let (system, parameters) = (&self.system, &self.parameters);
+        let expansion = self.expansion.take().filter(|known| known.order() == order);
+        let expansion = self.expansion.insert(expansion.unwrap_or_else(|| {
+            let occasions = system.occasions();
+            let (program, functions) = (Arc::clone(&occasions.pace), occasions.events.len());
+            let mut new = Expansion::new(system, program, functions, order);
+            new.set_parameters(&system.inputs(parameters));
+            new
+        }));
+        if !expansion.about(series, x) {
+            return None;
+        }
+        Some(expansion.reach(cut_off)).filter(|reach| !reach.is_nan())
+    }
+
+    /// The coefficients of an event's function as it was last [expanded](Triggers::expand).
+    pub fn expanded(&self, event: usize) -> Vec<f64> {
+        self.expansion.iter().flat_map(|known| known.function(event)).collect()
+    }
+
+    /// The coefficients of what decides between the branches of the functions that were expanded.
+    pub fn expanded_switches(&self) -> impl Iterator<Item = &[f64]> {
+        self.expansion.iter().flat_map(Expansion::switches)
     }
 
     /// How far after a state the functions are so simple that looks at the ends, and at what these
@@ -234,6 +269,7 @@ impl System {
                 Arc::clone(&self.occasions().pace),
                 self.occasions().events.len(),
             ),
+            expansion: None,
             rounded: vec![0.0; inputs],
             inputs: vec![Double::ZERO; inputs],
             near: None,

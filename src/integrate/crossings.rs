@@ -1,0 +1,316 @@
+//! Where along a step the functions of the events cross zero, located beyond the last digit of time: what a blow there
+//! does shows in the last digits after it.
+//!
+//! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
+//! here: what follows from it.
+//!
+//! Where the step is a power series in time, so is every function along it, as far as it is analytic: piece by piece the
+//! roots of these polynomials are found, all of them. Where there is no series, and across kinks and poles, the functions
+//! are sampled.
+
+use super::Stepper;
+use super::clock::spacing;
+use super::crossing::{Crossing, Found, first};
+use super::polynomial::Polynomial;
+use super::probe::Probe;
+use super::roots::sign_changes;
+use super::sampling::Sampling;
+use crate::expr::Double;
+use crate::model::Direction;
+use crate::system::{Fault, FaultKind, State, Triggers};
+
+/// A stretch is not shorter than so many digits of the clock: at a pole there is no simple one, …
+const DIGITS: f64 = 16.0;
+
+/// … but so many of these in a row are no pole: a function changes faster than the clock can tell.
+const MOST_SHORTEST: u32 = 64;
+
+/// After a blow the sign of a function may change again very soon, after this part of the time.
+const SOONEST: f64 = 2e-15;
+
+/// What a series leaves out is at most this part of its function.
+const CUT_OFF: f64 = 1e-13;
+
+/// How often a root is corrected by the value of the function there.
+const CORRECTIONS: u32 = 3;
+
+/// A correction by more than this part of a piece is none: the root is of a higher order.
+const SMALL: f64 = 1e-6;
+
+/// Where the functions of the events stand.
+#[derive(Clone, Debug)]
+pub(super) struct Crossings {
+    probe: Probe,
+    directions: Vec<Direction>,
+    /// The side of zero each function was on last; zero where that is not known.
+    sides: Vec<f64>,
+    /// Whether a blow has just changed the state.
+    fresh: bool,
+    /// Up to here the functions were found to be simple.
+    simple: Option<f64>,
+    /// How many stretches in a row were as short as may be.
+    shortest: u32,
+}
+
+/// A piece of a step on which the functions are told by their series.
+struct Piece {
+    /// Its beginning.
+    from: Double,
+    /// The unit of time of the series.
+    unit: f64,
+    /// Its length in that unit.
+    length: f64,
+}
+
+impl Crossings {
+    pub(super) fn new(triggers: Triggers, directions: Vec<Direction>, blank: State) -> Crossings {
+        let count = directions.len();
+        Crossings {
+            probe: Probe::new(triggers, count, blank),
+            directions,
+            sides: vec![0.0; count],
+            fresh: false,
+            simple: None,
+            shortest: 0,
+        }
+    }
+
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.probe.triggers().set_parameters(parameters);
+        self.simple = None;
+    }
+
+    /// The motion goes on otherwise than it did.
+    pub(super) fn turn(&mut self) {
+        self.simple = None;
+    }
+
+    /// Forgets where the functions stood.
+    pub(super) fn forget(&mut self) {
+        self.sides.fill(0.0);
+        self.fresh = false;
+        self.probe.begin(None);
+        self.simple = None;
+    }
+
+    /// A blow has led from one state to another, by the event given or by none: functions that
+    /// jumped with it did not cross zero.
+    pub(super) fn struck(
+        &mut self,
+        before: &State,
+        after: &State,
+        event: Option<usize>,
+    ) -> Result<(), Fault> {
+        let old = self.probe.of(before)?.to_vec();
+        let new = self.probe.of(after)?;
+        for (i, (old, new)) in old.iter().zip(new).enumerate() {
+            if event == Some(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
+                self.sides[i] = 0.0;
+            }
+        }
+        self.fresh = true;
+        self.probe.begin(Some(after.exact_time()));
+        self.simple = None;
+        Ok(())
+    }
+
+    /// A constraint was let go at a state: functions that did not jump with it stand where `known`
+    /// has them.
+    pub(super) fn inherit(&mut self, mut known: Crossings, state: &State) -> Result<(), Fault> {
+        let (old, new) = (known.probe.of(state)?, self.probe.of(state)?);
+        for (i, (old, new)) in old.iter().zip(new).enumerate() {
+            let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
+            self.sides[i] = if same { known.sides[i] } else { 0.0 };
+        }
+        self.fresh = true;
+        Ok(())
+    }
+
+    /// The first crossing that counts between two times of the stepper's last step, as far as the functions can be
+    /// followed in one go; and the time up to which they were.
+    pub(super) fn scan(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        from: f64,
+        to: f64,
+    ) -> Result<(Option<Found>, f64), Fault> {
+        if from >= to {
+            return Ok((None, to));
+        }
+        let Some((piece, beyond)) = self.piece(stepper, from, to) else {
+            let end = self.stretch(stepper, from, to)?;
+            return Ok((self.sampled(stepper, from, end)?, end));
+        };
+        let shortest = DIGITS * spacing(from);
+        let end = (piece.from + Double::from(piece.unit) * piece.length).high.min(to);
+        if end - from >= shortest || end >= to {
+            self.shortest = 0;
+            return Ok((self.roots(stepper, &piece, (from, end))?, end));
+        }
+        // a kink or a pole
+        let end = (from + shortest).min(to);
+        self.note_length(from, beyond)?;
+        Ok((self.sampled(stepper, from, end)?, end))
+    }
+
+    /// The piece that begins at a time within a step that is a power series and on which the functions are told by
+    /// their own; at its end, if that is not the end asked for, there may be a kink. Also the time to which they are
+    /// told beyond that.
+    fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(Piece, f64)> {
+        let series = stepper.series()?;
+        let (origin, unit) = (series.time(), series.scale());
+        let from = self.probe.not_before(Double::written(from));
+        let x = ((from - origin) / unit).high.max(0.0);
+        let whole = ((Double::written(to) - from) / unit).high;
+        if unit <= 0.0 || whole <= 0.0 {
+            return None;
+        }
+        let triggers = self.probe.triggers();
+        let told = triggers.expand(series, x, CUT_OFF)?;
+        let mut length = told.min(whole);
+        for switch in triggers.expanded_switches() {
+            if let Some(change) = sign_changes(switch, length).next() {
+                length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
+            }
+        }
+        Some((Piece { from, unit, length }, told * unit))
+    }
+
+    /// The first crossing that counts on a piece.
+    fn roots(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        piece: &Piece,
+        (from, to): (f64, f64),
+    ) -> Result<Option<Found>, Fault> {
+        self.fresh = false;
+        let moment = if from == 0.0 { to } else { from.abs() };
+        let (length, soonest) = (piece.length, SOONEST * moment / piece.unit);
+        let mut passed = Vec::new();
+        for event in 0..self.sides.len() {
+            let coefficients = self.probe.triggers().expanded(event);
+            let mut polynomial = Polynomial { coefficients, length, soonest };
+            if polynomial.begins_at_zero() {
+                // the series has no more digits than `f64`
+                let exact = self.probe.exactly_at(stepper, event, piece.from)?;
+                polynomial.coefficients[0] = exact.high;
+            }
+            let crossings = self.follow(stepper, event, &polynomial, piece, to)?;
+            passed.push(crossings);
+        }
+        Ok(first(&passed, &self.directions, &mut self.sides, to))
+    }
+
+    /// The crossings of one function, in time, up to the first that counts.
+    fn follow(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        event: usize,
+        polynomial: &Polynomial,
+        piece: &Piece,
+        to: f64,
+    ) -> Result<Vec<Crossing>, Fault> {
+        let course = polynomial.follow(self.sides[event]);
+        let mut crossings = Vec::new();
+        if self.sides[event] == 0.0 {
+            self.sides[event] = course.side;
+        } else if course.side != 0.0 && course.side != self.sides[event] {
+            crossings.push(Crossing::at(piece.from, course.side));
+        }
+        let mut side = course.side;
+        let direction = self.directions[event];
+        for change in &course.changes {
+            if crossings.last().is_some_and(|last| last.counts(direction)) {
+                return Ok(crossings);
+            }
+            if change.side == crossings.last().map_or(self.sides[event], |last| last.side) {
+                continue;
+            }
+            side = change.side;
+            let exact = piece.from + Double::from(change.x) * piece.unit;
+            let mut crossing = Crossing::at(exact, side);
+            if crossing.counts(direction) {
+                crossing.exact = self.correct(stepper, event, polynomial, piece, change.x)?;
+            }
+            crossings.push(crossing);
+        }
+        let counted = crossings.last().is_some_and(|last| last.counts(direction));
+        if !counted && polynomial.ends_at_zero(side) {
+            // it crosses just where the piece ends, as one does that ends there for a row or a blow
+            crossings.push(Crossing::at(Double::written(to), -side));
+        }
+        let end = Double::written(to);
+        for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
+            crossing.exact = end;
+        }
+        Ok(crossings)
+    }
+
+    /// A root to all digits of the function.
+    fn correct(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        event: usize,
+        polynomial: &Polynomial,
+        piece: &Piece,
+        x: f64,
+    ) -> Result<Double, Fault> {
+        let slope = polynomial.slope(x);
+        let mut x = Double::from(x);
+        for _ in 0..CORRECTIONS {
+            let time = piece.from + x * piece.unit;
+            let correction = self.probe.exactly_at(stepper, event, time)? / slope;
+            if !(correction.high.abs() < SMALL * piece.length) {
+                break;
+            }
+            x = x - correction;
+            if correction.high.abs() <= 1e-28 * x.high.abs() {
+                break;
+            }
+        }
+        Ok(piece.from + x * piece.unit)
+    }
+
+    /// Where the stretch ends that begins at a time within the last step and on which the functions
+    /// are simple; `to` at the latest.
+    fn stretch(&mut self, stepper: &mut dyn Stepper, from: f64, to: f64) -> Result<f64, Fault> {
+        if let Some(end) = self.simple.filter(|&end| end > from) {
+            return Ok(end.min(to));
+        }
+        let length = self.probe.resolved(stepper, from, to - from)?.unwrap_or(f64::INFINITY);
+        self.note_length(from, length)?;
+        let end = from + length.max(DIGITS * spacing(from));
+        self.simple = Some(end);
+        Ok(end.min(to))
+    }
+
+    /// Notes how far the functions are told after a time: too often not as far as the clock tells times apart.
+    fn note_length(&mut self, from: f64, length: f64) -> Result<(), Fault> {
+        let shortest = length < DIGITS * spacing(from);
+        self.shortest = if shortest { self.shortest + 1 } else { 0 };
+        if self.shortest > MOST_SHORTEST {
+            let kind = FaultKind::ClockStands(spacing(from));
+            return Err(Fault { time: from, kind, place: Vec::new() });
+        }
+        Ok(())
+    }
+
+    /// The first crossing that counts on a stretch on which the functions are simple.
+    fn sampled(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        from: f64,
+        to: f64,
+    ) -> Result<Option<Found>, Fault> {
+        let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
+        let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
+        let mut sampling = Sampling { probe: &mut self.probe, stepper, whole: (from, to) };
+        let looks = sampling.looks(self.sides.len(), soonest)?;
+        let mut passed: Vec<Vec<Crossing>> = Vec::new();
+        for (event, looks) in looks.iter().enumerate() {
+            let direction = self.directions[event];
+            passed.push(sampling.follow(event, direction, looks, &mut self.sides[event])?);
+        }
+        Ok(first(&passed, &self.directions, &mut self.sides, to))
+    }
+}
