@@ -20,6 +20,7 @@ mod modulo;
 mod nearby;
 mod observe;
 mod poisson;
+mod report;
 mod rigid_body;
 mod structure;
 mod symmetry;
@@ -38,6 +39,9 @@ pub use frames::Apparent;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use nearby::{POINTS, Point, TRIES};
+pub use report::{
+    Blow, BodyNumbers, BodyReport, Constant, Constrained, Further, Kept, Left, Line, Reaction, Report,
+};
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
