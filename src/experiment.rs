@@ -34,7 +34,7 @@ pub use chronicle::{Chronicle, Tally};
 pub use command::Command;
 pub use export::Export;
 pub use moment::{Changed, Moment, Named, Past, Reference, Whereabouts};
-pub use ready::{Ready, Unready};
+pub use ready::{Derived, Ready, Unready};
 pub use setup::{NoMethod, Setup, choose_method, with_given};
 pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;

@@ -12,6 +12,7 @@ use super::format::Format;
 use super::open;
 use super::output::Output;
 use super::script::Script;
+use crate::experiment::Derived;
 use crate::mechanics::{Further, Report};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
@@ -37,7 +38,7 @@ pub(super) struct Arguments {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
-    let mut equations = open::derive(&document, &model)?;
+    let Derived { model, mut equations } = open::derive(&document, model)?;
     let further = Further::of(&model, &mut equations);
     let report = Report::of(&model, &equations);
     let text = match arguments.format {

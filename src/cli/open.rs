@@ -2,11 +2,9 @@
 
 use std::ffi::OsStr;
 
-use crate::analysis::flaws;
-use crate::experiment::choose_method;
+use crate::experiment::{Derived, choose_method};
 use crate::expr::nearest;
 use crate::integrate::{METHODS, Settings, method_named};
-use crate::mechanics::{self, Equations};
 use crate::model::{Model, Place};
 use crate::preset::{Catalog, Document, Mistake};
 use crate::system::System;
@@ -32,12 +30,11 @@ pub(super) fn read(document: &Document) -> Result<Model, Failure> {
 
 /// Derives what follows from a model. Brackets that are no Poisson structure are shown where they
 /// stand.
-pub(super) fn derive(document: &Document, model: &Model) -> Result<Equations, Failure> {
-    let derived = mechanics::derive(model);
-    let equations =
-        derived.map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
-    let mistakes = flaws(model, &equations);
-    if mistakes.is_empty() { Ok(equations) } else { Err(refuse(document, &mistakes)) }
+pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Failure> {
+    let derived = Derived::of(model);
+    let derived = derived.map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+    let mistakes = derived.flaws();
+    if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
 }
 
 /// The file's method, if the table has none of that name.

@@ -21,7 +21,7 @@ use super::output::{Form, Output};
 use super::report::{Closing, Header, Status};
 use super::rows::{Format, Rows};
 use super::{open, stderr};
-use crate::experiment::{self, Experiment, Progress, Setup, choose_method};
+use crate::experiment::{self, Derived, Experiment, Progress, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
 use crate::printable;
@@ -113,14 +113,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(open::refuse(&document, &[mistake]));
     }
 
-    let mut equations = open::derive(&document, &model)?;
+    let mut derived = open::derive(&document, model)?;
+    let Derived { model, equations } = &mut derived;
     equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
     let columns: Vec<_> = observed
-        .map(|text| assignment::column(&model, &mut equations.pool, text))
+        .map(|text| assignment::column(model, &mut equations.pool, text))
         .collect::<Result<_, _>>()?;
-    let system = System::compile(&model, &equations, &columns)
+    let system = derived
+        .compile(&columns)
         .map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+    let Derived { model, equations } = derived;
     refuse_twins(&system)?;
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
