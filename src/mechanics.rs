@@ -8,6 +8,7 @@ mod bracket;
 mod class;
 mod comparison;
 mod constrain;
+mod derive;
 mod dimension;
 mod equations;
 mod frames;
@@ -25,12 +26,10 @@ mod rigid_body;
 mod structure;
 mod symmetry;
 
-use crate::expr::NODE_LIMIT;
-use crate::model::{Mechanics, Model};
-
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
+pub use derive::{CLOSED_FORM_LIMIT, derive};
 pub use equations::{
     Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
     Reason, Separable, Twin, WhyNot,
@@ -40,70 +39,10 @@ pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use nearby::{POINTS, Point, TRIES};
 pub use report::{
-    Blow, BodyNumbers, BodyReport, Constant, Constrained, Further, Kept, Left, Line, Reaction, Report,
+    Blow, BodyNumbers, BodyReport, Constant, Constrained, Further, Kept, Left, Line, Reaction,
+    Report,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
 pub use structure::{Flaw, flaws};
-
-/// The most pieces a solved or transformed expression may have and still be worth writing down.
-pub const CLOSED_FORM_LIMIT: u64 = 10_000;
-
-/// Derives everything that follows from a model's law of motion.
-///
-/// # Errors
-/// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
-pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
-    let mut pool = model.pool.clone();
-    let constraints = model.constraints.iter().map(|c| c.expression);
-    let given = [model.mechanics.function().1, model.mechanics.dissipation()];
-    let given = given.into_iter().chain(model.mechanics.forces().to_vec()).chain(constraints);
-    given.for_each(|e| pool.refuse_heavy(e));
-    if pool.is_full() {
-        return Err(too_large());
-    }
-    let mut equations = match &model.mechanics {
-        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
-            lagrange::equations(&mut pool, model, *lagrangian, *dissipation, forces)
-        }
-        Mechanics::Hamiltonian { hamiltonian, forces } => {
-            hamilton::equations(&mut pool, model, *hamiltonian, forces)
-        }
-        Mechanics::Poisson { hamiltonian, brackets, forces, .. } => {
-            poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
-        }
-    };
-    equations.beside.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
-    equations.pool = pool;
-    attitude::find(&mut equations, model);
-    equations.beside.frames = frames::find(model, &mut equations);
-    if let Some(comparison) = &model.comparison {
-        equations.beside.twin = Some(comparison::twin(&mut equations, model, comparison));
-    }
-    if !equations.beside.carried.is_empty() {
-        let why = "numbers are carried along that do not follow from H";
-        equations.separable = Err(WhyNot(why.to_owned()));
-    }
-    invariants::find(&mut equations, model);
-    if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
-        return Err(too_large());
-    }
-    Ok(equations)
-}
-
-fn too_large() -> WhyNot {
-    WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
-}
-
-/// The pieces of the longest expression derived, written out.
-fn longest(equations: &Equations) -> u64 {
-    let (first, second) = match &equations.flow {
-        Flow::Lagrange { mass, force, .. } => (mass.concat(), force),
-        Flow::Hamilton { velocities, momentum_rates } => (velocities.clone(), momentum_rates),
-        Flow::Poisson { rates } => (Vec::new(), rates),
-    };
-    let others = [equations.energy, equations.energy_rate, equations.action_rate];
-    let all = first.iter().chain(second).chain(&equations.momenta).chain(&others);
-    all.map(|&e| equations.pool.weight(e)).max().unwrap_or(0)
-}

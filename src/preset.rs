@@ -12,55 +12,14 @@ mod draft;
 mod edition;
 mod grammar;
 mod mistake;
+mod read;
 mod report;
 mod settings;
-
-use crate::cancel::Cancel;
-use crate::model::Model;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, is_path};
 pub use document::Document;
 pub use edition::{Beginning, Edition};
 pub use mistake::{Mistake, Severity};
+pub use read::{Checked, TEXT_LIMIT, read, read_with};
 pub use report::report;
 pub use settings::{Entry as Setting, Plain};
-
-use mistake::Mistakes;
-
-/// The most bytes a file may have.
-pub const TEXT_LIMIT: usize = 1 << 20;
-
-/// A file without a mistake.
-#[derive(Clone, Debug)]
-pub struct Checked {
-    /// The system it describes.
-    pub model: Model,
-    /// What is allowed but probably not meant.
-    pub warnings: Vec<Mistake>,
-}
-
-/// Reads a preset.
-///
-/// # Errors
-/// All mistakes of the file (warnings among them), in the order of their places; never empty.
-pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
-    read_with(text, &Cancel::new())
-}
-
-/// The same, with a token by which this and all that is made of the model can be stopped.
-///
-/// # Errors
-/// Those of [`read`].
-pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
-    if text.len() > TEXT_LIMIT {
-        return Err(vec![document::too_long(text.len() as u64)]);
-    }
-    let mut mistakes = Mistakes::default();
-    let table = grammar::parse(text, &mut mistakes);
-    if mistakes.lost_track() {
-        return mistakes.conclude(None);
-    }
-    let draft = draft::read(&table, &mut mistakes);
-    let model = check::check(text, &draft, cancel, &mut mistakes);
-    mistakes.conclude(model)
-}

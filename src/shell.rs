@@ -19,6 +19,7 @@ mod fresh;
 mod governor;
 mod input;
 mod job;
+mod lab;
 mod loader;
 mod log;
 pub mod options;
@@ -41,105 +42,13 @@ pub(crate) mod whole;
 pub use bandwidth::{Bandwidth, NotBandwidth};
 pub use diagnosis::{Finding, diagnosis};
 pub use input::{Input, PASTE_LIMIT};
+pub use lab::{perform_demo, run, show};
 pub use log::{LogFile, NoLog};
 pub use options::Options;
 pub use panic::report_panics;
+pub(crate) use partial::remove_all as remove_partial_files;
 pub use projector::Projector;
 pub use request::{MOST_FRAMES, Refusal, Request};
 pub use stage::{Ending, Pace, Page, Wish, perform};
 pub use store::NoSession;
 pub use terminal::NoTerminal;
-
-use std::io::{self, Write};
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-
-use crate::preset::{Catalog, Mistake};
-use crate::record::{Performance, Tape, still};
-use demo::Demo;
-use log::Log;
-pub(crate) use partial::remove_all as remove_partial_files;
-use session::{Left, Session};
-use store::Store;
-
-/// Opens the laboratory on the terminal until it is left.
-///
-/// # Errors
-/// Where there is no terminal, no session or nothing of that name, before the screen is touched; and where the session
-/// could not be saved, after it was left.
-pub fn run(request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
-    let catalog = Catalog::load();
-    let mut request = request.clone();
-    let saved = if request.resume { Some(store::read()?) } else { None };
-    if let Some(saved) = &saved {
-        request.open = Some(saved.open.clone());
-    }
-    if let Some(name) = &request.open {
-        regular::find(&catalog, name)?;
-    }
-    let variable = |name: &str| std::env::var(name).ok();
-    let mut log = request.log.as_ref().map_or(Ok(Log::default()), Log::open)?;
-    log.info(format!("phaselab {} starts", env!("CARGO_PKG_VERSION")));
-    for finding in diagnosis(&variable, None) {
-        log.info(format!("{}: {} ({})", finding.what, finding.found, finding.why));
-    }
-    log.guard();
-    let pace = request.pace(&variable);
-    let mut session = Session::new(catalog, &request, request.look(&variable), pace, log)?;
-    session.keep_in(Store::open(), request.open.as_deref());
-    if let Some(saved) = saved {
-        session.resume(saved);
-    }
-    let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
-    let Left { recorded, kept } = session.left();
-    match &ended {
-        Ok(Ok(ending)) => session.log.info(format!("ends: {ending:?}")),
-        Ok(Err(refusal)) => session.log.error(refusal),
-        Err(_) => session.log.error("ends by a panic"),
-    }
-    if let Err(error) = &kept {
-        session.log.error(error);
-    }
-    session.log.close();
-    drop(session);
-    let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
-    let lost = kept.map_err(Refusal::Unsaved).and(recorded.map_err(Refusal::Unrecorded));
-    match (lost, ending) {
-        (Err(why), Ending::Quit) => Err(why),
-        (Err(why), Ending::Signal(_) | Ending::Gone) => {
-            // the signal decides how it ends; where nobody can read this it makes no difference
-            let _ = writeln!(io::stderr(), "phaselab: {why}");
-            Ok(ending)
-        }
-        (Ok(()), _) => Ok(ending),
-    }
-}
-
-/// Shows a tape on the terminal until it is left.
-///
-/// # Errors
-/// Where there is no terminal, before the screen is touched.
-pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
-    let variable = |name: &str| std::env::var(name).ok();
-    perform(&mut Projector::new(tape, request.look(&variable)), request.pace(&variable))
-}
-
-/// Performs a demo on the terminal until it ends or is left. What it ends with: its last picture as text with colours, where
-/// it was not left before; or what is wrong with its script.
-///
-/// # Errors
-/// Where there is no terminal, before the screen is touched.
-pub fn perform_demo(
-    performance: Performance,
-    request: &Request,
-) -> Result<(Ending, Result<Option<String>, Mistake>), Refusal> {
-    NoTerminal::check()?;
-    let variable = |name: &str| std::env::var(name).ok();
-    let look = request.look(&variable);
-    let palette = look.theme.palette();
-    let mut demo = Demo::new(performance, look);
-    let ending = perform(&mut demo, request.pace(&variable))?;
-    let text = |picture| still::write(&picture, palette, still::Form::Ansi, "");
-    Ok((ending, demo.outcome().map(|last| last.map(text))))
-}

@@ -96,12 +96,7 @@ impl Start {
     }
 
     /// The value of \[f, g\] where velocities are not known in terms of momenta.
-    fn value_by_chain_rule(
-        &self,
-        derived: &mut Derived,
-        f: Expr,
-        g: Expr,
-    ) -> Result<f64, String> {
+    fn value_by_chain_rule(&self, derived: &mut Derived, f: Expr, g: Expr) -> Result<f64, String> {
         let rule = ChainRule::of(&mut derived.equations, f, g).map_err(|why| why.to_string())?;
         let system = derived.compile(&[]).map_err(|e| e.to_string())?;
         let Derived { model, equations } = derived;

@@ -142,12 +142,7 @@ impl Sampling<'_> {
 
     /// A piece on which the function has one turning point at most: looks there, too, where it lies
     /// towards zero.
-    fn turned(
-        &mut self,
-        walk: &mut Walk<'_>,
-        a: Look,
-        b: Look,
-    ) -> Result<bool, Fault> {
+    fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, Fault> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(same_side && towards) {
@@ -180,12 +175,7 @@ impl Sampling<'_> {
     }
 
     /// A piece with one crossing at most: notes it.
-    fn end(
-        &mut self,
-        walk: &mut Walk<'_>,
-        a: Look,
-        b: Look,
-    ) -> Result<bool, Fault> {
+    fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, Fault> {
         let side = sign(b, a);
         if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
             // it crosses just where the step ends, as one does that ends there for a row or a blow

@@ -22,9 +22,8 @@ mod run;
 
 use std::collections::BTreeSet;
 
-use super::Mistakes;
 use super::draft::{Draft, Formula, Law};
-use super::mistake::Mistake;
+use super::mistake::{Mistake, Mistakes};
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};

@@ -21,8 +21,7 @@ mod vector;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::Mistakes;
-use super::mistake::Mistake;
+use super::mistake::{Mistake, Mistakes};
 use crate::model::{Info, Place};
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};

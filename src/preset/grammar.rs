@@ -4,8 +4,8 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::Mistakes;
 use super::mistake::Mistake;
+use super::mistake::Mistakes;
 use crate::model::Place;
 use crate::printable;
 

@@ -86,7 +86,6 @@ impl Page<'_> {
         }
     }
 
-
     fn constraints(&mut self) {
         if !self.report.constraints.is_empty() {
             self.heading("Constraints");
@@ -185,8 +184,9 @@ impl Page<'_> {
         let Some((mass, force)) = self.report.unsolved() else { return };
         for (row, &f) in mass.iter().zip(force) {
             let terms = row.iter().zip(&self.report.rates).filter(|(m, _)| **m != Expr::ZERO);
-            let terms: Vec<String> =
-                terms.map(|(&m, rate)| format!("({}) {}", self.math(m), self.left(*rate))).collect();
+            let terms: Vec<String> = terms
+                .map(|(&m, rate)| format!("({}) {}", self.math(m), self.left(*rate)))
+                .collect();
             let line = format!("  {} = {}", terms.join(" + "), self.math(f));
             self.line(&line);
         }

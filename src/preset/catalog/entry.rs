@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::NotFound;
 use crate::model::Info;
-use crate::preset::{Document, Mistake, Mistakes, Severity, draft, grammar};
+use crate::preset::mistake::Mistakes;
+use crate::preset::{Document, Mistake, Severity, draft, grammar};
 use crate::printable;
 
 /// Where a preset comes from.

@@ -6,9 +6,9 @@ use toml::Spanned;
 
 use crate::expr::{FUNCTIONS, latex_of_unicode};
 use crate::model::{Attitude, BodyNames, Place, multiplier_name};
-use crate::preset::Mistakes;
 use crate::preset::draft::{Draft, Law};
 use crate::preset::mistake::Mistake;
+use crate::preset::mistake::Mistakes;
 
 /// The names given so far, with what they name and where.
 pub(super) struct Names {
