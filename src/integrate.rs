@@ -13,6 +13,7 @@ mod gauss;
 mod haste;
 mod leapfrog;
 mod method;
+mod methods;
 mod motion;
 mod pace;
 mod polynomial;
@@ -28,7 +29,8 @@ mod taylor;
 mod yoshida;
 
 pub use clock::spacing;
-pub use method::{METHODS, Made, Method, Preserves, Refusal, Settings, Stepping, method_named};
+pub use method::{Made, Method, Preserves, Refusal, Settings, Stepping};
+pub use methods::{METHODS, method_named};
 pub use motion::{Happening, Kind, Motion, Reached};
 pub use roots::first_crossing;
 pub use stability::Unstable;

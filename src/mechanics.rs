@@ -11,6 +11,7 @@ mod constrain;
 mod derive;
 mod dimension;
 mod equations;
+mod flaw;
 mod frames;
 mod hamilton;
 mod invariants;
@@ -23,18 +24,19 @@ mod observe;
 mod poisson;
 mod report;
 mod rigid_body;
+mod slope;
 mod structure;
 mod symmetry;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
-pub use derive::{CLOSED_FORM_LIMIT, derive};
+pub use derive::derive;
 pub use equations::{
-    Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
-    Reason, Separable, Twin, WhyNot,
+    Apparent, Beside, CLOSED_FORM_LIMIT, Carried, CarriedRates, Conserved, ConstraintRow,
+    CoordinateSymbols, Equations, Flow, Reason, Separable, Twin, WhyNot,
 };
-pub use frames::Apparent;
+pub use flaw::Flaw;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use nearby::{POINTS, Point, TRIES};
@@ -45,4 +47,4 @@ pub use report::{
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
-pub use structure::{Flaw, flaws};
+pub use structure::flaws;

@@ -6,6 +6,7 @@
 use super::history::Change;
 use super::{App, Effect, Lab, Pane, Plot, Target};
 use crate::experiment::{Command, Snapshot, with_given};
+use crate::expr::significant;
 use crate::integrate::Settings;
 use crate::system::Given;
 
@@ -300,11 +301,7 @@ pub(super) fn place(given: &Given) -> (usize, bool) {
 
 /// A number in six digits at most.
 fn short(value: f64) -> String {
-    let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
-    match rounded.abs() {
-        size if size != 0.0 && !(1e-4..1e7).contains(&size) => format!("{rounded:e}"),
-        _ => rounded.to_string(),
-    }
+    significant(value, 6, 1e-4..1e7)
 }
 
 impl Side {

@@ -18,10 +18,7 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
-use needle::{Needle, Subject};
-
-/// The gauge that is constant by the law of the energy's change.
-const LEDGER: &str = "energy ledger";
+use needle::{LEDGER, Needle, Subject};
 
 /// Errors are measured at every so many samples.
 const MEASURED: u64 = 16;

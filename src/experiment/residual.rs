@@ -5,7 +5,7 @@
 
 use super::deviation::Deviation;
 use super::{Gauge, Reference};
-use crate::expr::Expr;
+use crate::expr::{Expr, significant};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{ChannelKind, System};
@@ -108,6 +108,5 @@ fn force(model: &Model, equations: &Equations, index: usize) -> String {
 
 /// Four significant digits.
 fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded.to_string()
+    significant(x, 4, 0.0..f64::INFINITY)
 }

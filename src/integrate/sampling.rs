@@ -30,6 +30,10 @@ const HALVINGS: u32 = 14;
 /// The part of a piece over which a slope is taken.
 const SLOPE_OVER: f64 = 1e-5;
 
+/// How far beside a change of sign a function is looked at again, in parts of the distance of the times between which
+/// it lies.
+const ASIDE: f64 = 4.0;
+
 /// A value below this part of those beside it has no sign that could be trusted.
 pub(super) const SIGNLESS: f64 = 1e-13;
 
@@ -200,8 +204,8 @@ impl Sampling<'_> {
 
     /// The time of a crossing between two, after which the function is on `side`: halving, mixed
     /// with the secant's step kept inside (R. P. Brent, Algorithms for Minimization without
-    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these. A function that
-    /// is greater beside the place than where the search began has a pole there, and no zero.
+    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these. Where the
+    /// function has a pole, there is no zero.
     fn locate(
         &mut self,
         event: usize,
@@ -211,9 +215,10 @@ impl Sampling<'_> {
     ) -> Result<Crossing, Fault> {
         let mut low = self.probe.exactly(self.stepper, event, left)?;
         let mut high = self.probe.exactly(self.stepper, event, right)?;
-        let outset = low.high.abs().max(high.high.abs());
         if low.high * side > 0.0 {
-            return Ok(Crossing::at(Double::written(left), side));
+            // in all digits it has crossed already
+            let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
+            return Ok(Crossing { exact: Double::written(left), side, pole });
         }
         for round in 0..200 {
             let middle = 0.5 * (left + right);
@@ -240,12 +245,31 @@ impl Sampling<'_> {
                 (left, low) = (time, value);
             }
         }
-        let pole = low.high.abs().min(high.high.abs()) > outset;
+        let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
         // the states looked at were those at these times
         let (left, right) = (Double::written(left), Double::written(right));
         let part = low / (low - high);
         let exact = if part.is_finite() { left + (right - left) * part } else { left };
         Ok(Crossing { exact, side, pole })
+    }
+
+    /// Whether a function that changes its sign between two neighbouring times is smaller farther from them: zeros are
+    /// left behind by what grows, poles by what falls.
+    fn is_pole(
+        &mut self,
+        event: usize,
+        (left, low): (f64, f64),
+        (right, high): (f64, f64),
+    ) -> Result<bool, Fault> {
+        let aside = ASIDE * (right - left);
+        let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
+        if before == left && after == right {
+            return Ok(false);
+        }
+        let earlier = self.probe.exactly(self.stepper, event, before)?.high.abs();
+        let later = self.probe.exactly(self.stepper, event, after)?.high.abs();
+        let falls = |distant: bool, value: f64, near: f64| !distant || value < near.abs();
+        Ok(falls(before < left, earlier, low) && falls(after > right, later, high))
     }
 }
 

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Equations, Flow, WhyNot};
-use super::lagrange::zero_if_proved;
+use super::slope::zero_if_proved;
 use crate::expr::{Expr, Number, Rank, Symbol, Zero, portable};
 use crate::model::{Mechanics, Model};
 

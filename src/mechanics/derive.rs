@@ -14,9 +14,6 @@ use super::rigid_body;
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
-/// The most pieces a solved or transformed expression may have and still be worth writing down.
-pub const CLOSED_FORM_LIMIT: u64 = 10_000;
-
 /// Derives everything that follows from a model's law of motion.
 ///
 /// # Errors

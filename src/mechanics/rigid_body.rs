@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use super::structure::Flaw;
+use super::flaw::Flaw;
 use crate::expr::{Double, Expr, FunctionId, Number, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
 

@@ -7,6 +7,7 @@
 //! Integration*, § VII.2.
 
 use super::equations::Equations;
+use super::flaw::Flaw;
 use super::nearby::{POINTS, Point, TRIES};
 use super::rigid_body;
 use crate::expr::{Expr, Zero};
@@ -20,17 +21,6 @@ const PROOF_PRODUCTS: usize = 20_000;
 
 /// An expression of more pieces than this is not told in a message.
 const LONGEST: u64 = 60;
-
-/// Something false in what a file says of its brackets or its body.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Flaw {
-    /// Where it stands in the file.
-    pub place: Place,
-    /// What is false.
-    pub message: String,
-    /// What it is instead.
-    pub help: String,
-}
 
 /// What is false in the brackets and Casimirs of a Poisson system, and senseless in a body.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<Flaw> {

@@ -5,7 +5,7 @@
 
 use crate::app::{App, Lab};
 use crate::experiment::{Snapshot, Status};
-use crate::expr::nearest;
+use crate::expr::{nearest, significant};
 use crate::model::{Allowed, Scope};
 use crate::preset::Mistake;
 
@@ -102,12 +102,7 @@ fn compared(
 
 /// A number that need not be read back: four digits.
 fn short(x: f64) -> String {
-    let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
+    significant(x, 4, 1e-3..1e6)
 }
 
 fn status(status: &Status) -> &'static str {

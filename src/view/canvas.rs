@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Look;
 use super::colour::ColourDepth;
-use super::spot::Region;
+use super::region::Region;
 use super::theme::Role;
 use crate::app::Spot;
 use crate::printable;

@@ -9,7 +9,7 @@ use super::canvas::{Canvas, Span, columns, row};
 use super::layout::{Slot, panes};
 use super::number::brief;
 use super::quantity::Quantities;
-use super::spot::Region;
+use super::region::Region;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};

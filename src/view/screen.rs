@@ -10,9 +10,9 @@ use super::canvas::{Canvas, row};
 use super::desk;
 use super::document::Document;
 use super::equations;
-use super::glyphs::Glyphs;
 use super::help;
 use super::layout::{LEAST, Screen};
+use super::look::Look;
 use super::menu;
 use super::notes;
 use super::numbers;
@@ -20,19 +20,10 @@ use super::picker;
 use super::plain;
 use super::prompt;
 use super::quantity::Quantities;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 use super::workbench;
 use super::wrap;
 use crate::app::{App, Drawn, Lab, Over, Page, Spot};
-
-/// How the screen looks: what the terminal can show, and in which colours.
-#[derive(Clone, Debug)]
-pub struct Look {
-    /// The colours.
-    pub theme: Theme,
-    /// The characters.
-    pub glyphs: Glyphs,
-}
 
 /// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
 pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
@@ -41,14 +32,6 @@ pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
     let mut canvas = Canvas::over(buffer, look);
     let drawn = paint(&mut canvas, app, area);
     Drawn { cursor: canvas.cursor.map(|at| (at.x, at.y)), ..drawn }
-}
-
-impl Look {
-    /// The look in the theme that a person chose, if it is another than this one's.
-    fn chosen_by(&self, app: &App) -> Option<Self> {
-        let name = app.theme_shown().filter(|name| *name != self.theme.palette().name)?;
-        Some(Self { theme: self.theme.renamed(name)?, glyphs: self.glyphs })
-    }
 }
 
 pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
@@ -68,7 +51,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     drawn
 }
 
-pub(super) fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
+fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
     let over = app.over.as_ref();
     if let Some(Over::Help { .. }) = over {

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, columns, row};
 use super::number::brief;
 use super::plot::Scale;
-use super::spot::Region;
+use super::region::Region;
 use super::strip::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};

@@ -4,6 +4,7 @@
 mod analysis;
 mod app;
 mod build;
+mod circles;
 mod cli;
 mod config;
 mod constrain;
