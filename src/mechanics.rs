@@ -27,6 +27,7 @@ mod rigid_body;
 mod slope;
 mod structure;
 mod symmetry;
+mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, class_of, classes};
@@ -39,7 +40,7 @@ pub use equations::{
 pub use flaw::Flaw;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
-pub use nearby::{POINTS, Point, TRIES};
+pub use nearby::{POINTS, TRIES};
 pub use report::{
     Blow, BodyNumbers, BodyReport, Constant, Constrained, Further, Kept, Left, Line, Reaction,
     Report,
@@ -48,3 +49,4 @@ pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
 pub use structure::flaws;
+pub use valuation::Valuation;

@@ -35,6 +35,7 @@ mod series;
 mod solve;
 mod state;
 mod terms;
+mod valuation;
 mod value;
 mod watch;
 

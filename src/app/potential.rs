@@ -42,7 +42,7 @@ impl Lab {
 impl Potential {
     /// The value where the coordinate has another value, and velocities, momenta and all else those of the present.
     pub fn at(&self, lab: &Lab, x: f64) -> f64 {
-        let at = |symbol| if symbol == self.coordinate { x } else { lab.now(symbol) };
-        lab.loaded.model.pool.evaluate(self.expression, &at)
+        let there = lab.valuation().with([(self.coordinate, x)]);
+        there.value(&lab.loaded.model.pool, self.expression)
     }
 }

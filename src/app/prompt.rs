@@ -5,11 +5,10 @@
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Key, Lab, Over};
+use super::{App, Effect, Key, Lab, Loaded, Over};
 use crate::analysis::Inquiry;
 use crate::expr::{Symbol, SyntaxError};
-use crate::mechanics::body_values;
-use crate::system::ChannelKind;
+use crate::mechanics::Valuation;
 
 /// A question being typed, and what was answered to the last one.
 #[derive(Clone, Debug, Default)]
@@ -57,38 +56,16 @@ impl App {
 }
 
 impl Lab {
+    /// What the symbols of the system are worth at present; nothing before the motion was seen.
+    pub fn valuation(&self) -> Valuation {
+        let Some(snapshot) = self.seen() else { return Valuation::default() };
+        let Loaded { model, equations, system, .. } = &self.loaded;
+        let known = (&**model, &**equations);
+        system.valuation(known, snapshot.time, &snapshot.parameters, &snapshot.values)
+    }
+
     /// The present value of a symbol of the system; not a number for one that has none.
     pub fn now(&self, symbol: Symbol) -> f64 {
-        let Some(snapshot) = self.seen() else { return f64::NAN };
-        let (model, equations) = (&self.loaded.model, &self.loaded.equations);
-        if symbol == equations.symbols.time {
-            return snapshot.time;
-        }
-        if let Some(index) = model.parameters.iter().position(|p| p.symbol == symbol) {
-            return snapshot.parameters[index];
-        }
-        let coordinates = equations.coordinates.iter().enumerate();
-        let of_coordinate = coordinates.flat_map(|(i, c)| {
-            [
-                (c.position, ChannelKind::Position(i)),
-                (c.velocity, ChannelKind::Velocity(i)),
-                (c.momentum, ChannelKind::Momentum(i)),
-            ]
-        });
-        let rows = equations.constraints.iter().enumerate();
-        let multipliers = rows.map(|(k, row)| (row.multiplier, ChannelKind::Multiplier(k)));
-        let energy = [(equations.symbols.energy, ChannelKind::Energy)];
-        let entries = equations.beside.attitude_symbols.iter().flatten().flatten().enumerate();
-        let attitude = entries.map(|(i, symbol)| (*symbol, ChannelKind::Attitude(i)));
-        let mut known = of_coordinate.chain(multipliers).chain(energy).chain(attitude);
-        let kind = known.find(|(s, _)| *s == symbol);
-        let channels = self.loaded.system.channels();
-        let place = kind.and_then(|(_, kind)| channels.iter().position(|c| c.kind == kind));
-        if let Some(place) = place {
-            return snapshot.values[place];
-        }
-        let body = equations.beside.body.as_ref();
-        let constants = body_values(model, &equations.pool, body, &snapshot.parameters);
-        constants.into_iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| value)
+        self.valuation().at(symbol)
     }
 }

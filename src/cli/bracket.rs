@@ -12,7 +12,7 @@ use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::experiment::Derived;
-use crate::expr::{Expr, Symbol, Zero};
+use crate::expr::{Expr, Zero};
 use crate::mechanics::{self, ChainRule, Equations, Recognised, WhyNot};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, Given, System};
@@ -101,26 +101,9 @@ impl Start {
         let system = derived.compile(&[]).map_err(|e| e.to_string())?;
         let Derived { model, equations } = derived;
         let values = self.values(model, &system)?;
-        let body = system.body_values(&self.parameters);
-        let value = |kind| {
-            let channel = system.channels().iter().position(|c| c.kind == kind);
-            channel.map_or(f64::NAN, |i| values[i])
-        };
-        let at = |symbol: Symbol| {
-            let coordinates = &equations.coordinates;
-            if let Some(i) = coordinates.iter().position(|c| c.position == symbol) {
-                value(ChannelKind::Position(i))
-            } else if let Some(i) = coordinates.iter().position(|c| c.velocity == symbol) {
-                value(ChannelKind::Velocity(i))
-            } else if symbol == equations.symbols.time {
-                model.run.start
-            } else {
-                let parameter = model.parameters.iter().position(|p| p.symbol == symbol);
-                let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-                parameter.map(|i| self.parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
-            }
-        };
-        finite(rule.value(equations, &at))
+        let (start, parameters) = (model.run.start, &self.parameters);
+        let known = system.valuation((model, equations), start, parameters, &values);
+        finite(rule.value(equations, &|symbol| known.at(symbol)))
     }
 
     /// Every channel's value at the start.

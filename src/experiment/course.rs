@@ -14,7 +14,7 @@ use crate::cancel::Cancel;
 use crate::expr::{portable, short};
 use crate::integrate::Stepping;
 use crate::integrate::{Happening, Kind, Reached};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{self, State, System};
 
@@ -364,15 +364,19 @@ impl Experiment {
     /// Has the gauges look at the present.
     pub(super) fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
         self.motion.look_at_terms();
-        let body = self.motion.system().body_values(&self.setup.parameters);
-        let parameter = |symbol| self.setup.constant(&self.model, &body, symbol);
-        look(&mut self.gauges, &self.motion.present(&parameter));
+        let constants = self.constants();
+        look(&mut self.gauges, &self.motion.present(&constants));
+    }
+
+    /// The parameters, and what follows from a body.
+    fn constants(&self) -> Valuation {
+        let parameters = &self.setup.parameters;
+        let body = self.motion.system().body_values(parameters);
+        Valuation::of_parameters(&self.model, parameters).with(body)
     }
 
     fn show_gauges(&self) -> Arc<[Gauge]> {
-        let body = self.motion.system().body_values(&self.setup.parameters);
-        let parameter = |symbol| self.setup.constant(&self.model, &body, symbol);
-        self.gauges.show(&self.motion.present(&parameter))
+        self.gauges.show(&self.motion.present(&self.constants()))
     }
 
     fn method_fact(&self) -> MethodFact {

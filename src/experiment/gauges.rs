@@ -15,7 +15,7 @@ use super::residual::Residual;
 use super::{Gauge, Reference};
 use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, casimir_rate};
+use crate::mechanics::{Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
 use needle::{LEDGER, Needle, Subject};
@@ -255,7 +255,7 @@ impl Gauges {
                 Some(&(_, channel)) => now.values[channel],
                 None if symbol == equations.symbols.time => now.time,
                 None if symbol == equations.symbols.action => now.action,
-                None => (now.parameter)(symbol),
+                None => now.constants.at(symbol),
             }
         };
         for needle in &mut self.needles {
@@ -321,8 +321,8 @@ pub(super) struct Present<'a> {
     /// The terms of what is conserved.
     pub(super) terms: &'a TermWatch,
     pub(super) system: &'a System,
-    /// The value of a parameter's symbol.
-    pub(super) parameter: &'a dyn Fn(Symbol) -> f64,
+    /// The parameters, and what follows from a body.
+    pub(super) constants: &'a Valuation,
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@
 //! here: rows, gauges, commands.
 
 use super::gauges::{Gauges, Present};
-use crate::expr::Symbol;
 use crate::integrate::{self, Happening, Kind, Method, Reached, Refusal, Settings, Unstable};
+use crate::mechanics::Valuation;
 use crate::system::{Fault, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.
@@ -272,7 +272,7 @@ impl Motion {
     }
 
     /// What the gauges look at, once the terms were [looked at](Motion::look_at_terms).
-    pub(super) fn present<'a>(&'a self, parameter: &'a dyn Fn(Symbol) -> f64) -> Present<'a> {
+    pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> Present<'a> {
         let action = self.state().values.get(self.system().driven());
         Present {
             time: self.time(),
@@ -282,7 +282,7 @@ impl Motion {
             terms: &self.watch.terms,
             system: self.system(),
             action: action.copied().unwrap_or(f64::NAN),
-            parameter,
+            constants,
         }
     }
 

@@ -9,6 +9,7 @@
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::flaw::Flaw;
+use super::valuation::Valuation;
 use crate::expr::{Double, Expr, FunctionId, Number, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
 
@@ -277,11 +278,8 @@ pub fn body_values(
     let (Some(names), Some(body)) = (model.body.as_ref().map(|b| b.names), body) else {
         return Vec::new();
     };
-    let at = |symbol: Symbol| {
-        let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        index.map_or(f64::NAN, |i| parameters[i])
-    };
-    let value = |e: Expr| pool.evaluate(e, &at);
+    let known = Valuation::of_parameters(model, parameters);
+    let value = |e: Expr| known.value(pool, e);
     let inertia = body.inertia.map(value);
     let (moments, _) = principal(&inertia.map(Double::from));
     let moments = moments.map(|m| m.high);
@@ -309,11 +307,8 @@ pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
 /// direction.
 pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<Flaw> {
     let (Some(body), Some(whole)) = (&model.body, whole) else { return Vec::new() };
-    let at = |symbol: Symbol| {
-        let parameter = model.parameters.iter().find(|p| p.symbol == symbol);
-        parameter.map_or(f64::NAN, |p| p.value)
-    };
-    let value = |e: Expr| pool.evaluate(e, &at);
+    let known = Valuation::of_parameters(model, &model.parameter_values());
+    let value = |e: Expr| known.value(pool, e);
     let mut flaws = Vec::new();
     let mut flaw = |place: &crate::model::Place, message: String, help: &str| {
         flaws.push(Flaw { place: place.clone(), message, help: help.to_owned() });

@@ -8,8 +8,9 @@
 
 use super::equations::Equations;
 use super::flaw::Flaw;
-use super::nearby::{POINTS, Point, TRIES};
+use super::nearby::{POINTS, TRIES};
 use super::rigid_body;
+use super::valuation::Valuation;
 use crate::expr::{Expr, Zero};
 use crate::model::{Mechanics, Model, Place};
 
@@ -28,7 +29,8 @@ pub fn flaws(model: &Model, equations: &Equations) -> Vec<Flaw> {
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
         return flaws;
     };
-    let points: Vec<Point> = (0..TRIES).map(|n| Point::near_start(model, equations, n)).collect();
+    let points: Vec<Valuation> =
+        (0..TRIES).map(|n| Valuation::near_start(model, equations, n)).collect();
     let mut structure = Structure { model, equations: equations.clone(), brackets, points };
     flaws.extend(structure.jacobi(place));
     for (name, casimir, place) in casimirs {
@@ -42,7 +44,7 @@ struct Structure<'a> {
     model: &'a Model,
     equations: Equations,
     brackets: &'a [Vec<Expr>],
-    points: Vec<Point>,
+    points: Vec<Valuation>,
 }
 
 /// Three variables and the terms B_il ∂_l B_jk of their identity, as pairs of factors.
