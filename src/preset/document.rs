@@ -4,7 +4,8 @@
 use std::io;
 use std::path::Path;
 
-use super::{Checked, Mistake, TEXT_LIMIT, read_with, report};
+use super::limit::{TEXT_LIMIT, too_long};
+use super::{Checked, Mistake, read_with, report};
 use crate::cancel::Cancel;
 use crate::{file, printable};
 
@@ -107,10 +108,4 @@ impl Document {
     pub fn report(&self, mistakes: &[Mistake], colour: bool) -> String {
         report(&self.text, &self.path, mistakes, colour)
     }
-}
-
-/// The refusal of a file beyond the limit.
-pub(super) fn too_long(bytes: u64) -> Mistake {
-    let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
-    Mistake::error(0..0, message)
 }

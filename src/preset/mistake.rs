@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Checked;
-use crate::model::{Model, Place};
+use crate::model::Place;
 
 /// How bad a mistake is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -149,15 +148,10 @@ impl Mistakes {
         self.list.iter().any(|m| m.severity == Severity::Error)
     }
 
-    /// The verdict on the file.
-    pub(super) fn conclude(mut self, model: Option<Model>) -> Result<Checked, Vec<Mistake>> {
-        match model {
-            Some(model) if !self.any_error() => {
-                self.sort();
-                Ok(Checked { model, warnings: self.list })
-            }
-            _ => Err(self.into_list()),
-        }
+    /// What is left where there is no error among them.
+    pub(super) fn warnings(mut self) -> Vec<Mistake> {
+        self.sort();
+        self.list
     }
 
     fn sort(&mut self) {

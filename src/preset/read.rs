@@ -3,16 +3,12 @@
 //! In: text. Out: [`Checked`], or every mistake in it. Never here: files.
 
 use super::check;
-use super::document;
 use super::draft;
 use super::grammar;
-use super::mistake::Mistake;
-use super::mistake::Mistakes;
+use super::limit::{TEXT_LIMIT, too_long};
+use super::mistake::{Mistake, Mistakes};
 use crate::cancel::Cancel;
 use crate::model::Model;
-
-/// The most bytes a file may have.
-pub const TEXT_LIMIT: usize = 1 << 20;
 
 /// A file without a mistake.
 #[derive(Clone, Debug)]
@@ -37,14 +33,19 @@ pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
 /// Those of [`read`].
 pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
     if text.len() > TEXT_LIMIT {
-        return Err(vec![document::too_long(text.len() as u64)]);
+        return Err(vec![too_long(text.len() as u64)]);
     }
     let mut mistakes = Mistakes::default();
     let table = grammar::parse(text, &mut mistakes);
     if mistakes.lost_track() {
-        return mistakes.conclude(None);
+        return Err(mistakes.into_list());
     }
     let draft = draft::read(&table, &mut mistakes);
     let model = check::check(text, &draft, cancel, &mut mistakes);
-    mistakes.conclude(model)
+    match model {
+        Some(model) if !mistakes.any_error() => {
+            Ok(Checked { model, warnings: mistakes.warnings() })
+        }
+        _ => Err(mistakes.into_list()),
+    }
 }
