@@ -217,7 +217,9 @@ impl Sampling<'_> {
         let mut high = self.probe.exactly(self.stepper, event, right)?;
         if low.high * side > 0.0 {
             // in all digits it has crossed already
-            let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
+            let next = (left + spacing(left)).min(right);
+            let beside = self.probe.exactly(self.stepper, event, next)?;
+            let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
             return Ok(Crossing { exact: Double::written(left), side, pole });
         }
         for round in 0..200 {
