@@ -4,17 +4,17 @@
 //! Never here: threads, clocks, terminals.
 
 mod attitude;
-mod chronicle;
+mod checkpoint;
 mod command;
 mod course;
 mod deviation;
+mod event_log;
+mod execute;
 mod export;
 mod gauges;
 mod law;
-mod moment;
-mod motion;
-mod obey;
-mod ready;
+mod observed_motion;
+mod prepared;
 mod recorder;
 mod reference;
 mod residual;
@@ -23,13 +23,13 @@ mod snapshot;
 mod trail;
 
 pub use crate::analysis::{Growth, Verdict};
-pub use chronicle::{Chronicle, Tally};
+pub use checkpoint::{Changed, Checkpoint, MotionState, Named, Past};
 pub use command::Command;
 pub use course::{Experiment, Progress};
+pub use event_log::{EventCount, EventLog};
 pub use export::Export;
-pub use moment::{Changed, Moment, Named, Past, Whereabouts};
-pub use ready::{Derived, Ready, Unready};
+pub use prepared::{Derived, PrepareError, Prepared};
 pub use reference::Reference;
-pub use setup::{NoMethod, Setup, choose_method, with_given};
-pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
+pub use setup::{MethodNotFound, Setup, choose_method, with_override};
+pub use snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;

@@ -5,8 +5,7 @@
 
 mod attitude;
 mod bracket;
-mod class;
-mod comparison;
+mod conservation;
 mod constrain;
 mod derive;
 mod dimension;
@@ -19,34 +18,35 @@ mod lagrange;
 mod legendre;
 mod linear;
 mod modulo;
-mod nearby;
 mod observe;
 mod poisson;
+mod poisson_structure;
 mod report;
 mod rigid_body;
+mod sampling;
 mod slope;
-mod structure;
 mod symmetry;
+mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use class::{Class, Classed, class_of, classes};
+pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::derive;
 pub use equations::{
-    Apparent, Beside, CLOSED_FORM_LIMIT, Carried, CarriedRates, Conserved, ConstraintRow,
-    CoordinateSymbols, Equations, Flow, Reason, Separable, Twin, WhyNot,
+    Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,
+    CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
-pub use flaw::Flaw;
+pub use flaw::StructureError;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
-pub use nearby::{POINTS, TRIES};
+pub use poisson_structure::flaws;
 pub use report::{
-    Blow, BodyNumbers, BodyReport, Constant, Constrained, Further, Kept, Left, Line, Reaction,
+    BodyNumbers, BodyReport, Constant, Constrained, Further, Impulse, Kept, Left, Line, Reaction,
     Report,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
-pub use structure::flaws;
+pub use sampling::{POINTS, TRIES};
 pub use valuation::Valuation;

@@ -16,7 +16,7 @@ mod unit;
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
 pub use claim::{
-    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, Place,
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, SourceRange,
 };
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;

@@ -1,7 +1,7 @@
 //! The shell: the only doer. Terminal in and out, signals, the frame loop, and what the application asks for.
 //!
 //! In: what to open and how to show it. Out: how it ended; the terminal as it was. Never here: what a key means, what
-//! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Page`] that takes inputs and
+//! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Screen`] that takes inputs and
 //! can be drawn.
 //!
 //! It is at home on Unix terminals, and speaks to them itself: crossterm's reader panics on a malformed mouse report,
@@ -10,11 +10,14 @@
 //! environment says what there is to know.
 
 mod bandwidth;
+mod cast_player;
 mod checker;
 pub mod config;
 mod demo;
 mod diagnosis;
+mod file_writer;
 mod files;
+mod frame_loop;
 mod fresh;
 mod governor;
 mod input;
@@ -26,29 +29,26 @@ pub mod options;
 mod panic;
 mod partial;
 mod product;
-mod projector;
 mod queue;
 mod recorder;
 mod regular;
 mod request;
-mod scribe;
 mod session;
 mod signals;
-mod stage;
 mod store;
 mod terminal;
 pub(crate) mod whole;
 
-pub use bandwidth::{Bandwidth, NotBandwidth};
+pub use bandwidth::{Bandwidth, BandwidthError};
+pub use cast_player::CastPlayer;
 pub use diagnosis::{Finding, diagnosis};
+pub use frame_loop::{Ending, Pace, Screen, ScreenRequest, perform};
 pub use input::{Input, PASTE_LIMIT};
 pub use lab::{perform_demo, run, show};
-pub use log::{LogFile, NoLog};
+pub use log::{LogError, LogFile};
 pub use options::Options;
 pub use panic::report_panics;
 pub(crate) use partial::remove_all as remove_partial_files;
-pub use projector::Projector;
-pub use request::{MOST_FRAMES, Refusal, Request};
-pub use stage::{Ending, Pace, Page, Wish, perform};
-pub use store::NoSession;
-pub use terminal::NoTerminal;
+pub use request::{LabError, MOST_FRAMES, Request};
+pub use store::SessionError;
+pub use terminal::TerminalError;

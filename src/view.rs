@@ -4,23 +4,23 @@
 //! or a change of anything that is drawn.
 //!
 //! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
-//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
+//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`sparkline`], [`plot`] and [`frame`].
 
-mod bars;
 mod canvas;
 pub mod caption;
 pub mod card;
 pub mod colour;
 mod cursor;
-mod desk;
 mod detail;
-mod document;
 mod equations;
-mod found;
 pub mod frame;
 mod gauges;
 pub mod glyphs;
+mod header_footer;
 mod help;
+mod highlight;
+mod hit_test;
+mod lab_page;
 mod layout;
 mod look;
 mod marks;
@@ -40,14 +40,14 @@ mod screen;
 mod series;
 pub mod sgr;
 mod space;
-mod spot;
-pub mod strip;
+pub mod sparkline;
+mod text_page;
 pub mod theme;
 mod values;
 mod workbench;
 mod wrap;
 
 pub use detail::Detail;
-pub use look::Look;
+pub use hit_test::{HitTest, spot, spots};
+pub use look::RenderStyle;
 pub use screen::draw;
-pub use spot::{Spots, spot, spots};

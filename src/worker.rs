@@ -8,9 +8,9 @@
 
 mod handle;
 mod pace;
+mod runnable;
 mod slice;
-mod subject;
 mod thread;
 
 pub use handle::{THREAD_NAME, Worker};
-pub use subject::Subject;
+pub use runnable::Runnable;

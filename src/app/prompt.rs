@@ -5,7 +5,7 @@
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Key, Lab, Loaded, Over};
+use super::{App, Effect, Key, Lab, Loaded, Overlay};
 use crate::analysis::Inquiry;
 use crate::expr::{Symbol, SyntaxError};
 use crate::mechanics::Valuation;
@@ -33,7 +33,7 @@ impl Prompt {
 impl App {
     pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
         if self.lab.is_some() {
-            self.over = Some(Over::Prompt(Prompt::default()));
+            self.overlay = Some(Overlay::Prompt(Prompt::default()));
         }
         Vec::new()
     }
@@ -50,7 +50,7 @@ impl App {
                 Err(mistake) => (prompt.mistake, prompt.answered) = (Some(mistake), None),
             }
         }
-        self.over = Some(Over::Prompt(prompt));
+        self.overlay = Some(Overlay::Prompt(prompt));
         Vec::new()
     }
 }

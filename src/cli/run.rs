@@ -14,7 +14,7 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
 use super::report::Header;
@@ -88,7 +88,7 @@ pub(super) struct Arguments {
 /// How many times the gauges are looked at, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
@@ -115,7 +115,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .collect::<Result<_, _>>()?;
     let system = derived
         .compile(&columns)
-        .map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+        .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
     let Derived { model, equations } = derived;
     refuse_twins(&system)?;
     for name in system.redundant() {
@@ -128,7 +128,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(open::refuse(&document, &[mistake]));
     }
     let name = arguments.method.as_deref().unwrap_or(&model.run.method);
-    let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
+    let method =
+        choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
     cautions::before(&system, method);
@@ -145,10 +146,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
-        .map_err(|why| Failure::WrongUse(why.to_string()))?;
+        .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
     if arguments.format == Format::Csv {
-        experiment.only_count_happenings();
+        experiment.only_count_occurrences();
     }
     let form = match arguments.format {
         Format::Csv => Form::Text,
@@ -159,14 +160,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let run = Run { experiment, times, columns, interrupt, steps: STEPS_PER_LOOK, strict };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // whatever else went wrong meanwhile
-        (Err(_), Some(signal)) => Err(Failure::Signal(signal)),
+        (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),
         (written, _) => written,
     }
 }
 
 /// Step and tolerance: as asked for, else as the file says.
-fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
-    let wrong = |what: String| Err(Failure::WrongUse(what));
+fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandError> {
+    let wrong = |what: String| Err(CommandError::WrongUse(what));
     let told = printable::number;
     match (arguments.step, arguments.tolerance) {
         (Some(step), _) if step <= 0.0 => {
@@ -183,9 +184,9 @@ fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
 }
 
 /// A step is for methods of fixed step, a tolerance for the others.
-fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), Failure> {
+fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError> {
     let name = method.name;
-    let wrong = |what: String| Err(Failure::WrongUse(what));
+    let wrong = |what: String| Err(CommandError::WrongUse(what));
     match method.stepping {
         Stepping::Adaptive if arguments.step.is_some() => {
             wrong(format!("--step: {name} chooses its steps by a tolerance, --tolerance"))
@@ -198,7 +199,7 @@ fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), Failure> {
 }
 
 /// Two columns of one name could not be told apart.
-fn refuse_twins(system: &System) -> Result<(), Failure> {
+fn refuse_twins(system: &System) -> Result<(), CommandError> {
     let columns = &system.channels()[..system.columns()];
     for (i, column) in columns.iter().enumerate() {
         if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
@@ -206,7 +207,7 @@ fn refuse_twins(system: &System) -> Result<(), Failure> {
                 "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
                 printable::quoted(&column.name)
             );
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(())

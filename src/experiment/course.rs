@@ -1,21 +1,22 @@
 //! An experiment under way: its motion, what is recorded and gauged on the way.
 //!
-//! In: a system and a setup. Out: an [`Experiment`] that goes on as far as it is asked to. Never here: commands (`obey`).
+//! In: a system and a setup. Out: an [`Experiment`] that goes on as far as it is asked to. Never here: commands (`execute`).
 
 use std::sync::Arc;
 
-use super::chronicle::Chronicle;
+use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
-use super::motion::Motion;
+use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
-use super::setup::{NoMethod, Setup, choose_method};
-use super::snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
+use super::setup::{MethodNotFound, Setup, choose_method};
+use super::snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
 use crate::cancel::Cancel;
-use crate::expr::{portable, short};
+use crate::expr::short;
 use crate::integrate::Stepping;
-use crate::integrate::{Happening, Kind, Reached};
+use crate::integrate::{Occurrence, OccurrenceKind, Reached};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
+use crate::num::math;
 use crate::system::{self, State, System};
 
 /// A system in motion, with its gauges and its recorded past.
@@ -25,16 +26,16 @@ pub struct Experiment {
     pub(super) setup: Setup,
     /// The same as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
-    pub(super) motion: Motion,
+    pub(super) motion: ObservedMotion,
     pub(super) recorder: Recorder,
     gauges: Gauges,
     pub(super) running: bool,
-    pub(super) fault: Option<Fault>,
+    pub(super) fault: Option<Failure>,
     epoch: u64,
     pub(super) notices: Vec<String>,
     /// What happened since the last restart.
-    happenings: Chronicle,
-    /// The names of those that were told of.
+    occurrences: EventLog,
+    /// The names of those that were reported of.
     told: Vec<String>,
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
@@ -66,9 +67,9 @@ impl Experiment {
         equations: &Arc<Equations>,
         system: &System,
         setup: Setup,
-    ) -> Result<Experiment, NoMethod> {
+    ) -> Result<Experiment, MethodNotFound> {
         let method = choose_method(system, &setup.method)?;
-        let motion = Motion::new(system, method, setup.settings, &setup.parameters)?;
+        let motion = ObservedMotion::new(system, method, setup.settings, &setup.parameters)?;
         let mut experiment = Experiment {
             model: Arc::clone(model),
             initial: Arc::default(),
@@ -79,7 +80,7 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
-            happenings: Chronicle::default(),
+            occurrences: EventLog::default(),
             told: Vec::new(),
             ended: None,
             taken_up: false,
@@ -122,7 +123,7 @@ impl Experiment {
     /// Whether time runs, is held, or cannot go on.
     pub fn status(&self) -> Status {
         match (&self.fault, self.running) {
-            (Some(fault), _) => Status::Faulted(fault.clone()),
+            (Some(fault), _) => Status::Failed(fault.clone()),
             _ if self.ended.is_some() => Status::Ended(self.ended.clone().unwrap_or_default()),
             (None, true) => Status::Running,
             (None, false) => Status::Paused,
@@ -166,13 +167,13 @@ impl Experiment {
     }
 
     /// What happened since the last restart, in time.
-    pub fn happenings(&self) -> &Chronicle {
-        &self.happenings
+    pub fn occurrences(&self) -> &EventLog {
+        &self.occurrences
     }
 
     /// From now on what happens is counted only, and not kept: for who does not list it.
-    pub fn only_count_happenings(&mut self) {
-        self.happenings.only_count();
+    pub fn only_count_occurrences(&mut self) {
+        self.occurrences.only_count();
     }
 
     /// A sentence on the singular configurations of the constraints that the motion has passed.
@@ -215,7 +216,7 @@ impl Experiment {
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
-            happenings: self.happenings.clone(),
+            occurrences: self.occurrences.clone(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -230,7 +231,7 @@ impl Experiment {
     pub(super) fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
-        self.happenings.clear();
+        self.occurrences.clear();
         self.told.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -247,7 +248,7 @@ impl Experiment {
         }
     }
 
-    pub(super) fn initial_state(&self) -> Result<State, system::Fault> {
+    pub(super) fn initial_state(&self) -> Result<State, system::MotionError> {
         let Setup { start, parameters, given, .. } = &self.setup;
         self.motion.whole().initial(*start, parameters, given)
     }
@@ -269,10 +270,10 @@ impl Experiment {
         let reached = loop {
             let gauges = (&mut self.gauges, self.recorder.spacing());
             match self.motion.reach(time, limit, budget, gauges) {
-                Ok(Reached::Happened(happening)) => {
-                    let name = happening.name.clone();
-                    match self.note(happening) {
-                        Ok(sentence) => self.tell_once(name, sentence),
+                Ok(Reached::Happened(occurrence)) => {
+                    let name = occurrence.name.clone();
+                    match self.note(occurrence) {
+                        Ok(sentence) => self.report_once(name, sentence),
                         Err(fault) => break Err(fault),
                     }
                 }
@@ -280,10 +281,10 @@ impl Experiment {
             }
         };
         if let Some(sentence) = self.singular_passages() {
-            self.tell_once("singular configuration".to_owned(), sentence);
+            self.report_once("singular configuration".to_owned(), sentence);
         }
         if let Some(sentence) = self.unstable() {
-            self.tell_once(sentence.clone(), sentence);
+            self.report_once(sentence.clone(), sentence);
         }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
@@ -299,22 +300,22 @@ impl Experiment {
     }
 
     /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
-    /// from what a blow left. Returns a sentence on it.
-    pub(super) fn note(&mut self, happening: Happening) -> Result<String, system::Fault> {
-        let lead = format!("{} at t = {}", happening.name, short(happening.time));
-        let sentence = match &happening.kind {
-            Kind::Mark => lead,
-            Kind::Stop => {
-                self.ended = Some(happening.name.clone());
+    /// from what an impulse left. Returns a sentence on it.
+    pub(super) fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
+        let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
+        let sentence = match &occurrence.kind {
+            OccurrenceKind::Mark => lead,
+            OccurrenceKind::Stop => {
+                self.ended = Some(occurrence.name.clone());
                 format!("{lead}: the motion ends")
             }
-            Kind::Release(constraint) => {
+            OccurrenceKind::Release(constraint) => {
                 let name = &self.model.constraints[*constraint].name;
                 format!("{lead}: the constraint {name} holds no longer")
             }
-            Kind::Blow { .. } => {
+            OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;
-                self.recorder.insert(happening.time, &before);
+                self.recorder.insert(occurrence.time, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
                 let given = self.energy_of(after) - self.energy_of(&before);
@@ -322,13 +323,13 @@ impl Experiment {
                 format!("{lead}: energy {sign}{}", short(given.abs()))
             }
         };
-        self.recorder.insert(happening.time, self.motion.values());
-        self.happenings.push(happening);
+        self.recorder.insert(occurrence.time, self.motion.values());
+        self.occurrences.push(occurrence);
         Ok(sentence)
     }
 
     /// Tells of what happens by itself: of what happens again and again only the first time.
-    fn tell_once(&mut self, name: String, sentence: String) {
+    fn report_once(&mut self, name: String, sentence: String) {
         if !self.told.contains(&name) {
             self.told.push(name);
             self.tell(sentence);
@@ -358,7 +359,7 @@ impl Experiment {
             return least;
         }
         // in powers of two, so that it does not change with every step
-        (least * portable::exp2(portable::log2(smooth / least).floor())).min(most)
+        (least * math::exp2(math::log2(smooth / least).floor())).min(most)
     }
 
     /// Has the gauges look at the present.

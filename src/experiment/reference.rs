@@ -17,7 +17,7 @@ pub struct Reference {
     pub since: f64,
     /// The greatest drift.
     pub max_drift: f64,
-    /// What its value was then, before any blow; as `from` where it is not told.
+    /// What its value was then, before any impulse; as `from` where it is not reported.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<f64>,
     /// What drift is relative to.

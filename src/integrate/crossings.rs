@@ -1,4 +1,4 @@
-//! Where along a step the functions of the events cross zero, located beyond the last digit of time: what a blow there
+//! Where along a step the functions of the events cross zero, located beyond the last digit of time: what an impulse there
 //! does shows in the last digits after it.
 //!
 //! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
@@ -10,14 +10,14 @@
 
 use super::Stepper;
 use super::clock::spacing;
-use super::crossing::{Crossing, Found, first};
+use super::event_location::{Crossing, Found, first};
 use super::polynomial::Polynomial;
 use super::probe::Probe;
 use super::roots::sign_changes;
 use super::sampling::Sampling;
-use crate::expr::Double;
 use crate::model::Direction;
-use crate::system::{Fault, FaultKind, State, Triggers};
+use crate::num::DoubleDouble;
+use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
 
 /// A stretch is not shorter than so many digits of the clock: at a pole there is no simple one, …
 const DIGITS: f64 = 16.0;
@@ -25,7 +25,7 @@ const DIGITS: f64 = 16.0;
 /// … but so many of these in a row are no pole: a function changes faster than the clock can tell.
 const MOST_SHORTEST: u32 = 64;
 
-/// After a blow the sign of a function may change again very soon, after this part of the time.
+/// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
 
 /// What a series leaves out is at most this part of its function.
@@ -44,7 +44,7 @@ pub(super) struct Crossings {
     directions: Vec<Direction>,
     /// The side of zero each function was on last; zero where that is not known.
     sides: Vec<f64>,
-    /// Whether a blow has just changed the state.
+    /// Whether an impulse has just changed the state.
     fresh: bool,
     /// Up to here the functions were found to be simple.
     simple: Option<f64>,
@@ -55,7 +55,7 @@ pub(super) struct Crossings {
 /// A piece of a step on which the functions are told by their series.
 struct Piece {
     /// Its beginning.
-    from: Double,
+    from: DoubleDouble,
     /// The unit of time of the series.
     unit: f64,
     /// Its length in that unit.
@@ -63,10 +63,14 @@ struct Piece {
 }
 
 impl Crossings {
-    pub(super) fn new(triggers: Triggers, directions: Vec<Direction>, blank: State) -> Crossings {
+    pub(super) fn new(
+        event_functions: EventFunctions,
+        directions: Vec<Direction>,
+        blank: State,
+    ) -> Crossings {
         let count = directions.len();
         Crossings {
-            probe: Probe::new(triggers, count, blank),
+            probe: Probe::new(event_functions, count, blank),
             directions,
             sides: vec![0.0; count],
             fresh: false,
@@ -76,7 +80,7 @@ impl Crossings {
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
-        self.probe.triggers().set_parameters(parameters);
+        self.probe.event_functions().set_parameters(parameters);
         self.simple = None;
     }
 
@@ -93,14 +97,14 @@ impl Crossings {
         self.simple = None;
     }
 
-    /// A blow has led from one state to another, by the event given or by none: functions that
+    /// An impulse has led from one state to another, by the event given or by none: functions that
     /// jumped with it did not cross zero.
-    pub(super) fn struck(
+    pub(super) fn after_impulse(
         &mut self,
         before: &State,
         after: &State,
         event: Option<usize>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         let old = self.probe.of(before)?.to_vec();
         let new = self.probe.of(after)?;
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
@@ -116,7 +120,11 @@ impl Crossings {
 
     /// A constraint was let go at a state: functions that did not jump with it stand where `known`
     /// has them.
-    pub(super) fn inherit(&mut self, mut known: Crossings, state: &State) -> Result<(), Fault> {
+    pub(super) fn inherit(
+        &mut self,
+        mut known: Crossings,
+        state: &State,
+    ) -> Result<(), MotionError> {
         let (old, new) = (known.probe.of(state)?, self.probe.of(state)?);
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
             let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
@@ -133,7 +141,7 @@ impl Crossings {
         stepper: &mut dyn Stepper,
         from: f64,
         to: f64,
-    ) -> Result<(Option<Found>, f64), Fault> {
+    ) -> Result<(Option<Found>, f64), MotionError> {
         if from >= to {
             return Ok((None, to));
         }
@@ -142,7 +150,7 @@ impl Crossings {
             return Ok((self.sampled(stepper, from, end)?, end));
         };
         let shortest = DIGITS * spacing(from);
-        let end = (piece.from + Double::from(piece.unit) * piece.length).high.min(to);
+        let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
         if end - from >= shortest || end >= to {
             self.shortest = 0;
             return Ok((self.roots(stepper, &piece, (from, end))?, end));
@@ -153,22 +161,22 @@ impl Crossings {
         Ok((self.sampled(stepper, from, end)?, end))
     }
 
-    /// The piece that begins at a time within a step that is a power series and on which the functions are told by
+    /// The piece that begins at a time within a step that is a power series and on which the functions are reported by
     /// their own; at its end, if that is not the end asked for, there may be a kink. Also the time to which they are
     /// told beyond that.
     fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(Piece, f64)> {
         let series = stepper.series()?;
         let (origin, unit) = (series.time(), series.scale());
-        let from = self.probe.not_before(Double::written(from));
+        let from = self.probe.not_before(DoubleDouble::written(from));
         let x = ((from - origin) / unit).high.max(0.0);
-        let whole = ((Double::written(to) - from) / unit).high;
+        let whole = ((DoubleDouble::written(to) - from) / unit).high;
         if unit <= 0.0 || whole <= 0.0 {
             return None;
         }
-        let triggers = self.probe.triggers();
-        let told = triggers.expand(series, x, CUT_OFF)?;
+        let event_functions = self.probe.event_functions();
+        let told = event_functions.expand(series, x, CUT_OFF)?;
         let mut length = told.min(whole);
-        for switch in triggers.expanded_switches() {
+        for switch in event_functions.expanded_switches() {
             if let Some(change) = sign_changes(switch, length).next() {
                 length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
             }
@@ -182,13 +190,13 @@ impl Crossings {
         stepper: &mut dyn Stepper,
         piece: &Piece,
         (from, to): (f64, f64),
-    ) -> Result<Option<Found>, Fault> {
+    ) -> Result<Option<Found>, MotionError> {
         self.fresh = false;
         let moment = if from == 0.0 { to } else { from.abs() };
         let (length, soonest) = (piece.length, SOONEST * moment / piece.unit);
         let mut passed = Vec::new();
         for event in 0..self.sides.len() {
-            let coefficients = self.probe.triggers().expanded(event);
+            let coefficients = self.probe.event_functions().expanded(event);
             let mut polynomial = Polynomial { coefficients, length, soonest };
             if polynomial.begins_at_zero() {
                 // the series has no more digits than `f64`
@@ -209,7 +217,7 @@ impl Crossings {
         polynomial: &Polynomial,
         piece: &Piece,
         to: f64,
-    ) -> Result<Vec<Crossing>, Fault> {
+    ) -> Result<Vec<Crossing>, MotionError> {
         let course = polynomial.follow(self.sides[event]);
         let mut crossings = Vec::new();
         if self.sides[event] == 0.0 {
@@ -227,7 +235,7 @@ impl Crossings {
                 continue;
             }
             side = change.side;
-            let exact = piece.from + Double::from(change.x) * piece.unit;
+            let exact = piece.from + DoubleDouble::from(change.x) * piece.unit;
             let mut crossing = Crossing::at(exact, side);
             if crossing.counts(direction) {
                 crossing.exact = self.correct(stepper, event, polynomial, piece, change.x)?;
@@ -236,10 +244,10 @@ impl Crossings {
         }
         let counted = crossings.last().is_some_and(|last| last.counts(direction));
         if !counted && polynomial.ends_at_zero(side) {
-            // it crosses just where the piece ends, as one does that ends there for a row or a blow
-            crossings.push(Crossing::at(Double::written(to), -side));
+            // it crosses just where the piece ends, as one does that ends there for a row or an impulse
+            crossings.push(Crossing::at(DoubleDouble::written(to), -side));
         }
-        let end = Double::written(to);
+        let end = DoubleDouble::written(to);
         for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
             crossing.exact = end;
         }
@@ -254,9 +262,9 @@ impl Crossings {
         polynomial: &Polynomial,
         piece: &Piece,
         x: f64,
-    ) -> Result<Double, Fault> {
+    ) -> Result<DoubleDouble, MotionError> {
         let slope = polynomial.slope(x);
-        let mut x = Double::from(x);
+        let mut x = DoubleDouble::from(x);
         for _ in 0..CORRECTIONS {
             let time = piece.from + x * piece.unit;
             let correction = self.probe.exactly_at(stepper, event, time)? / slope;
@@ -273,7 +281,12 @@ impl Crossings {
 
     /// Where the stretch ends that begins at a time within the last step and on which the functions
     /// are simple; `to` at the latest.
-    fn stretch(&mut self, stepper: &mut dyn Stepper, from: f64, to: f64) -> Result<f64, Fault> {
+    fn stretch(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        from: f64,
+        to: f64,
+    ) -> Result<f64, MotionError> {
         if let Some(end) = self.simple.filter(|&end| end > from) {
             return Ok(end.min(to));
         }
@@ -284,13 +297,13 @@ impl Crossings {
         Ok(end.min(to))
     }
 
-    /// Notes how far the functions are told after a time: too often not as far as the clock tells times apart.
-    fn note_length(&mut self, from: f64, length: f64) -> Result<(), Fault> {
+    /// Notes how far the functions are reported after a time: too often not as far as the clock tells times apart.
+    fn note_length(&mut self, from: f64, length: f64) -> Result<(), MotionError> {
         let shortest = length < DIGITS * spacing(from);
         self.shortest = if shortest { self.shortest + 1 } else { 0 };
         if self.shortest > MOST_SHORTEST {
-            let kind = FaultKind::ClockStands(spacing(from));
-            return Err(Fault { time: from, kind, place: Vec::new() });
+            let kind = MotionErrorKind::ClockStands(spacing(from));
+            return Err(MotionError { time: from, kind, place: Vec::new() });
         }
         Ok(())
     }
@@ -301,7 +314,7 @@ impl Crossings {
         stepper: &mut dyn Stepper,
         from: f64,
         to: f64,
-    ) -> Result<Option<Found>, Fault> {
+    ) -> Result<Option<Found>, MotionError> {
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
         let mut sampling = Sampling { probe: &mut self.probe, stepper, whole: (from, to) };

@@ -9,11 +9,11 @@
 
 use super::Stepper;
 use super::clock::spacing;
-use super::crossing::Crossing;
+use super::event_location::Crossing;
 use super::probe::Probe;
-use crate::expr::{Double, portable};
 use crate::model::Direction;
-use crate::system::Fault;
+use crate::num::{DoubleDouble, math};
+use crate::system::MotionError;
 
 /// Into how many pieces a stretch on which the functions are simple is cut at first.
 const PIECES: usize = 4;
@@ -22,7 +22,7 @@ const PIECES: usize = 4;
 const BEYOND: f64 = 1.01;
 
 /// A value between two looks may differ from what they foretell by this part of its size.
-const FORETOLD: f64 = 0.02;
+const PREDICTED: f64 = 0.02;
 
 /// How often a piece may be halved.
 const HALVINGS: u32 = 14;
@@ -55,17 +55,17 @@ pub(super) struct Sampling<'a> {
 
 impl Sampling<'_> {
     /// Looks at all of so many functions over the whole stretch. `soonest` is the part of the time after which the first
-    /// look is due, if a blow has just fallen.
+    /// look is due, if an impulse has just fallen.
     pub(super) fn looks(
         &mut self,
         functions: usize,
         soonest: Option<f64>,
-    ) -> Result<Vec<Vec<Look>>, Fault> {
+    ) -> Result<Vec<Vec<Look>>, MotionError> {
         let (from, to) = self.whole;
         let mut looks: Vec<Vec<Look>> = vec![Vec::new(); functions];
-        let halvings = |soonest: f64| portable::log2((to - from) / soonest).ceil() as i32;
+        let halvings = |soonest: f64| math::log2((to - from) / soonest).ceil() as i32;
         let early = soonest.map_or(0, halvings);
-        let early = (3..early).rev().map(|k| portable::powi(0.5, k));
+        let early = (3..early).rev().map(|k| math::powi(0.5, k));
         let parts = (0..=PIECES).map(|k| k as f64 / PIECES as f64);
         let mut parts: Vec<f64> = early.chain(parts).collect();
         parts.sort_by(f64::total_cmp);
@@ -80,7 +80,7 @@ impl Sampling<'_> {
     }
 
     /// Looks at all functions at a time within the stretch; slopes are taken over a small part of `width`.
-    fn look(&mut self, time: f64, width: f64) -> Result<Vec<Look>, Fault> {
+    fn look(&mut self, time: f64, width: f64) -> Result<Vec<Look>, MotionError> {
         let (from, to) = self.whole;
         let here = self.probe.at(self.stepper, time)?.to_vec();
         // not so small that the clock's last digit decides
@@ -101,7 +101,7 @@ impl Sampling<'_> {
         direction: Direction,
         looks: &[Look],
         known: &mut f64,
-    ) -> Result<Vec<Crossing>, Fault> {
+    ) -> Result<Vec<Crossing>, MotionError> {
         let mut walk = Walk { event, direction, side: *known, known, found: Vec::new() };
         for pair in looks.windows(2) {
             if walk.side == 0.0 {
@@ -125,18 +125,18 @@ impl Sampling<'_> {
         a: Look,
         b: Look,
         halvings: u32,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let time = 0.5 * (a.time + b.time);
         if time <= a.time || time >= b.time {
             return self.end(walk, a, b);
         }
         let width = b.time - a.time;
         let middle = self.look(time, width)?[walk.event];
-        let foretold = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
+        let predicted = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
         let steep = 1.5 * (b.value - a.value) / width - 0.25 * (a.slope + b.slope);
         let size = a.value.abs().max(b.value.abs()).max(middle.value.abs());
-        let off = (middle.value - foretold).abs().max((middle.slope - steep).abs() * width / 8.0);
-        let surprise = off > FORETOLD * size;
+        let off = (middle.value - predicted).abs().max((middle.slope - steep).abs() * width / 8.0);
+        let surprise = off > PREDICTED * size;
         if surprise && halvings > 0 {
             return Ok(self.piece(walk, a, middle, halvings - 1)?
                 || self.piece(walk, middle, b, halvings - 1)?);
@@ -146,7 +146,7 @@ impl Sampling<'_> {
 
     /// A piece on which the function has one turning point at most: looks there, too, where it lies
     /// towards zero.
-    fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, Fault> {
+    fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(same_side && towards) {
@@ -179,11 +179,11 @@ impl Sampling<'_> {
     }
 
     /// A piece with one crossing at most: notes it.
-    fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, Fault> {
+    fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
         let side = sign(b, a);
         if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
-            // it crosses just where the step ends, as one does that ends there for a row or a blow
-            let crossing = Crossing::at(Double::written(b.time), -walk.side);
+            // it crosses just where the step ends, as one does that ends there for a row or an impulse
+            let crossing = Crossing::at(DoubleDouble::written(b.time), -walk.side);
             walk.side = -walk.side;
             walk.found.push(crossing);
             return Ok(crossing.counts(walk.direction));
@@ -212,7 +212,7 @@ impl Sampling<'_> {
         side: f64,
         mut left: f64,
         mut right: f64,
-    ) -> Result<Crossing, Fault> {
+    ) -> Result<Crossing, MotionError> {
         let mut low = self.probe.exactly(self.stepper, event, left)?;
         let mut high = self.probe.exactly(self.stepper, event, right)?;
         if low.high * side > 0.0 {
@@ -220,7 +220,7 @@ impl Sampling<'_> {
             let next = (left + spacing(left)).min(right);
             let beside = self.probe.exactly(self.stepper, event, next)?;
             let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
-            return Ok(Crossing { exact: Double::written(left), side, pole });
+            return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
         }
         for round in 0..200 {
             let middle = 0.5 * (left + right);
@@ -239,7 +239,7 @@ impl Sampling<'_> {
             let time = if inside { secant } else { middle };
             let value = self.probe.exactly(self.stepper, event, time)?;
             if value.high == 0.0 {
-                return Ok(Crossing::at(Double::written(time), side));
+                return Ok(Crossing::at(DoubleDouble::written(time), side));
             }
             if value.high * side > 0.0 {
                 (right, high) = (time, value);
@@ -249,7 +249,7 @@ impl Sampling<'_> {
         }
         let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
         // the states looked at were those at these times
-        let (left, right) = (Double::written(left), Double::written(right));
+        let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
         let part = low / (low - high);
         let exact = if part.is_finite() { left + (right - left) * part } else { left };
         Ok(Crossing { exact, side, pole })
@@ -262,7 +262,7 @@ impl Sampling<'_> {
         event: usize,
         (left, low): (f64, f64),
         (right, high): (f64, f64),
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, MotionError> {
         let aside = ASIDE * (right - left);
         let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
         if before == left && after == right {

@@ -3,14 +3,14 @@
 //! In: a [`Model`]. Out: [`Equations`]. Never here: any of the arrows.
 
 use super::attitude;
-use super::comparison;
-use super::equations::{Equations, Flow, WhyNot};
+use super::equations::{Equations, Flow, NoClosedForm};
 use super::frames;
 use super::hamilton;
 use super::invariants;
 use super::lagrange;
 use super::poisson;
 use super::rigid_body;
+use super::vakonomic;
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
@@ -18,7 +18,7 @@ use crate::model::{Mechanics, Model};
 ///
 /// # Errors
 /// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
-pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
+pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut pool = model.pool.clone();
     let constraints = model.constraints.iter().map(|c| c.expression);
     let given = [model.mechanics.function().1, model.mechanics.dissipation()];
@@ -38,16 +38,18 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
     };
-    equations.beside.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.supplements.body =
+        model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
-    equations.beside.frames = frames::find(model, &mut equations);
+    equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
-        equations.beside.twin = Some(comparison::twin(&mut equations, model, comparison));
+        equations.supplements.vakonomic =
+            Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    if !equations.beside.carried.is_empty() {
+    if !equations.supplements.auxiliary.is_empty() {
         let why = "numbers are carried along that do not follow from H";
-        equations.separable = Err(WhyNot(why.to_owned()));
+        equations.separable = Err(NoClosedForm(why.to_owned()));
     }
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
@@ -56,8 +58,8 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
     Ok(equations)
 }
 
-fn too_large() -> WhyNot {
-    WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
+fn too_large() -> NoClosedForm {
+    NoClosedForm(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
 }
 
 /// The pieces of the longest expression derived, written out.

@@ -1,14 +1,14 @@
 //! Something false in what a file says of its brackets or its body, found by what follows from it.
 //!
-//! In: a place and words. Out: a [`Flaw`]. Never here: what is looked for.
+//! In: a place and words. Out: a [`StructureError`]. Never here: what is looked for.
 
-use crate::model::Place;
+use crate::diagnostic::SourceRange;
 
 /// Something false in what a file says of its brackets or its body.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Flaw {
+pub struct StructureError {
     /// Where it stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
     /// What is false.
     pub message: String,
     /// What it is instead.

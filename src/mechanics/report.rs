@@ -1,22 +1,23 @@
-//! What follows from a law of motion, in the order in which it is told: the one report behind the text, the typeset
+//! What follows from a law of motion, in the order in which it is reported: the one report behind the text, the typeset
 //! fragment, the object for programs and the page on the screen.
 //!
 //! In: a model and its equations. Out: sections of lines, each an expression with what stands left of it; reasons where
 //! there is none. Never here: how any of it is written.
 
-use super::class::{Classed, classes};
+use super::conservation::{Classed, classes};
 use super::constrain::with_reactions;
-use super::equations::{ConstraintRow, Equations, Flow, Reason, WhyNot};
+use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
 use super::invariants::casimir_rate;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
-use crate::expr::{Double, Expr, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
+use crate::num::DoubleDouble;
 
 /// What stands left of the sign of equality.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Left {
     /// A letter with a fixed meaning: `L`, `H`, `F`, `E`.
-    Letter(&'static str),
+    Message(&'static str),
     /// A symbol of the system.
     Symbol(Symbol),
     /// The rate of change of a symbol that has none for it.
@@ -25,11 +26,11 @@ pub enum Left {
     Added(char, Symbol),
     /// The bracket of two variables.
     Bracket(Symbol, Symbol),
-    /// By how much a blow changes a symbol.
+    /// By how much an impulse changes a symbol.
     Jump(Symbol),
 }
 
-/// An equation to be told.
+/// An equation to be reported.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Line {
     /// What it is.
@@ -70,9 +71,9 @@ pub struct Reaction {
     pub multiplier: Symbol,
 }
 
-/// A blow.
+/// An impulse.
 #[derive(Clone, Debug)]
-pub struct Blow<'a> {
+pub struct Impulse<'a> {
     /// As in the file.
     pub impulse: &'a Impulse,
     /// What it changes.
@@ -150,19 +151,19 @@ pub struct Report<'a> {
     /// The constraints.
     pub constraints: Vec<Constrained<'a>>,
     /// Their multipliers, or why these have no closed form.
-    pub multipliers: Result<Vec<Line>, &'a WhyNot>,
+    pub multipliers: Result<Vec<Line>, &'a NoClosedForm>,
     /// What the constraints do to the coordinates.
     pub reactions: Vec<Reaction>,
-    /// The blows.
-    pub blows: Vec<Blow<'a>>,
+    /// The impulses.
+    pub impulses: Vec<Impulse<'a>>,
     /// The momenta.
     pub momenta: Vec<Line>,
     /// What the equations of motion are solved for.
     pub rates: Vec<Left>,
     /// The equations of motion, solved, or why they are not.
-    pub motion: Result<Vec<Line>, &'a WhyNot>,
+    pub motion: Result<Vec<Line>, &'a NoClosedForm>,
     /// H, or why it has no closed form.
-    pub hamiltonian: Result<Line, &'a WhyNot>,
+    pub hamiltonian: Result<Line, &'a NoClosedForm>,
     /// The energy.
     pub energy: Line,
     /// The law of its change.
@@ -198,9 +199,9 @@ impl<'a> Report<'a> {
             model,
             equations,
             body: BodyReport::of(model, equations),
-            law: Line { left: Left::Letter(name), right: law },
+            law: Line { left: Left::Message(name), right: law },
             dissipation: (dissipation != Expr::ZERO)
-                .then_some(Line { left: Left::Letter("F"), right: dissipation }),
+                .then_some(Line { left: Left::Message("F"), right: dissipation }),
             forces: forces.map(|(c, &e)| Line::of((Left::Added(letter, c.position), e))).collect(),
             brackets: brackets
                 .map(|(i, j, e)| Line::of((Left::Bracket(position(i), position(j)), e)))
@@ -216,7 +217,7 @@ impl<'a> Report<'a> {
                 rows.clone().zip(solved).map(|(row, &e)| Line::named(row.multiplier, e)).collect()
             }),
             reactions: rows.flat_map(|row| reactions(equations, row)).collect(),
-            blows: model.impulses.iter().map(|impulse| Blow::of(model, impulse)).collect(),
+            impulses: model.impulses.iter().map(|impulse| Impulse::of(model, impulse)).collect(),
             momenta: momenta.map(|(c, &p)| Line::named(c.momentum, p)).collect(),
             motion: motion
                 .map(|solved| rates.iter().copied().zip(solved.iter().copied()).map(Line::of))
@@ -225,8 +226,8 @@ impl<'a> Report<'a> {
             hamiltonian: equations
                 .hamiltonian
                 .as_ref()
-                .map(|&h| Line { left: Left::Letter("H"), right: h }),
-            energy: Line { left: Left::Letter("E"), right: equations.energy },
+                .map(|&h| Line { left: Left::Message("H"), right: h }),
+            energy: Line { left: Left::Message("E"), right: equations.energy },
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
             conserved: kept(model, equations),
@@ -242,7 +243,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What takes longer to find, and is told only in full.
+/// What takes longer to find, and is reported only in full.
 #[derive(Clone, Debug)]
 pub struct Further {
     /// Whether the observables are conserved.
@@ -312,21 +313,21 @@ fn kept<'a>(model: &Model, equations: &'a Equations) -> Vec<Kept<'a>> {
     all.collect()
 }
 
-impl<'a> Blow<'a> {
-    fn of(model: &Model, impulse: &'a Impulse) -> Blow<'a> {
+impl<'a> Impulse<'a> {
+    fn of(model: &Model, impulse: &'a Impulse) -> Impulse<'a> {
         let changes = model.coordinates.iter().zip(&impulse.change);
         let changes = changes.filter(|(_, e)| **e != Expr::ZERO).map(|(c, &e)| {
             let moved = if model.is_poisson() { c.position } else { c.momentum };
             Line { left: Left::Jump(moved), right: e }
         });
-        Blow { impulse, changes: changes.collect() }
+        Impulse { impulse, changes: changes.collect() }
     }
 }
 
 impl BodyReport {
     fn of(model: &Model, equations: &Equations) -> Option<BodyReport> {
         let names = model.body.as_ref()?.names;
-        let whole: &RigidBody = equations.beside.body.as_ref()?;
+        let whole: &RigidBody = equations.supplements.body.as_ref()?;
         let named = [(names.mass, whole.mass)].into_iter();
         let named = named.chain(names.centre.into_iter().zip(whole.centre));
         let named = named.chain(names.inertia.into_iter().zip(whole.inertia));
@@ -336,14 +337,14 @@ impl BodyReport {
 
     /// In numbers, at the file's parameters.
     pub fn numbers(&self, model: &Model, equations: &Equations) -> BodyNumbers {
-        let (names, whole) = (self.names, equations.beside.body.as_ref());
+        let (names, whole) = (self.names, equations.supplements.body.as_ref());
         let values = body_values(model, &equations.pool, whole, &model.parameter_values());
         let value = |symbol| {
             let found = values.iter().find(|(s, _)| *s == symbol);
             found.map_or(f64::NAN, |(_, value)| *value)
         };
         let inertia = names.inertia.map(value);
-        let (_, axes) = principal(&inertia.map(Double::from));
+        let (_, axes) = principal(&inertia.map(DoubleDouble::from));
         BodyNumbers {
             mass: value(names.mass),
             centre: names.centre.map(value),

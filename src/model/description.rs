@@ -3,7 +3,7 @@
 //! In: what `preset` has checked. Out: a [`Model`]. Never here: text, and what follows from it.
 
 use super::body::{Attitude, Body, Comparison, Frame};
-use super::claim::{Expect, Observable, Place};
+use super::claim::{Expect, Observable, SourceRange};
 use super::constraint::Constraint;
 use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
@@ -30,7 +30,7 @@ pub struct Model {
     pub mechanics: Mechanics,
     /// What the motion is held to; beside a Lagrangian only.
     pub constraints: Vec<Constraint>,
-    /// Blows.
+    /// Impulses.
     pub impulses: Vec<Impulse>,
     /// Crossings to be located.
     pub events: Vec<Event>,
@@ -43,7 +43,7 @@ pub struct Model {
     /// Frames a picture may be seen from.
     pub frames: Vec<Frame>,
     /// Where its law, L or H, stands in the file.
-    pub law_place: Place,
+    pub law_place: SourceRange,
     /// What the file wants to be watched.
     pub observables: Vec<Observable>,
     /// What the file claims of itself.
@@ -110,11 +110,11 @@ pub enum Mechanics {
         /// {x_i, x_j}, antisymmetric, of (x, t).
         brackets: Vec<Vec<Expr>>,
         /// Name, expression and place of each Casimir.
-        casimirs: Vec<(String, Expr, Place)>,
+        casimirs: Vec<(String, Expr, SourceRange)>,
         /// What is added to each ẋ; zero where there is none.
         forces: Vec<Expr>,
         /// Where the brackets stand in the file.
-        place: Place,
+        place: SourceRange,
     },
 }
 
@@ -162,7 +162,7 @@ pub struct RunSettings {
     /// The method's name, or `auto`.
     pub method: String,
     /// Where the file names it, for whoever knows the methods.
-    pub method_place: Option<Place>,
+    pub method_place: Option<SourceRange>,
     /// Simulated seconds per second of the wall clock.
     pub speed: f64,
     /// The time of the initial values.
@@ -174,7 +174,7 @@ pub struct RunSettings {
     /// The relative tolerance of an adaptive method.
     pub tolerance: Option<f64>,
     /// Where the file gives the tolerance or the step, for whoever knows what a method takes.
-    pub settings_place: Option<Place>,
+    pub settings_place: Option<SourceRange>,
 }
 
 impl Default for RunSettings {

@@ -2,13 +2,13 @@
 //!
 //! In: a number of bytes. Out: the refusal. Never here: files.
 
-use super::mistake::Mistake;
+use crate::diagnostic::Diagnostic;
 
 /// The most bytes a file may have.
 pub const TEXT_LIMIT: usize = 1 << 20;
 
 /// The refusal of a file beyond the limit.
-pub(super) fn too_long(bytes: u64) -> Mistake {
+pub(super) fn too_long(bytes: u64) -> Diagnostic {
     let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
-    Mistake::error(0..0, message)
+    Diagnostic::error(0..0, message)
 }

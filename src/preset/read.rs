@@ -4,10 +4,10 @@
 
 use super::check;
 use super::draft;
-use super::grammar;
 use super::limit::{TEXT_LIMIT, too_long};
-use super::mistake::{Mistake, Mistakes};
+use super::toml_errors;
 use crate::cancel::Cancel;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
 
 /// A file without a mistake.
@@ -16,14 +16,14 @@ pub struct Checked {
     /// The system it describes.
     pub model: Model,
     /// What is allowed but probably not meant.
-    pub warnings: Vec<Mistake>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// Reads a preset.
 ///
 /// # Errors
 /// All mistakes of the file (warnings among them), in the order of their places; never empty.
-pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
+pub fn read(text: &str) -> Result<Checked, Vec<Diagnostic>> {
     read_with(text, &Cancel::new())
 }
 
@@ -31,12 +31,12 @@ pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
 ///
 /// # Errors
 /// Those of [`read`].
-pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
+pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
     if text.len() > TEXT_LIMIT {
         return Err(vec![too_long(text.len() as u64)]);
     }
-    let mut mistakes = Mistakes::default();
-    let table = grammar::parse(text, &mut mistakes);
+    let mut mistakes = Diagnostics::default();
+    let table = toml_errors::parse(text, &mut mistakes);
     if mistakes.lost_track() {
         return Err(mistakes.into_list());
     }

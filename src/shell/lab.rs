@@ -5,27 +5,28 @@
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
+use super::cast_player::CastPlayer;
 use super::demo::Demo;
 use super::diagnosis::diagnosis;
+use super::frame_loop::{Ending, perform};
 use super::log::Log;
-use super::projector::Projector;
 use super::regular;
-use super::request::{Refusal, Request};
+use super::request::{LabError, Request};
 use super::session::{Left, Session};
-use super::stage::{Ending, perform};
 use super::store;
 use super::store::Store;
-use super::terminal::NoTerminal;
-use crate::preset::{Catalog, Mistake};
-use crate::record::{Performance, Tape, still};
+use super::terminal::TerminalError;
+use crate::diagnostic::Diagnostic;
+use crate::preset::Catalog;
+use crate::record::{RecordedCast, ScriptRunner, screenshot};
 
 /// Opens the laboratory on the terminal until it is left.
 ///
 /// # Errors
 /// Where there is no terminal, no session or nothing of that name, before the screen is touched; and where the session
 /// could not be saved, after it was left.
-pub fn run(request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
+pub fn run(request: &Request) -> Result<Ending, LabError> {
+    TerminalError::check()?;
     let catalog = Catalog::load();
     let mut request = request.clone();
     let saved = if request.resume { Some(store::read()?) } else { None };
@@ -61,7 +62,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
     session.log.close();
     drop(session);
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
-    let lost = kept.map_err(Refusal::Unsaved).and(recorded.map_err(Refusal::Unrecorded));
+    let lost = kept.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
     match (lost, ending) {
         (Err(why), Ending::Quit) => Err(why),
         (Err(why), Ending::Signal(_) | Ending::Gone) => {
@@ -77,10 +78,10 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
 ///
 /// # Errors
 /// Where there is no terminal, before the screen is touched.
-pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
+pub fn show(tape: RecordedCast, request: &Request) -> Result<Ending, LabError> {
+    TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    perform(&mut Projector::new(tape, request.look(&variable)), request.pace(&variable))
+    perform(&mut CastPlayer::new(tape, request.look(&variable)), request.pace(&variable))
 }
 
 /// Performs a demo on the terminal until it ends or is left. What it ends with: its last picture as text with colours, where
@@ -89,10 +90,10 @@ pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
 /// # Errors
 /// Where there is no terminal, before the screen is touched.
 pub fn perform_demo(
-    performance: Performance,
+    performance: ScriptRunner,
     request: &Request,
-) -> Result<(Ending, Result<Option<String>, Mistake>), Refusal> {
-    NoTerminal::check()?;
+) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
+    TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     let look = request.look(&variable);
     let palette = look.theme.palette();

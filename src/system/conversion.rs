@@ -4,13 +4,13 @@
 
 use std::sync::Arc;
 
-use super::beginning::Known;
 use super::compiled::System;
-use super::fault::Fault;
+use super::consistent_initial::Known;
+use super::error::MotionError;
 use super::legendre::Legendre;
-use super::value::Values;
-use super::{Form, Given, State};
-use crate::expr::Double;
+use super::value::Evaluator;
+use super::{Form, InitialOverride, State};
+use crate::num::DoubleDouble;
 
 impl System {
     /// The initial coordinates, then velocities or momenta, as the file gives them at these
@@ -20,20 +20,25 @@ impl System {
         (0..self.moving()).map(|i| values.output(i).high).collect()
     }
 
-    pub(super) fn initial_program(&self, parameters: &[Double]) -> Values<Double> {
-        let mut values = Values::new(Arc::clone(&self.shared.initial));
+    pub(super) fn initial_program(&self, parameters: &[DoubleDouble]) -> Evaluator<DoubleDouble> {
+        let mut values = Evaluator::new(Arc::clone(&self.shared.initial));
         values.set_parameters(parameters);
         values
     }
 
     /// The initial state at these parameters; `given` values take the place of the file's.
-    pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    pub fn initial(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let mut state = self.begin(start, parameters, given)?;
-        let program = &self.shared.carried;
+        let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
-            let mut values: Values<Double> = Values::new(Arc::clone(program));
+            let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
             values.set_parameters(&self.inputs(parameters));
-            let numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+            let numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
             let found = values.evaluate(state.exact_time(), &numbers);
             found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
             for i in 0..program.outputs() {
@@ -45,32 +50,37 @@ impl System {
     }
 
     /// The initial state but for the numbers carried along.
-    fn begin(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    fn begin(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let values = self.initial_program(&inputs);
-        let mut state: Vec<Double> = (0..self.moving()).map(|i| values.output(i)).collect();
+        let mut state: Vec<DoubleDouble> = (0..self.moving()).map(|i| values.output(i)).collect();
         let mut targets = vec![None; n];
         let mut known = self.shared.known.clone();
         for &given in given {
             match (given, self.form()) {
-                (Given::Position(i, x), _) => state[i] = Double::written(x),
-                (Given::Velocity(i, x), Form::Velocity)
-                | (Given::Momentum(i, x), Form::Momentum) => {
-                    (state[n + i], targets[i]) = (Double::written(x), None);
-                    known[i] = Known::Given;
+                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::written(x),
+                (InitialOverride::Velocity(i, x), Form::Velocity)
+                | (InitialOverride::Momentum(i, x), Form::Momentum) => {
+                    (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
+                    known[i] = Known::InitialOverride;
                 }
-                (Given::Velocity(i, x) | Given::Momentum(i, x), _) => {
-                    targets[i] = Some(Double::written(x));
-                    known[i] = Known::Momentum(Double::written(x));
+                (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
+                    targets[i] = Some(DoubleDouble::written(x));
+                    known[i] = Known::Momentum(DoubleDouble::written(x));
                 }
             }
         }
-        let time = Double::written(start);
+        let time = DoubleDouble::written(start);
         if self.constraints() > 0 {
             let state = self.state_of(time, self.form(), &state);
             self.check_finite(&state)?;
-            return self.begin_held(state, &known, parameters);
+            return self.begin_on_constraints(state, &known, parameters);
         }
         if targets.iter().any(Option::is_some) {
             let mut legendre = self.legendre(&inputs);
@@ -89,7 +99,12 @@ impl System {
 
     /// The same state in another form. Where several velocities belong to the momenta, those are
     /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
-    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
+    pub fn convert(
+        &self,
+        state: &State,
+        form: Form,
+        parameters: &[f64],
+    ) -> Result<State, MotionError> {
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
         if state.form != form && self.has_branches() && form == self.form() {
@@ -105,11 +120,11 @@ impl System {
         &self,
         legendre: &mut Legendre,
         state: &State,
-        rates: Vec<Double>,
-    ) -> Result<State, Fault> {
+        rates: Vec<DoubleDouble>,
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let targets: Vec<_> = (n..2 * n).map(|i| Some(state.exact(i))).collect();
-        let mut numbers: Vec<Double> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
         let outcome = legendre.solve(state.exact_time(), &mut numbers, &targets);
         outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
         let mut result = state.clone();
@@ -135,18 +150,18 @@ impl System {
         state: &State,
         old: &[f64],
         new: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form != Form::Velocity {
             return Ok(state.clone());
         }
         let mut legendre = self.legendre(&self.inputs(old));
         let canonical = self.convert_by(&mut legendre, state, Form::Momentum, None)?;
-        if let Some(mut keeper) = self.keeper(new) {
+        if let Some(mut projector) = self.projector(new) {
             let n = self.degrees();
-            let target: Vec<Double> = (n..2 * n).map(|i| canonical.exact(i)).collect();
+            let target: Vec<DoubleDouble> = (n..2 * n).map(|i| canonical.exact(i)).collect();
             let mut after = state.clone();
-            keeper.project(&mut after)?;
-            return Ok(self.strike(&after, &target, new)?.0);
+            projector.project(&mut after)?;
+            return Ok(self.impulse_outcome(&after, &target, new)?.0);
         }
         legendre.set_parameters(&self.inputs(new));
         self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
@@ -159,7 +174,7 @@ impl System {
         state: &State,
         form: Form,
         guess: Option<&State>,
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form == form {
             return Ok(state.clone());
         }
@@ -167,18 +182,18 @@ impl System {
         let time = state.exact_time();
         let mut result = state.clone();
         result.form = form;
-        let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let outcome = if form == legendre.native() {
             let targets: Vec<_> = numbers[n..].iter().copied().map(Some).collect();
             for i in n..2 * n {
-                numbers[i] = guess.map_or(Double::ZERO, |guess| guess.exact(i));
+                numbers[i] = guess.map_or(DoubleDouble::ZERO, |guess| guess.exact(i));
             }
             match guess {
                 Some(_) => legendre.follow(time, &mut numbers, &targets),
                 None => legendre.solve(time, &mut numbers, &targets),
             }
         } else {
-            let mut other = vec![Double::ZERO; n];
+            let mut other = vec![DoubleDouble::ZERO; n];
             let outcome = legendre.other_rates(time, &numbers, &mut other);
             numbers[n..].copy_from_slice(&other);
             outcome
@@ -198,7 +213,7 @@ impl System {
         state: &State,
         near: &State,
         parameters: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let mut legendre = self.legendre(&self.inputs(parameters));
         self.convert_by(&mut legendre, state, self.form(), Some(near))
     }

@@ -10,11 +10,12 @@ use std::sync::Arc;
 
 use super::System;
 use super::jet::{Jet, Side};
-use super::motion::Writer;
+use super::observables;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::series::Series;
-use super::watch;
-use crate::expr::{Double, Expr, FunctionId, Node, Symbol, portable};
+use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::num::{DoubleDouble, math};
 
 /// How many of the last orders are looked at: those of even and of odd functions vanish in turn.
 const LAST: usize = 3;
@@ -28,13 +29,13 @@ const PART_OF_ARGUMENT: f64 = 0.5;
 /// The program of the functions whose series are looked at: those of the events, then the arguments
 /// of the exponentials in them, which may vanish far away and not nearby.
 pub(super) fn program(
-    writer: &mut Writer<'_>,
+    builder: &mut ProgramBuilder<'_>,
     functions: &[Option<Expr>],
 ) -> Result<Arc<Program>, Symbol> {
     let given: Vec<Expr> = functions.iter().flatten().copied().collect();
     let mut all = functions.to_vec();
-    for part in writer.pool.reachable(&given) {
-        match writer.pool.node(part) {
+    for part in builder.pool.reachable(&given) {
+        match builder.pool.node(part) {
             Node::Call(
                 FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
                 arguments,
@@ -43,7 +44,7 @@ pub(super) fn program(
             _ => {}
         }
     }
-    watch::program(writer, &all)
+    observables::program(builder, &all)
 }
 
 /// The series of the functions, to one order.
@@ -74,7 +75,7 @@ impl Expansion {
         }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.jet.set_parameters(parameters);
     }
 
@@ -86,7 +87,7 @@ impl Expansion {
     /// not finite.
     pub(super) fn about(&mut self, series: &Series, x: f64) -> bool {
         self.take_in(series, x);
-        let time = (series.time() + Double::from(x) * series.scale()).high;
+        let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
         if !self.grow(time, series.scale()) {
             return false;
         }
@@ -101,13 +102,13 @@ impl Expansion {
 
     /// The coefficients of what the functions depend on.
     fn take_in(&mut self, series: &Series, x: f64) {
-        let driven = self.system.driven();
-        let mut next = driven;
-        for place in 0..driven {
+        let driven_len = self.system.driven_len();
+        let mut next = driven_len;
+        for place in 0..driven_len {
             self.take_in_one(place, series.coefficients(place), x);
         }
-        for (place, carried) in (driven..).zip(self.system.carries()) {
-            if carried && next < series.len() {
+        for (place, auxiliary) in (driven_len..).zip(self.system.carries()) {
+            if auxiliary && next < series.len() {
                 self.take_in_one(place, series.coefficients(next), x);
                 next += 1;
             } else {
@@ -180,7 +181,7 @@ fn told(c: &[f64], cut_off: f64) -> f64 {
         }
         let to_term = |j: usize| {
             let ratio = cut_off * (c[j] / c[k]).abs();
-            portable::powf(ratio, 1.0 / (k - j) as f64)
+            math::powf(ratio, 1.0 / (k - j) as f64)
         };
         length = length.min((0..k).map(to_term).fold(0.0, f64::max));
     }
@@ -191,7 +192,7 @@ fn told(c: &[f64], cut_off: f64) -> f64 {
 fn moving(c: &[f64]) -> f64 {
     let bound = FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs());
     let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);
-    let reach = terms.map(|(k, x)| portable::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
+    let reach = terms.map(|(k, x)| math::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
     reach.fold(f64::INFINITY, f64::min)
 }
 
@@ -211,11 +212,11 @@ mod tests {
         for speed in [1.0, 1e6, 1e-6] {
             let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
                 let sign = [0.0, 1.0, 0.0, -1.0][k % 4];
-                sign * portable::powi(speed, k as i32) / factorial(k)
+                sign * math::powi(speed, k as i32) / factorial(k)
             });
             let turn = told(&sine, CUT_OFF) * speed;
             assert!((2.5..4.5).contains(&turn), "{turn}");
-            let pole: [f64; ORDER + 1] = std::array::from_fn(|k| portable::powi(speed, k as i32));
+            let pole: [f64; ORDER + 1] = std::array::from_fn(|k| math::powi(speed, k as i32));
             let part = told(&pole, CUT_OFF) * speed;
             assert!((0.4..0.7).contains(&part), "{part}");
         }

@@ -9,12 +9,12 @@ use super::jet::{Jet, Side};
 use super::program::{Program, Singular};
 use super::solve::Factored;
 use crate::cancel::Cancel;
-use crate::expr::{Double, Real, Wide};
+use crate::num::{DoubleDouble, ExtendedRange, Real};
 
 /// When the origin is, and the unit of time.
 #[derive(Clone, Copy)]
 pub(super) struct Clock {
-    pub(super) time: Double,
+    pub(super) time: DoubleDouble,
     pub(super) scale: f64,
 }
 
@@ -35,7 +35,7 @@ impl From<Singular> for Halt {
 
 /// The series in one precision, growing order by order.
 #[derive(Clone, Debug)]
-pub(super) struct Growth<R> {
+pub(super) struct SeriesBuilder<R> {
     pub(super) jet: Jet<R>,
     /// The highest order of the state's series.
     pub(super) order: usize,
@@ -49,10 +49,22 @@ pub(super) struct Growth<R> {
     pub(super) depth: usize,
 }
 
-impl<R: Real> Growth<R> {
-    pub(super) fn new(program: Arc<Program>, inputs: usize, len: usize, order: usize) -> Growth<R> {
+impl<R: Real> SeriesBuilder<R> {
+    pub(super) fn new(
+        program: Arc<Program>,
+        inputs: usize,
+        len: usize,
+        order: usize,
+    ) -> SeriesBuilder<R> {
         let state = vec![R::ZERO; len * (order + 1)];
-        Growth { jet: Jet::new(program, order), order, inputs, state, kept: Vec::new(), depth: 1 }
+        SeriesBuilder {
+            jet: Jet::new(program, order),
+            order,
+            inputs,
+            state,
+            kept: Vec::new(),
+            depth: 1,
+        }
     }
 
     pub(super) fn series(&self, i: usize) -> &[R] {
@@ -63,7 +75,7 @@ impl<R: Real> Growth<R> {
         self.state.len() / (self.order + 1)
     }
 
-    pub(super) fn begin(&mut self, origin: &[Double], sides: &[Side]) {
+    pub(super) fn begin(&mut self, origin: &[DoubleDouble], sides: &[Side]) {
         for (i, &x) in origin.iter().enumerate() {
             self.state[i * (self.order + 1)] = R::of(x);
         }
@@ -77,7 +89,7 @@ impl<R: Real> Growth<R> {
     }
 
     /// Takes over all orders known in another precision.
-    pub(super) fn take_over<S: Real>(&mut self, other: &Growth<S>) -> Result<(), Singular> {
+    pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
         for i in 0..self.len() {
             for (k, &c) in other.series(i).iter().enumerate() {
                 self.state[i * (self.order + 1) + k] = R::of(c.double());
@@ -89,7 +101,7 @@ impl<R: Real> Growth<R> {
     }
 
     /// All orders that are known in a wider range, to be read and not to be continued.
-    pub(super) fn copy(&mut self, wide: &Growth<Wide>) {
+    pub(super) fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>) {
         for i in 0..self.len() {
             for k in 0..=self.order {
                 self.state[i * (self.order + 1) + k] = R::of(wide.series(i)[k].double());

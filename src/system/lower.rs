@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::program::{Block, Guard, Op, Program, Register, Term};
-use crate::expr::{Double, Expr, FunctionId, Number, Pool, Symbol};
+use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use crate::num::{DoubleDouble, Number};
 
 /// A program being written.
 #[derive(Debug)]
@@ -37,7 +38,7 @@ impl<'a> Lowering<'a> {
             unknown: None,
             cuts: false,
         };
-        lowering.constant_index(Double::ZERO);
+        lowering.constant_index(DoubleDouble::ZERO);
         for (i, &symbol) in parameters.iter().enumerate() {
             let register = lowering.push(Op::Parameter(i as u32));
             lowering.bind(symbol, register);
@@ -212,7 +213,7 @@ impl<'a> Lowering<'a> {
                 [first as usize..(first + count) as usize]
                 .iter()
                 .all(|term| self.is_fixed(term.register)),
-            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::LivePower(a, b) => {
+            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
                 self.is_fixed(a) && self.is_fixed(b)
             }
             Op::Square(a) | Op::Root(a) | Op::Power(a, _) => self.is_fixed(a),
@@ -234,7 +235,7 @@ impl<'a> Lowering<'a> {
         self.program.fixed[register as usize]
     }
 
-    pub(super) fn constant_index(&mut self, x: Double) -> u32 {
+    pub(super) fn constant_index(&mut self, x: DoubleDouble) -> u32 {
         let key = (x.high.to_bits(), x.low.to_bits());
         let next = self.program.constants.len() as u32;
         let index = *self.constants.entry(key).or_insert(next);
@@ -244,7 +245,7 @@ impl<'a> Lowering<'a> {
         index
     }
 
-    pub(super) fn constant(&mut self, x: Double) -> Register {
+    pub(super) fn constant(&mut self, x: DoubleDouble) -> Register {
         let index = self.constant_index(x);
         self.push(Op::Constant(index))
     }

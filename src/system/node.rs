@@ -4,16 +4,17 @@
 
 use super::lower::Lowering;
 use super::program::{LIVE_POWER_BITS, Op, Register};
-use crate::expr::{Branches, Double, Expr, FunctionId, Node, Number, Pool, Rule};
+use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule};
+use crate::num::{DoubleDouble, Number};
 
 impl Lowering<'_> {
     pub(super) fn lower_node(&mut self, e: Expr) -> Register {
         match self.pool.node(e).clone() {
             Node::Number(n) => self.constant(n.double()),
-            Node::Pi => self.constant(Double::PI),
+            Node::Pi => self.constant(DoubleDouble::PI),
             Node::Symbol(symbol) => {
                 self.unknown.get_or_insert(symbol);
-                self.constant(Double::from(f64::NAN))
+                self.constant(DoubleDouble::from(f64::NAN))
             }
             Node::Sum(constant, terms) => {
                 let terms: Vec<(Number, Register)> =
@@ -47,13 +48,13 @@ impl Lowering<'_> {
             fixed = Some(fixed.map_or(above, |c| self.multiply(c, above)));
         }
         if let Some(below) = parts[1] {
-            let above = fixed.unwrap_or_else(|| self.constant(Double::ONE));
+            let above = fixed.unwrap_or_else(|| self.constant(DoubleDouble::ONE));
             fixed = Some(self.push(Op::Divide(above, below)));
         }
         let above = match (fixed, parts[2]) {
             (Some(fixed), Some(above)) => self.multiply(fixed, above),
             (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => self.constant(Double::ONE),
+            (None, None) => self.constant(DoubleDouble::ONE),
         };
         parts[3].map_or(above, |below| self.push(Op::Divide(above, below)))
     }
@@ -136,7 +137,7 @@ impl Lowering<'_> {
 
     fn lower_power(&mut self, base: Register, exponent: Register) -> Register {
         if self.is_fixed(exponent) {
-            let register = self.push(Op::LivePower(base, exponent));
+            let register = self.push(Op::ParametricPower(base, exponent));
             self.make_room(register, 2 * LIVE_POWER_BITS);
             return register;
         }

@@ -10,7 +10,7 @@ use super::expansion::{Expansion, side};
 use super::program::Program;
 use super::series::Series;
 use super::{State, System};
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 
 /// The order of the series.
 const ORDER: usize = 12;
@@ -39,14 +39,14 @@ impl Resolution {
         }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.series.set_parameters(parameters);
         self.expansion.set_parameters(parameters);
         self.last = None;
     }
 
     /// How far after a state, in the system's own form, all functions are simple; `None` where that
-    /// cannot be told. `near` is some length of time that is not far from the motion's own.
+    /// cannot be reported. `near` is some length of time that is not far from the motion's own.
     pub(super) fn after(&mut self, state: &State, near: f64) -> Option<f64> {
         let mut unit = self.last.unwrap_or(near);
         for _ in 0..ATTEMPTS {

@@ -2,23 +2,23 @@
 //!
 //! In: the derived equations. Out: a page of text. Never here: derivations.
 
-use super::Look;
-use super::document::Document;
+use super::RenderStyle;
+use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Constant, Flow, Left, Line, Report, WhyNot};
+use crate::mechanics::{Constant, Flow, Left, Line, NoClosedForm, Report};
 
 /// More pieces than this are not written out on a screen.
 const MOST: u64 = 4_000;
 
 /// The page.
-pub(super) fn document(lab: &Lab, look: &Look) -> Document {
+pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = Writer { report: &report, look, page: Document::default() };
+    let mut writer = Writer { report: &report, look, page: TextPage::default() };
     writer.law();
     writer.constraints();
-    writer.happenings();
+    writer.occurrences();
     writer.motion();
     writer.hamiltonian();
     writer.conserved();
@@ -27,9 +27,9 @@ pub(super) fn document(lab: &Lab, look: &Look) -> Document {
 }
 
 /// The law of motion and what to look for, for a small pane.
-pub(super) fn law(lab: &Lab, look: &Look) -> Document {
+pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = Writer { report: &report, look, page: Document::default() };
+    let mut writer = Writer { report: &report, look, page: TextPage::default() };
     writer.lines(&[report.law]);
     writer.page.gap();
     writer.solved();
@@ -42,8 +42,8 @@ pub(super) fn law(lab: &Lab, look: &Look) -> Document {
 
 struct Writer<'a> {
     report: &'a Report<'a>,
-    look: &'a Look,
-    page: Document,
+    look: &'a RenderStyle,
+    page: TextPage,
 }
 
 impl Writer<'_> {
@@ -62,7 +62,7 @@ impl Writer<'_> {
 
     fn left(&self, left: Left) -> String {
         match left {
-            Left::Letter(letter) => letter.to_owned(),
+            Left::Message(letter) => letter.to_owned(),
             Left::Symbol(symbol) => self.symbol(symbol),
             // d/dt x, written as the terminal can
             Left::Rate(symbol) => format!("d{}/dt", self.symbol(symbol)),
@@ -87,7 +87,7 @@ impl Writer<'_> {
         lines.into_iter().for_each(|line| self.line(line, ""));
     }
 
-    fn not_closed(&mut self, why: &WhyNot) {
+    fn not_closed(&mut self, why: &NoClosedForm) {
         self.page.words(Role::Dim, format!("Not in closed form: {why}."));
     }
 
@@ -118,14 +118,14 @@ impl Writer<'_> {
         }
     }
 
-    /// Blows, and the events that are looked for.
-    fn happenings(&mut self) {
+    /// Impulses, and the events that are looked for.
+    fn occurrences(&mut self) {
         let report = self.report;
-        if !report.blows.is_empty() {
-            self.page.heading("Blows");
+        if !report.impulses.is_empty() {
+            self.page.heading("Impulses");
         }
-        for blow in &report.blows {
-            blow.changes.iter().for_each(|line| self.line(line, &blow.impulse.name));
+        for impulse in &report.impulses {
+            impulse.changes.iter().for_each(|line| self.line(line, &impulse.impulse.name));
         }
         if !report.model.events.is_empty() {
             self.page.heading("Events: where these cross zero");
@@ -206,9 +206,9 @@ impl Writer<'_> {
         self.put("h", report.energy.right, "");
         let known = report.conserved.iter().any(|kept| kept.constant == Constant::Energy);
         let rests = known && report.energy_rate == Expr::ZERO;
-        let remark = match (rests, report.blows.is_empty()) {
+        let remark = match (rests, report.impulses.is_empty()) {
             (true, true) => "conserved",
-            (true, false) => "conserved between blows",
+            (true, false) => "conserved between impulses",
             _ => "",
         };
         self.put("dh/dt", report.energy_rate, remark);

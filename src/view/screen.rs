@@ -5,14 +5,13 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::bars;
 use super::canvas::{Canvas, row};
-use super::desk;
-use super::document::Document;
 use super::equations;
+use super::header_footer;
 use super::help;
+use super::lab_page;
 use super::layout::{LEAST, Screen};
-use super::look::Look;
+use super::look::RenderStyle;
 use super::menu;
 use super::notes;
 use super::numbers;
@@ -20,13 +19,14 @@ use super::picker;
 use super::plain;
 use super::prompt;
 use super::quantity::Quantities;
+use super::text_page::TextPage;
 use super::theme::Role;
 use super::workbench;
 use super::wrap;
-use crate::app::{App, Drawn, Lab, Over, Page, Spot};
+use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
-pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
+pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
     let themed = look.chosen_by(app);
     let look = themed.as_ref().unwrap_or(look);
     let mut canvas = Canvas::over(buffer, look);
@@ -43,30 +43,30 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     // What is read keeps still, and says the status itself.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     let screen = Screen::of(area, status);
-    bars::header(canvas, screen.header, app);
+    header_footer::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
-    bars::notice(canvas, screen.body, app);
-    bars::status(canvas, screen.status, app);
-    bars::footer(canvas, screen.footer, app);
+    header_footer::notice(canvas, screen.body, app);
+    header_footer::status(canvas, screen.status, app);
+    header_footer::footer(canvas, screen.footer, app);
     drawn
 }
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
     let over = app.over.as_ref();
-    if let Some(Over::Help { .. }) = over {
+    if let Some(Overlay::Help { .. }) = over {
         let page = help::document(look, app.places_below());
         return text(canvas, area, "Keys", page, app.scroll);
     }
-    if let Some(Over::Message(failure)) = over {
-        let mut page = Document::default();
+    if let Some(Overlay::Message(failure)) = over {
+        let mut page = TextPage::default();
         for line in failure.message.lines() {
             page.row(vec![(Role::Text, line.to_owned())]);
         }
         let title = format!("{} has mistakes", failure.name);
         return text(canvas, area, &title, page, app.scroll);
     }
-    if let (Some(sheet), Some(lab)) = (app.open_sheet(), &app.lab) {
+    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
         return workbench::draw(canvas, area, (app, lab), sheet);
     }
     let drawn = match (app.page, &app.lab) {
@@ -75,14 +75,14 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             Drawn::default()
         }
         (Page::Lab, Some(lab)) => {
-            desk::draw(canvas, area, app, lab);
+            lab_page::draw(canvas, area, app, lab);
             Drawn::default()
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };
     match (over, &app.lab) {
-        (Some(Over::Menu(menu)), _) => menu::draw(canvas, area, menu),
-        (Some(Over::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
+        (Some(Overlay::Menu(menu)), _) => menu::draw(canvas, area, menu),
+        (Some(Overlay::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
         _ => {}
     }
     drawn
@@ -91,7 +91,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
     let look = canvas.look;
     if page == Page::Plain {
-        canvas.spot(area, Spot::Text);
+        canvas.spot(area, HitTarget::Text);
         let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
         let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
         let document = read.map(|q| plain::document(&q)).unwrap_or_default();
@@ -99,7 +99,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
     }
     let (title, document) = match page {
         Page::Equations => ("Equations", equations::document(lab, look)),
-        Page::Notes => ("Notes", notes::document(lab, look)),
+        Page::PendingSignals => ("Notes", notes::document(lab, look)),
         _ => {
             let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q));
             ("Numbers", numbers.unwrap_or_default())
@@ -108,10 +108,10 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
     text(canvas, area, title, document, app.scroll)
 }
 
-fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: Document, scroll: u16) -> Drawn {
+fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, Spot::Text);
+    canvas.spot(area, HitTarget::Text);
     page.draw(canvas, inner, scroll)
 }
 

@@ -112,7 +112,7 @@ impl Page<'_> {
     fn left(&self, left: Left) -> String {
         let name = |symbol| &self.report.equations.pool.symbol_info(symbol).name;
         match left {
-            Left::Letter(letter) => letter.to_owned(),
+            Left::Message(letter) => letter.to_owned(),
             Left::Symbol(s) | Left::Jump(s) => name(s).clone(),
             Left::Rate(p) => format!("{}'", name(p)),
             Left::Added(letter, q) => format!("{letter}_{}", name(q)),
@@ -142,12 +142,12 @@ impl Page<'_> {
 
     /// Each impulse with what it adds to momenta (or variables), and when.
     fn impulses(&self) -> Vec<Value> {
-        let all = self.report.blows.iter().map(|blow| {
+        let all = self.report.impulses.iter().map(|impulse| {
             json!({
-                "name": blow.impulse.name,
-                "change": self.map(&blow.changes),
-                "at": self.list(&blow.impulse.times),
-                "every": blow.impulse.period.map(|e| self.text(e)),
+                "name": impulse.impulse.name,
+                "change": self.map(&impulse.changes),
+                "at": self.list(&impulse.impulse.times),
+                "every": impulse.impulse.period.map(|e| self.text(e)),
             })
         });
         all.collect()

@@ -23,7 +23,7 @@ pub(super) fn write(report: &Report<'_>) -> String {
         Ok(motion) => page.lines(motion),
         Err(_) => page.unsolved(),
     }
-    page.lines(report.blows.iter().flat_map(|blow| &blow.changes));
+    page.lines(report.impulses.iter().flat_map(|impulse| &impulse.changes));
     for event in &report.model.events {
         // no equation of motion: the sign of this is looked at
         let name = event.name.replace(|c: char| !c.is_alphanumeric(), " ");
@@ -71,7 +71,7 @@ impl<'a> Page<'a> {
     fn left(&self, left: Left) -> String {
         let symbol = |s: Symbol| &self.report.equations.pool.symbol_info(s).latex;
         match left {
-            Left::Letter(letter) => letter.to_owned(),
+            Left::Message(letter) => letter.to_owned(),
             Left::Symbol(s) => symbol(s).clone(),
             Left::Rate(p) => format!("\\dot {}", symbol(p)),
             Left::Added(letter, q) => format!("{letter}_{{{}}}", symbol(q)),

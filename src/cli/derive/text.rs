@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::super::script::Script;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Constant, Left, Line, Report, WhyNot};
+use crate::mechanics::{Class, Classed, Constant, Left, Line, NoClosedForm, Report};
 use crate::model::Model;
 
 pub(super) fn write(report: &Report<'_>, classes: &[Classed], script: Script) -> String {
@@ -18,8 +18,8 @@ pub(super) fn write(report: &Report<'_>, classes: &[Classed], script: Script) ->
     page.momenta();
     page.motion();
     page.multipliers();
-    page.twin();
-    page.happenings();
+    page.vakonomic();
+    page.occurrences();
     page.energy();
     page.conserved();
     page.changing(classes);
@@ -126,13 +126,13 @@ impl Page<'_> {
     }
 
     /// The Lagrangian that has the constraints put into it, and what it is not.
-    fn twin(&mut self) {
+    fn vakonomic(&mut self) {
         let model = self.report.model;
-        let twin = &self.report.equations.beside.twin;
-        let (Some(twin), Some(comparison)) = (twin, &model.comparison) else { return };
+        let vakonomic = &self.report.equations.beside.vakonomic;
+        let (Some(vakonomic), Some(comparison)) = (vakonomic, &model.comparison) else { return };
         let title =
             "The wrong mechanics, for comparison: the constraints put into L before it varies";
-        match &twin.lagrangian {
+        match &vakonomic.lagrangian {
             Ok(l) => {
                 let eliminated = comparison.eliminate.iter();
                 let eliminated: Vec<String> =
@@ -144,18 +144,18 @@ impl Page<'_> {
         }
     }
 
-    fn happenings(&mut self) {
+    fn occurrences(&mut self) {
         let report = self.report;
-        if !report.blows.is_empty() {
+        if !report.impulses.is_empty() {
             self.heading("Impulses");
         }
-        for blow in &report.blows {
-            let changes = blow.changes.iter();
+        for impulse in &report.impulses {
+            let changes = impulse.changes.iter();
             let changes: Vec<String> = changes
                 .map(|line| format!("{} = {}", self.left(line.left), self.math(line.right)))
                 .collect();
             let changes = self.words(&changes.join(", "));
-            self.line(&format!("  {changes}   ({})", blow.impulse.name));
+            self.line(&format!("  {changes}   ({})", impulse.impulse.name));
         }
         if !report.model.events.is_empty() {
             self.heading("Events");
@@ -292,7 +292,7 @@ impl Page<'_> {
         }
     }
 
-    fn why_not(&mut self, title: &str, why: &WhyNot) {
+    fn why_not(&mut self, title: &str, why: &NoClosedForm) {
         self.heading(title);
         let why = self.words(&why.to_string());
         self.line(&format!("  {why}"));
@@ -304,7 +304,7 @@ impl Page<'_> {
         self.section(title, &rows);
     }
 
-    fn lines_or_why(&mut self, title: &str, lines: &Result<Vec<Line>, &WhyNot>) {
+    fn lines_or_why(&mut self, title: &str, lines: &Result<Vec<Line>, &NoClosedForm>) {
         match lines {
             Ok(lines) => self.lines(title, lines),
             Err(why) => self.why_not(title, why),
@@ -318,7 +318,7 @@ impl Page<'_> {
 
     fn left(&self, left: Left) -> String {
         match left {
-            Left::Letter(letter) => letter.to_owned(),
+            Left::Message(letter) => letter.to_owned(),
             Left::Symbol(symbol) => self.symbol(symbol),
             Left::Rate(p) => match self.script {
                 Script::Ascii => format!("{}'", self.symbol(p)),

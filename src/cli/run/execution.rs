@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::super::events::Events;
-use super::super::failure::Failure;
+use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::report::{Closing, Header, Status};
@@ -38,7 +38,7 @@ pub(super) struct Run<'i> {
 
 /// How a run ended before its time.
 enum End {
-    Fault(experiment::Fault),
+    Fault(experiment::Failure),
     Event,
     Signal(i32),
     Write(std::io::Error),
@@ -69,7 +69,7 @@ impl Table {
             if out.is_file() {
                 interrupt.saves();
             }
-            // nobody is left to be told of a failure
+            // nobody is left to be reported of a failure
             let _ = out.finish();
         }
     }
@@ -82,9 +82,9 @@ impl Run<'_> {
         format: Format,
         out: Output,
         header: &Header,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CommandError> {
         let name = out.name().to_owned();
-        let failed = |error: &std::io::Error| Failure::writing(&name, error);
+        let failed = |error: &std::io::Error| CommandError::writing(&name, error);
         let table = Table(Arc::default());
         let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
         self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
@@ -102,9 +102,9 @@ impl Run<'_> {
         }
         out.finish()?;
         cautions::after(&self.experiment);
-        let chronicle = self.experiment.happenings();
-        if chronicle.forgotten() > 0 && format != Format::Csv {
-            let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
+        let event_log = self.experiment.occurrences();
+        if event_log.forgotten() > 0 && format != Format::Csv {
+            let (count, forgotten) = (event_log.count(), event_log.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
         if let Some(passed) = self.experiment.singular_passages() {
@@ -116,19 +116,19 @@ impl Run<'_> {
         let line = departure.map(|departure| departure.line).unwrap_or_default();
         let cut_short = matches!(end, Some(End::Fault(_) | End::Signal(_)));
         if refused && !cut_short {
-            return Err(Failure::CouldNot(line));
+            return Err(CommandError::CouldNot(line));
         }
         stderr::tell(&line);
         match end {
-            Some(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
-            Some(End::Signal(signal)) => Err(Failure::Signal(signal)),
+            Some(End::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
+            Some(End::Signal(signal)) => Err(CommandError::Signal(signal)),
             _ => Ok(()),
         }
     }
 
     /// A signal has ended the run meanwhile.
-    fn gone(&self) -> Result<(), Failure> {
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(Failure::Signal(signal)))
+    fn gone(&self) -> Result<(), CommandError> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
     }
 
     fn rows(&mut self, table: &Table) -> Result<(), End> {
@@ -163,7 +163,7 @@ impl Run<'_> {
             bar.show(self.experiment.time());
             // a step that a signal has cancelled is no fault of the motion
             self.interrupted()?;
-            if let experiment::Status::Faulted(fault) = self.experiment.status() {
+            if let experiment::Status::Failed(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
             // the moment itself still has its row
@@ -178,7 +178,7 @@ impl Run<'_> {
 
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
-            Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
+            Some(End::Fault(fault)) => (Status::Failed, Some(fault.message.clone())),
             Some(End::Signal(_) | End::Write(_)) => {
                 (Status::Stopped, Some("stopped by a signal".to_owned()))
             }
@@ -192,7 +192,7 @@ impl Run<'_> {
             },
         };
         let gauges = self.experiment.snapshot().gauges;
-        let events = Events::of(self.experiment.model(), self.experiment.happenings());
+        let events = Events::of(self.experiment.model(), self.experiment.occurrences());
         Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }
