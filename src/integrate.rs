@@ -11,11 +11,16 @@ mod gauss;
 mod impulse_schedule;
 mod initial_step;
 mod leapfrog;
+mod located_event;
 mod method;
+mod methods;
+mod polynomial;
+mod probe;
 mod propagator;
 mod rk4;
 mod roots;
 mod roundoff;
+mod sampling;
 mod splitting;
 mod stability;
 mod stepper;
@@ -24,9 +29,8 @@ mod yoshida;
 mod zeno;
 
 pub use clock::spacing;
-pub use method::{
-    METHODS, Method, MethodError, Preserves, Settings, StepperResult, Stepping, method_named,
-};
+pub use method::{Method, MethodError, Preserves, Settings, StepperResult, Stepping};
+pub use methods::{METHODS, method_named};
 pub use propagator::{Occurrence, OccurrenceKind, Propagator, Reached};
 pub use roots::first_crossing;
 pub use stability::Unstable;

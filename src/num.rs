@@ -6,11 +6,13 @@
 
 mod double_double;
 mod extended_range;
+mod format;
 pub mod math;
 mod number;
 mod real;
 
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;
+pub use format::{short, significant};
 pub use number::Number;
 pub use real::{Real, Recurrence, RecurrenceStep};

@@ -8,6 +8,7 @@ use super::{App, Effect, Lab, Pane, ValueId};
 use crate::experiment::{Command, Snapshot, with_override};
 use crate::instrument::Plot;
 use crate::integrate::Settings;
+use crate::num::significant;
 use crate::system::InitialOverride;
 
 /// What was asked of the experiment and not yet seen, beside single values.
@@ -303,11 +304,7 @@ fn place(given: &InitialOverride) -> (usize, bool) {
 
 /// A number in six digits at most.
 fn short(value: f64) -> String {
-    let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
-    match rounded.abs() {
-        size if size != 0.0 && !(1e-4..1e7).contains(&size) => format!("{rounded:e}"),
-        _ => rounded.to_string(),
-    }
+    significant(value, 6, 1e-4..1e7)
 }
 
 impl Side {

@@ -226,7 +226,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('O')], Action::Record, "", "record what is shown into a cast in the current folder, or end the recording"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
-    row(Place::Experiment, &[c('3')], Action::Show(Page::PendingSignals), "", "page 3: notes, source and expectations"),
+    row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
     row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "fewer frames a second, for a slow line"),
     row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),

@@ -13,8 +13,9 @@ use super::history::History;
 use super::side::Answers;
 use super::{Loaded, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
-use crate::expr::{Symbol, Zero};
+use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
+use crate::mechanics::Valuation;
 use crate::model::Shape;
 
 /// A pane of the lab.
@@ -165,9 +166,9 @@ impl Lab {
         }
     }
 
-    /// The present value of a symbol of the system; not a number for one that has none.
-    pub fn now(&self, symbol: Symbol) -> f64 {
-        self.present().map_or(f64::NAN, |present| present.now(symbol))
+    /// What the symbols of the system are worth now; nothing before the motion was seen.
+    pub fn valuation(&self) -> Valuation {
+        self.present().map(|present| present.valuation()).unwrap_or_default()
     }
 
     /// What an eye sees: each shape, and whether it is a rod.

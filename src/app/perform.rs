@@ -266,7 +266,7 @@ impl App {
                 }
                 self.go(Page::Picker);
             }
-            (Page::Equations | Page::PendingSignals | Page::Numbers | Page::Plain, Some(_)) => {
+            (Page::Equations | Page::Notes | Page::Numbers | Page::Plain, Some(_)) => {
                 self.go(Page::Lab);
             }
         }
@@ -297,7 +297,7 @@ impl App {
                     }
                     lab.select(|place| place.saturating_add_signed(by));
                 }
-                (Page::Equations | Page::PendingSignals | Page::Numbers, Some(_)) => self.roll(by),
+                (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.roll(by),
                 (Page::Plain, Some(_)) => {
                     let last = usize::from(self.drawn.beyond + self.drawn.rows).saturating_sub(1);
                     let line = self.reading.line.saturating_add_signed(by);

@@ -5,7 +5,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::mechanics::{self, ChainRule, Equations, POINTS, Point, TRIES};
+use crate::mechanics::{self, ChainRule, Equations, POINTS, TRIES, Valuation};
 use crate::model::{ExpectedBracket, Model};
 
 /// How far a bracket may be from what it is said to be, relative to the size of its terms.
@@ -43,7 +43,7 @@ fn compare(
     if equations.pool.is_zero(difference) == Zero::Proved {
         return None;
     }
-    let value = |point: &Point| equations.pool.evaluate_with_size(difference, &|s| point.at(s));
+    let value = |point: &Valuation| equations.pool.evaluate_with_size(difference, &|s| point.at(s));
     let short = equations.pool.weight(bracket) <= LONGEST;
     let found = short.then(|| equations.pool.unicode(bracket));
     judge(model, equations, claim, found.as_deref(), &value)
@@ -63,7 +63,7 @@ fn at_points(
         Err(why) => return Some(unchecked(claim, &why)),
     };
     let is = equations.open(claim.is);
-    let value = |point: &Point| {
+    let value = |point: &Valuation| {
         let at = |symbol: Symbol| point.at(symbol);
         let (right, size) = equations.pool.evaluate_with_size(is, &at);
         match rule.value(equations, &at) {
@@ -80,11 +80,11 @@ fn judge(
     equations: &Equations,
     claim: &ExpectedBracket,
     found: Option<&str>,
-    value: &dyn Fn(&Point) -> (f64, f64),
+    value: &dyn Fn(&Valuation) -> (f64, f64),
 ) -> Option<Diagnostic> {
     let mut seen = 0;
     for n in 0..TRIES {
-        let (off, size) = value(&Point::near_start(model, equations, n));
+        let (off, size) = value(&Valuation::near_start(model, equations, n));
         if !off.is_finite() || !size.is_finite() {
             continue;
         }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, report};
 use crate::expr::{Expr, Pool};
-use crate::mechanics::body_constants;
+use crate::mechanics::{Valuation, body_constants};
 use crate::model::{Allowed, Channel, Model, Scope};
 use crate::num::Number;
 use crate::system::InitialOverride;
@@ -151,12 +151,7 @@ fn initial_value(
         .read(&mut pool, &assignment.value)
         .ok_or_else(|| wrong(assignment, &first_mistake(&scope)))?;
     let body = body_constants(model, parameters);
-    let parameter = |symbol| {
-        let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-        index.map(|i| parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
-    };
-    let value = pool.evaluate(e, &parameter);
+    let value = Valuation::of_parameters(model, parameters).with(body).value(&pool, e);
     if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
 }
 

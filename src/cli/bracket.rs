@@ -11,7 +11,8 @@ use super::format::Format;
 use super::open;
 use super::output::Output;
 use super::script::Script;
-use crate::expr::{Expr, Symbol, Zero};
+use crate::experiment::Derived;
+use crate::expr::{Expr, Zero};
 use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, InitialOverride, System};
@@ -53,26 +54,27 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let parameters = assignment::parameters(&model, &arguments.set)?;
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
-    let mut equations = open::derive(&document, &model)?;
-    let pool = &mut equations.pool;
-    let f = assignment::expression(&model, pool, &arguments.f, "F")?;
-    let g = assignment::expression(&model, pool, &arguments.g, "G")?;
+    let mut derived = open::derive(&document, model)?;
+    let Derived { model, equations } = &mut derived;
+    let f = assignment::expression(model, &mut equations.pool, &arguments.f, "F")?;
+    let g = assignment::expression(model, &mut equations.pool, &arguments.g, "G")?;
 
-    let expression = mechanics::bracket(&model, &mut equations, f, g);
+    let expression = mechanics::bracket(model, equations, f, g);
     let recognised = match &expression {
-        Ok(e) => mechanics::recognise(&model, &mut equations, *e),
+        Ok(e) => mechanics::recognise(model, equations, *e),
         Err(_) => None,
     };
     let start = Start { parameters, given };
     let value = match &expression {
-        Ok(e) => start.value(&model, &equations, *e),
-        Err(_) => start.value_by_chain_rule(&model, &mut equations, f, g),
+        Ok(e) => start.value(&derived, *e),
+        Err(_) => start.value_by_chain_rule(&mut derived, f, g),
     };
-    let answer = Answer { arguments, model: &model, f, g, expression, recognised, value };
+    let Derived { model, equations } = &derived;
+    let answer = Answer { arguments, model, f, g, expression, recognised, value };
     let text = match arguments.format {
-        Format::Text => answer.text(&equations, Script::of_locale()),
-        Format::Latex => answer.latex(&equations),
-        Format::Json => answer.json(&equations),
+        Format::Text => answer.text(equations, Script::of_locale()),
+        Format::Latex => answer.latex(equations),
+        Format::Json => answer.json(equations),
     };
     Output::print(arguments.format.form(), &text)
 }
@@ -85,45 +87,23 @@ struct Start {
 
 impl Start {
     /// The value of a function of phase space.
-    fn value(&self, model: &Model, equations: &Equations, e: Expr) -> Result<f64, String> {
+    fn value(&self, derived: &Derived, e: Expr) -> Result<f64, String> {
         let channel = Channel { written: "bracket".to_owned(), expression: e };
-        let system = System::compile(model, equations, &[channel]).map_err(|e| e.to_string())?;
-        let values = self.values(model, &system)?;
+        let system = derived.compile(&[channel]).map_err(|e| e.to_string())?;
+        let values = self.values(&derived.model, &system)?;
         let extra = system.channels().iter().position(|c| c.kind == ChannelKind::Extra(0));
         finite(extra.map(|i| values[i]))
     }
 
     /// The value of \[f, g\] where velocities are not known in terms of momenta.
-    fn value_by_chain_rule(
-        &self,
-        model: &Model,
-        equations: &mut Equations,
-        f: Expr,
-        g: Expr,
-    ) -> Result<f64, String> {
-        let rule = ChainRule::of(equations, f, g).map_err(|why| why.to_string())?;
-        let system = System::compile(model, equations, &[]).map_err(|e| e.to_string())?;
+    fn value_by_chain_rule(&self, derived: &mut Derived, f: Expr, g: Expr) -> Result<f64, String> {
+        let rule = ChainRule::of(&mut derived.equations, f, g).map_err(|why| why.to_string())?;
+        let system = derived.compile(&[]).map_err(|e| e.to_string())?;
+        let Derived { model, equations } = derived;
         let values = self.values(model, &system)?;
-        let body = system.body_values(&self.parameters);
-        let value = |kind| {
-            let channel = system.channels().iter().position(|c| c.kind == kind);
-            channel.map_or(f64::NAN, |i| values[i])
-        };
-        let at = |symbol: Symbol| {
-            let coordinates = &equations.coordinates;
-            if let Some(i) = coordinates.iter().position(|c| c.position == symbol) {
-                value(ChannelKind::Position(i))
-            } else if let Some(i) = coordinates.iter().position(|c| c.velocity == symbol) {
-                value(ChannelKind::Velocity(i))
-            } else if symbol == equations.symbols.time {
-                model.run.start
-            } else {
-                let parameter = model.parameters.iter().position(|p| p.symbol == symbol);
-                let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-                parameter.map(|i| self.parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
-            }
-        };
-        finite(rule.value(equations, &at))
+        let (start, parameters) = (model.run.start, &self.parameters);
+        let known = system.valuation((model, equations), start, parameters, &values);
+        finite(rule.value(equations, &|symbol| known.at(symbol)))
     }
 
     /// Every channel's value at the start.

@@ -10,9 +10,8 @@ use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
-use crate::mechanics;
+use crate::experiment::Derived;
 use crate::printable;
-use crate::system::System;
 
 /// Tell every mistake in files, and whether what they claim is true.
 ///
@@ -76,17 +75,15 @@ fn mistakes(document: &Document) -> Vec<Diagnostic> {
     let unknown_method = open::unknown_method(&checked.model);
     let is_known = unknown_method.is_none();
     mistakes.extend(unknown_method);
-    match mechanics::derive(&checked.model) {
-        Ok(equations) => {
-            mistakes.extend(false_claims(&checked.model, &equations));
-            if is_known && let Ok(system) = System::compile(&checked.model, &equations, &[]) {
-                mistakes.extend(open::unfit_method(&checked.model, &system));
+    let place = checked.model.law_place.clone();
+    match Derived::of(checked.model) {
+        Ok(derived) => {
+            mistakes.extend(false_claims(&derived.model, &derived.equations));
+            if is_known && let Ok(system) = derived.compile(&[]) {
+                mistakes.extend(open::unfit_method(&derived.model, &system));
             }
         }
-        Err(why) => {
-            let place = checked.model.law_place.clone();
-            mistakes.push(Diagnostic::error(place, why.to_string()));
-        }
+        Err(why) => mistakes.push(Diagnostic::error(place, why.to_string())),
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
     mistakes

@@ -1,7 +1,6 @@
 //! `phaselab derive`: what follows from a law of motion, to be read, typeset or checked by another
 //! program.
 
-mod body;
 mod json;
 mod latex;
 mod text;
@@ -13,7 +12,8 @@ use super::format::Format;
 use super::open;
 use super::output::Output;
 use super::script::Script;
-use crate::mechanics;
+use crate::experiment::Derived;
+use crate::mechanics::{Further, Report};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
 ///
@@ -38,12 +38,13 @@ pub(super) struct Arguments {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
-    let mut equations = open::derive(&document, &model)?;
-    let classes = mechanics::classes(&model, &mut equations);
+    let Derived { model, mut equations } = open::derive(&document, model)?;
+    let further = Further::of(&model, &mut equations);
+    let report = Report::of(&model, &equations);
     let text = match arguments.format {
-        Format::Text => text::write(&model, &equations, &classes, Script::of_locale()),
-        Format::Latex => latex::write(&model, &equations),
-        Format::Json => json::write(&model, &equations, &classes),
+        Format::Text => text::write(&report, &further.classes, Script::of_locale()),
+        Format::Latex => latex::write(&report),
+        Format::Json => json::write(&report, &further),
     };
     Output::print(arguments.format.form(), &text)
 }

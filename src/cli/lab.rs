@@ -36,7 +36,7 @@ pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Reques
     defaults.extend(environment);
     let command = options::with_defaults(super::command(), defaults);
     // the words were right before, and so are the defaults
-    let arguments = super::parse(command, words)
+    let arguments = super::command::parse(command, words)
         .map_err(|why| CommandError::WrongUse(why.to_string().trim_end().to_owned()))?;
     Ok(Request::new(name, &arguments.lab.options))
 }

@@ -2,13 +2,11 @@
 
 use std::ffi::OsStr;
 
-use crate::claims::flaws;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};
-use crate::experiment::choose_method;
+use crate::experiment::{Derived, choose_method};
 use crate::integrate::{METHODS, Settings, method_named};
-use crate::mechanics::{self, Equations};
 use crate::model::Model;
 use crate::preset::Catalog;
 use crate::system::System;
@@ -34,12 +32,12 @@ pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
 
 /// Derives what follows from a model. Brackets that are no Poisson structure are shown where they
 /// stand.
-pub(super) fn derive(document: &Document, model: &Model) -> Result<Equations, CommandError> {
-    let derived = mechanics::derive(model);
-    let equations =
+pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, CommandError> {
+    let derived = Derived::of(model);
+    let derived =
         derived.map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
-    let mistakes = flaws(model, &equations);
-    if mistakes.is_empty() { Ok(equations) } else { Err(refuse(document, &mistakes)) }
+    let mistakes = derived.flaws();
+    if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
 }
 
 /// The file's method, if the table has none of that name.

@@ -2,33 +2,31 @@
 
 mod cautions;
 mod clock;
+mod execution;
 mod invariants;
 mod progress;
 mod times;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
-use super::events::Events;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
-use super::report::{Closing, Header, Status};
-use super::rows::{Format, Rows};
+use super::report::Header;
+use super::rows::Format;
 use super::{open, stderr};
-use crate::experiment::{self, Experiment, Progress, Setup, choose_method};
+use crate::experiment::{Derived, Experiment, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
 use crate::printable;
 use crate::system::System;
 
-use invariants::Departure;
-use progress::Bar;
+use execution::{Run, STEPS_PER_LOOK};
 use times::Times;
 
 /// Integrate without a screen.
@@ -87,11 +85,6 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// The most steps between two looks at the clock and at signals, and how long they are to take at most: where steps take
-/// long there are fewer.
-const STEPS_PER_LOOK: u64 = 4096;
-const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
-
 /// How many times the gauges are looked at, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
@@ -113,14 +106,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(open::refuse(&document, &[mistake]));
     }
 
-    let mut equations = open::derive(&document, &model)?;
+    let mut derived = open::derive(&document, model)?;
+    let Derived { model, equations } = &mut derived;
     equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
     let columns: Vec<_> = observed
-        .map(|text| assignment::column(&model, &mut equations.pool, text))
+        .map(|text| assignment::column(model, &mut equations.pool, text))
         .collect::<Result<_, _>>()?;
-    let system = System::compile(&model, &equations, &columns)
+    let system = derived
+        .compile(&columns)
         .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+    let Derived { model, equations } = derived;
     refuse_twins(&system)?;
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
@@ -166,174 +162,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         // whatever else went wrong meanwhile
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),
         (written, _) => written,
-    }
-}
-
-/// A run about to be written.
-struct Run<'i> {
-    experiment: Experiment,
-    times: Times,
-    columns: usize,
-    interrupt: &'i Interrupt,
-    /// How many steps are taken before the next look at the clock and at signals.
-    steps: u64,
-    /// Whether a motion that is not the one of its law is a failure.
-    strict: bool,
-}
-
-/// How a run ended before its time.
-enum End {
-    Fault(experiment::Failure),
-    Event,
-    Signal(i32),
-    Write(std::io::Error),
-}
-
-/// The rows so far, of which whoever ends the run takes hold.
-#[derive(Clone)]
-struct Table(Arc<Mutex<Option<Rows<Output>>>>);
-
-impl Table {
-    fn rows(&self) -> MutexGuard<'_, Option<Rows<Output>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Ends them where a step does not come to its end: what is known of the end is that it was stopped.
-    fn end_within_a_step(&self, interrupt: &Interrupt) {
-        // whoever holds them is writing, and cannot be helped
-        let Some(rows) = self.0.try_lock().ok().and_then(|mut rows| rows.take()) else { return };
-        let message =
-            "stopped by a signal within a step; what should be constant was not looked at";
-        let closing = Closing {
-            invariants: Vec::new(),
-            events: Events::unknown(),
-            status: Status::Stopped,
-            message: Some(message.to_owned()),
-        };
-        if let Ok(out) = rows.end(&closing) {
-            if out.is_file() {
-                interrupt.saves();
-            }
-            // nobody is left to be reported of a failure
-            let _ = out.finish();
-        }
-    }
-}
-
-impl Run<'_> {
-    /// Writes all rows, and what is known at the end.
-    fn write(mut self, format: Format, out: Output, header: &Header) -> Result<(), CommandError> {
-        let name = out.name().to_owned();
-        let failed = |error: &std::io::Error| CommandError::writing(&name, error);
-        let table = Table(Arc::default());
-        let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
-        self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
-        *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
-        let end = self.rows(&table).err();
-        if let Some(End::Write(error)) = &end {
-            return Err(failed(error));
-        }
-        let closing = self.closing(end.as_ref());
-        // where they are gone somebody else has ended them, and is about to end the process
-        let Some(rows) = table.rows().take() else { return self.gone() };
-        let out = rows.end(&closing).map_err(|error| failed(&error))?;
-        if out.is_file() {
-            self.interrupt.saves();
-        }
-        out.finish()?;
-        cautions::after(&self.experiment);
-        let event_log = self.experiment.occurrences();
-        if event_log.forgotten() > 0 && format != Format::Csv {
-            let (count, forgotten) = (event_log.count(), event_log.forgotten());
-            stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
-        }
-        if let Some(passed) = self.experiment.singular_passages() {
-            stderr::tell(&passed);
-        }
-        let snapshot = self.experiment.snapshot();
-        let departure = Departure::of(&snapshot.gauges, &snapshot.method);
-        let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
-        let line = departure.map(|departure| departure.line).unwrap_or_default();
-        let cut_short = matches!(end, Some(End::Fault(_) | End::Signal(_)));
-        if refused && !cut_short {
-            return Err(CommandError::CouldNot(line));
-        }
-        stderr::tell(&line);
-        match end {
-            Some(End::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
-            Some(End::Signal(signal)) => Err(CommandError::Signal(signal)),
-            _ => Ok(()),
-        }
-    }
-
-    /// A signal has ended the run meanwhile.
-    fn gone(&self) -> Result<(), CommandError> {
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
-    }
-
-    fn rows(&mut self, table: &Table) -> Result<(), End> {
-        let mut bar = Bar::new(self.times.start(), self.times.end());
-        let mut row = vec![0.0; self.columns + 1];
-        for time in self.times.rows() {
-            self.reach(time, &mut bar)?;
-            row[0] = time;
-            row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
-            match &mut *table.rows() {
-                Some(rows) => rows.row(&row).map_err(End::Write)?,
-                None => return self.interrupted(),
-            }
-        }
-        let end = self.times.end();
-        self.reach(end, &mut bar)
-    }
-
-    fn interrupted(&self) -> Result<(), End> {
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(End::Signal(signal)))
-    }
-
-    fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), End> {
-        loop {
-            let begun = Instant::now();
-            let progress = self.experiment.advance(time, self.steps);
-            self.steps = if begun.elapsed() > BETWEEN_LOOKS {
-                (self.steps / 2).max(1)
-            } else {
-                (self.steps * 2).min(STEPS_PER_LOOK)
-            };
-            bar.show(self.experiment.time());
-            // a step that a signal has cancelled is no fault of the motion
-            self.interrupted()?;
-            if let experiment::Status::Failed(fault) = self.experiment.status() {
-                return Err(End::Fault(fault));
-            }
-            // the moment itself still has its row
-            if progress == Progress::Ended && self.experiment.time() != time {
-                return Err(End::Event);
-            }
-            if matches!(progress, Progress::Arrived | Progress::Ended) {
-                return Ok(());
-            }
-        }
-    }
-
-    fn closing(&self, end: Option<&End>) -> Closing {
-        let (status, message) = match end {
-            Some(End::Fault(fault)) => (Status::Failed, Some(fault.message.clone())),
-            Some(End::Signal(_) | End::Write(_)) => {
-                (Status::Stopped, Some("stopped by a signal".to_owned()))
-            }
-            Some(End::Event) | None => match self.experiment.status() {
-                experiment::Status::Ended(name) => {
-                    let time = self.experiment.time();
-                    let time = printable::number(time);
-                    (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
-                }
-                _ => (Status::Completed, None),
-            },
-        };
-        let gauges = self.experiment.snapshot().gauges;
-        let events = Events::of(self.experiment.model(), self.experiment.occurrences());
-        Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }
 
@@ -407,50 +235,5 @@ fn header(
         parameters: named.map(|(p, &value)| (p.name.clone(), Value::from(value))).collect(),
         method: about,
         columns: std::iter::once("t".to_owned()).chain(columns).collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What a file holds of a table whose run is stuck within a step.
-    fn ended(format: Format) -> String {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("out");
-        let form = if format == Format::Csv { Form::Text } else { Form::Json };
-        let out = Output::open(Some(&path), form).expect("it can be written");
-        let header = Header {
-            phaselab: "0",
-            title: "it".to_owned(),
-            parameters: Map::new(),
-            method: Map::new(),
-            columns: vec!["t".to_owned(), "x".to_owned()],
-        };
-        let mut rows = Rows::begin(format, out, &header).expect("written");
-        rows.row(&[0.0, 1.0]).expect("written");
-        let table = Table(Arc::new(Mutex::new(Some(rows))));
-        table.clone().end_within_a_step(&Interrupt::default());
-        assert!(table.rows().is_none(), "nobody writes behind the end");
-        std::fs::read_to_string(path).expect("it is there")
-    }
-
-    #[test]
-    fn a_step_without_an_end_does_not_cost_the_rows_before_it() {
-        assert!(
-            ended(Format::Csv).contains("\n0.0,1.0\n# stopped: stopped by a signal within a step")
-        );
-        let read: Value = serde_json::from_str(&ended(Format::Json)).expect("JSON");
-        assert_eq!(read["rows"], serde_json::json!([[0.0, 1.0]]));
-        assert_eq!(read["status"], "stopped");
-        assert_eq!(ended(Format::Jsonl).lines().count(), 3);
-    }
-
-    #[test]
-    fn whoever_is_writing_is_not_disturbed() {
-        let table = Table(Arc::default());
-        let rows = table.rows();
-        table.end_within_a_step(&Interrupt::default());
-        drop(rows);
     }
 }

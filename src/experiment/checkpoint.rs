@@ -12,6 +12,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
+use super::reference::Reference;
 use super::{Experiment, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
@@ -96,33 +97,6 @@ pub struct MotionState {
     pub steps: u64,
     /// What the gauges measured from.
     pub references: Vec<Reference>,
-}
-
-/// What a gauge measured from.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Reference {
-    /// The gauge's name.
-    pub name: String,
-    /// What it showed.
-    pub value: f64,
-    /// What it measured from, and when that was taken.
-    pub from: f64,
-    /// When that was taken.
-    pub since: f64,
-    /// The greatest drift.
-    pub max_drift: f64,
-    /// What its value was then, before any impulse; as `from` where it is not reported.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub initial: Option<f64>,
-    /// What drift is relative to.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scale: Option<f64>,
-    /// The greatest distance, which is the greatest drift times that.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub farthest: Option<f64>,
-    /// Since when the drift is more than it may be.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub left: Option<f64>,
 }
 
 impl Checkpoint {

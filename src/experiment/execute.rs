@@ -7,6 +7,7 @@ use super::gauges::Gauges;
 use super::setup::{choose_method, with_override};
 use super::{Command, Experiment, MethodNotFound};
 use crate::integrate::{Method, Settings, Stepping};
+use crate::num::short;
 use crate::system::{self, ChannelKind, State};
 
 /// How many notices are kept.
@@ -182,16 +183,5 @@ impl Experiment {
     fn go_on(&mut self, state: Result<State, system::MotionError>) {
         let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
         self.fault = begun.err().map(super::Failure::from);
-    }
-}
-
-/// A number in a notice: four significant digits.
-pub(super) fn short(x: f64) -> String {
-    let digits = format!("{x:.3e}");
-    let value: f64 = digits.parse().unwrap_or(x);
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
     }
 }

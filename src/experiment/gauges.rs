@@ -15,13 +15,10 @@ use super::residual::Residual;
 use super::{Gauge, Reference};
 use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, casimir_rate};
+use crate::mechanics::{Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
-use invariant_monitor::{InvariantMonitor, Subject};
-
-/// The gauge that is constant by the law of the energy's change.
-const LEDGER: &str = "energy ledger";
+use invariant_monitor::{InvariantMonitor, LEDGER, Subject};
 
 /// Errors are measured at every so many samples.
 const MEASURED: u64 = 16;
@@ -260,7 +257,7 @@ impl Gauges {
                 Some(&(_, channel)) => now.values[channel],
                 None if symbol == equations.symbols.time => now.time,
                 None if symbol == equations.symbols.action => now.action,
-                None => (now.parameter)(symbol),
+                None => now.constants.at(symbol),
             }
         };
         for monitor in &mut self.monitors {
@@ -326,8 +323,8 @@ pub(super) struct Present<'a> {
     /// The terms of what is conserved.
     pub(super) terms: &'a TermWatch,
     pub(super) system: &'a System,
-    /// The value of a parameter's symbol.
-    pub(super) parameter: &'a dyn Fn(Symbol) -> f64,
+    /// The parameters, and what follows from a body.
+    pub(super) constants: &'a Valuation,
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@
 //! here: rows, gauges, commands.
 
 use super::gauges::{Gauges, Present};
-use crate::expr::Symbol;
 use crate::integrate::{
     self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Unstable,
 };
+use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System, TermWatch};
 
 /// A motion under way, observed.
@@ -274,7 +274,7 @@ impl ObservedMotion {
     }
 
     /// What the gauges look at, once the terms were [looked at](Motion::look_at_terms).
-    pub(super) fn present<'a>(&'a self, parameter: &'a dyn Fn(Symbol) -> f64) -> Present<'a> {
+    pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> Present<'a> {
         let action = self.state().values.get(self.system().driven_len());
         Present {
             time: self.time(),
@@ -284,7 +284,7 @@ impl ObservedMotion {
             terms: &self.watch.terms,
             system: self.system(),
             action: action.copied().unwrap_or(f64::NAN),
-            parameter,
+            constants,
         }
     }
 

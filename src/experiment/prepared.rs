@@ -1,6 +1,7 @@
-//! All the stages in one go: from a document to an experiment that is ready to begin.
+//! The stages a system is opened by, one after the other or in one go: from a document to an experiment that is ready to
+//! begin.
 //!
-//! In: a [`Document`]. Out: what each stage made of it. Never here: the stages themselves.
+//! In: a [`Document`], or what a stage made of it. Out: what the next ones make. Never here: the stages themselves.
 
 use std::fmt::Display;
 use std::sync::Arc;
@@ -9,9 +10,42 @@ use super::{Experiment, Setup};
 use crate::cancel::Cancel;
 use crate::claims::flaws;
 use crate::diagnostic::{Diagnostic, Document};
-use crate::mechanics::{self, Equations};
-use crate::model::Model;
-use crate::system::System;
+use crate::mechanics::{self, Equations, NoClosedForm};
+use crate::model::{Channel, Model};
+use crate::system::{CompileError, System};
+
+/// A system as far as its equations.
+#[derive(Clone, Debug)]
+pub struct Derived {
+    /// What the file says.
+    pub model: Model,
+    /// What follows from it.
+    pub equations: Equations,
+}
+
+impl Derived {
+    /// Derives what follows from a model.
+    ///
+    /// # Errors
+    /// Where that grows beyond what can be worked with.
+    pub fn of(model: Model) -> Result<Derived, NoClosedForm> {
+        let equations = mechanics::derive(&model)?;
+        Ok(Derived { model, equations })
+    }
+
+    /// What is false in its brackets and Casimirs: with such a mistake it has no motion.
+    pub fn flaws(&self) -> Vec<Diagnostic> {
+        flaws(&self.model, &self.equations)
+    }
+
+    /// The same as a program, which tells these expressions too.
+    ///
+    /// # Errors
+    /// Where an expression has no value in a motion.
+    pub fn compile(&self, columns: &[Channel]) -> Result<System, CompileError> {
+        System::compile(&self.model, &self.equations, columns)
+    }
+}
 
 /// A system on all its stages.
 pub struct Prepared {
@@ -79,15 +113,16 @@ impl Prepared {
             mistakes: vec![Diagnostic::error(0..0, what.to_string())],
         };
         stop()?;
-        let equations = mechanics::derive(&model).map_err(|error| why(&error))?;
+        let derived = Derived::of(model).map_err(|error| why(&error))?;
         stop()?;
-        let mistakes = flaws(&model, &equations);
+        let mistakes = derived.flaws();
         if !mistakes.is_empty() {
             return Err(report(mistakes));
         }
         stop()?;
-        let system = System::compile(&model, &equations, &[]).map_err(|error| why(&error))?;
+        let system = derived.compile(&[]).map_err(|error| why(&error))?;
         stop()?;
+        let Derived { model, equations } = derived;
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
         let experiment = experiment.map_err(|error| why(&error))?;

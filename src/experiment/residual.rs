@@ -8,6 +8,7 @@ use super::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::Model;
+use crate::num::significant;
 use crate::system::{ChannelKind, System};
 
 /// A row longer than this is given by its general form.
@@ -108,6 +109,5 @@ fn force(model: &Model, equations: &Equations, index: usize) -> String {
 
 /// Four significant digits.
 fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded.to_string()
+    significant(x, 4, 0.0..f64::INFINITY)
 }

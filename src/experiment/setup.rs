@@ -1,7 +1,6 @@
 //! How an experiment begins: values, method, and the spacing of what it records.
 
 use crate::diagnostic::nearest;
-use crate::expr::Symbol;
 use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;
@@ -46,14 +45,6 @@ impl Setup {
             spacing: run.speed / ROWS_PER_SECOND,
             speed: run.speed,
         }
-    }
-
-    /// The value of the symbol of a parameter, or of what follows from a body; not a number for any
-    /// other.
-    pub(super) fn constant(&self, model: &Model, body: &[(Symbol, f64)], symbol: Symbol) -> f64 {
-        let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        let of_body = || body.iter().find(|(s, _)| *s == symbol).map(|(_, value)| *value);
-        index.map(|i| self.parameters[i]).or_else(of_body).unwrap_or(f64::NAN)
     }
 }
 

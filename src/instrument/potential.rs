@@ -5,7 +5,8 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics, Picture,
     Plot, Present, Sign, Stroke, Upwards,
 };
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::Valuation;
 
 /// The levels of the picture.
 const ALLOWED: Level = 0;
@@ -51,9 +52,9 @@ impl Along {
     }
 
     /// The value where the coordinate has another value, and velocities, momenta and all else those of the present.
-    pub fn at(&self, present: &Present<'_>, x: f64) -> f64 {
-        let at = |symbol| if symbol == self.coordinate { x } else { present.now(symbol) };
-        present.physics.model.pool.evaluate(self.expression, &at)
+    pub fn at(&self, pool: &Pool, now: &Valuation, x: f64) -> f64 {
+        let at = |symbol| if symbol == self.coordinate { x } else { now.at(symbol) };
+        pool.evaluate(self.expression, &at)
     }
 }
 
@@ -91,7 +92,7 @@ impl Instrument for Potential {
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let along = Along::of(present.physics, plot.view?)?;
         let title = present.physics.model.views.get(plot.view?).map_or("", |view| &view.title);
-        let energy = present.now(present.physics.model.symbols.energy);
+        let energy = present.valuation().at(present.physics.model.symbols.energy);
         Some(Heading {
             title: if title.is_empty() { "Potential" } else { title }.to_owned(),
             given: !title.is_empty(),
@@ -118,9 +119,11 @@ impl Instrument for Potential {
         _answer: Option<&Answer>,
     ) -> Option<Picture> {
         let along = Along::of(present.physics, plot.view?)?;
-        let energy = present.now(present.physics.model.symbols.energy);
+        let (model, now) = (present.physics.model, present.valuation());
+        let energy = now.at(model.symbols.energy);
         let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;
-        let curve: Vec<[f64; 2]> = (0..POINTS).map(|i| [x(i), along.at(present, x(i))]).collect();
+        let curve: Vec<[f64; 2]> =
+            (0..POINTS).map(|i| [x(i), along.at(&model.pool, &now, x(i))]).collect();
         let now = [present.value(along.x), present.value(along.y)];
         let mut layers = Vec::new();
         for pair in curve.windows(2) {

@@ -4,8 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::expr::Symbol;
-use crate::mechanics::{Equations, body_values};
+use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, System};
 
@@ -68,35 +67,9 @@ impl Present<'_> {
         self.values.get(channel).copied().unwrap_or(f64::NAN)
     }
 
-    /// The value of a symbol of the system; not a number for one that has none.
-    pub fn now(&self, symbol: Symbol) -> f64 {
-        let Physics { model, equations, .. } = self.physics;
-        if symbol == equations.symbols.time {
-            return self.time;
-        }
-        if let Some(index) = model.parameters.iter().position(|p| p.symbol == symbol) {
-            return self.parameters[index];
-        }
-        let coordinates = equations.coordinates.iter().enumerate();
-        let of_coordinate = coordinates.flat_map(|(i, c)| {
-            [
-                (c.position, ChannelKind::Position(i)),
-                (c.velocity, ChannelKind::Velocity(i)),
-                (c.momentum, ChannelKind::Momentum(i)),
-            ]
-        });
-        let rows = equations.constraints.iter().enumerate();
-        let multipliers = rows.map(|(k, row)| (row.multiplier, ChannelKind::Multiplier(k)));
-        let energy = [(equations.symbols.energy, ChannelKind::Energy)];
-        let entries = equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate();
-        let attitude = entries.map(|(i, symbol)| (*symbol, ChannelKind::Attitude(i)));
-        let mut known = of_coordinate.chain(multipliers).chain(energy).chain(attitude);
-        let kind = known.find(|(s, _)| *s == symbol);
-        if let Some(channel) = kind.and_then(|(_, kind)| self.physics.channel(kind)) {
-            return self.values[channel];
-        }
-        let body = equations.supplements.body.as_ref();
-        let constants = body_values(model, &equations.pool, body, self.parameters);
-        constants.into_iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| value)
+    /// What the symbols of the system are worth now.
+    pub fn valuation(&self) -> Valuation {
+        let Physics { model, equations, system } = self.physics;
+        system.valuation((model, equations), self.time, self.parameters, self.values)
     }
 }

@@ -1,21 +1,23 @@
-//! Where along a step a function of the state crosses zero: looked for on the dense output, located
-//! beyond the last digit of time: what an impulse there does shows in the last digits after it.
+//! Where along a step the functions of the events cross zero, located beyond the last digit of time: what an impulse there
+//! does shows in the last digits after it.
 //!
 //! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
 //! here: what follows from it.
 //!
-//! A function is followed from look to look by its values and slopes (cubic interpolation); where
-//! it is not what its ends foretell, the piece is halved, so that functions that change faster than
-//! the motion are not stepped over, and neither are two zeros within one piece.
+//! Where the step is a power series in time, so is every function along it, as far as it is analytic: piece by piece the
+//! roots of these polynomials are found, all of them. Where there is no series, and across kinks and poles, the functions
+//! are sampled.
 
 use super::Stepper;
 use super::clock::spacing;
+use super::located_event::{Crossing, LocatedEvent, first};
+use super::polynomial::Polynomial;
+use super::probe::Probe;
+use super::roots::sign_changes;
+use super::sampling::Sampling;
 use crate::model::Direction;
-use crate::num::{DoubleDouble, math};
+use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
-
-/// Into how many pieces a stretch on which the functions are simple is cut at first.
-const PIECES: usize = 4;
 
 /// A stretch is not shorter than so many digits of the clock: at a pole there is no simple one, …
 const DIGITS: f64 = 16.0;
@@ -23,66 +25,41 @@ const DIGITS: f64 = 16.0;
 /// … but so many of these in a row are no pole: a function changes faster than the clock can tell.
 const MOST_SHORTEST: u32 = 64;
 
-/// How far a look goes beyond the zero of a secant, in parts of the way to it.
-const BEYOND: f64 = 1.01;
-
-/// A value between two looks may differ from what they foretell by this part of its size.
-const PREDICTED: f64 = 0.02;
-
-/// How often a piece may be halved.
-const HALVINGS: u32 = 14;
-
-/// The part of a piece over which a slope is taken.
-const SLOPE_OVER: f64 = 1e-5;
-
-/// After an impulse the sign of a function may change again very soon: the first looks are then at
-/// halves of halves of the step, down to this part of the time.
+/// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
 
-/// A value below this part of those beside it has no sign that could be trusted.
-const SIGNLESS: f64 = 1e-13;
+/// What a series leaves out is at most this part of its function.
+const CUT_OFF: f64 = 1e-13;
+
+/// How often a root is corrected by the value of the function there.
+const CORRECTIONS: u32 = 3;
+
+/// A correction by more than this part of a piece is none: the root is of a higher order.
+const SMALL: f64 = 1e-6;
 
 /// Where the functions of the events stand.
 #[derive(Clone, Debug)]
 pub(super) struct EventLocator {
-    event_functions: EventFunctions,
+    probe: Probe,
     directions: Vec<Direction>,
     /// The side of zero each function was on last; zero where that is not known.
     sides: Vec<f64>,
     /// Whether an impulse has just changed the state.
     fresh: bool,
-    /// When the last impulse fell: the motion after it is not to be asked about earlier times.
-    begun: Option<DoubleDouble>,
     /// Up to here the functions were found to be simple.
     simple: Option<f64>,
     /// How many stretches in a row were as short as may be.
     shortest: u32,
-    values: Vec<f64>,
-    state: State,
 }
 
-/// An event found.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct LocatedEvent {
-    pub(super) event: usize,
-    /// Of this the nearest `f64` is the time.
-    pub(super) exact: DoubleDouble,
-}
-
-/// A look at one function.
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    time: f64,
-    value: f64,
-    slope: f64,
-}
-
-/// A crossing of one function.
-#[derive(Clone, Copy, Debug)]
-struct Crossing {
-    exact: DoubleDouble,
-    /// The side it leads to.
-    side: f64,
+/// A piece of a step on which the functions are told by their series.
+struct Piece {
+    /// Its beginning.
+    from: DoubleDouble,
+    /// The unit of time of the series.
+    unit: f64,
+    /// Its length in that unit.
+    length: f64,
 }
 
 impl EventLocator {
@@ -93,20 +70,17 @@ impl EventLocator {
     ) -> EventLocator {
         let count = directions.len();
         EventLocator {
-            event_functions,
+            probe: Probe::new(event_functions, count, blank),
             directions,
             sides: vec![0.0; count],
             fresh: false,
-            begun: None,
             simple: None,
             shortest: 0,
-            values: vec![0.0; count],
-            state: blank,
         }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
-        self.event_functions.set_parameters(parameters);
+        self.probe.event_functions().set_parameters(parameters);
         self.simple = None;
     }
 
@@ -119,7 +93,7 @@ impl EventLocator {
     pub(super) fn forget(&mut self) {
         self.sides.fill(0.0);
         self.fresh = false;
-        self.begun = None;
+        self.probe.begin(None);
         self.simple = None;
     }
 
@@ -131,16 +105,15 @@ impl EventLocator {
         after: &State,
         event: Option<usize>,
     ) -> Result<(), MotionError> {
-        let mut old = vec![0.0; self.sides.len()];
-        self.event_functions.look(before, &mut old)?;
-        self.event_functions.look(after, &mut self.values)?;
-        for (i, (old, new)) in old.iter().zip(&self.values).enumerate() {
+        let old = self.probe.of(before)?.to_vec();
+        let new = self.probe.of(after)?;
+        for (i, (old, new)) in old.iter().zip(new).enumerate() {
             if event == Some(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
                 self.sides[i] = 0.0;
             }
         }
         self.fresh = true;
-        self.begun = Some(after.exact_time());
+        self.probe.begin(Some(after.exact_time()));
         self.simple = None;
         Ok(())
     }
@@ -152,9 +125,8 @@ impl EventLocator {
         mut known: EventLocator,
         state: &State,
     ) -> Result<(), MotionError> {
-        known.event_functions.look(state, &mut known.values)?;
-        self.event_functions.look(state, &mut self.values)?;
-        for (i, (old, new)) in known.values.iter().zip(&self.values).enumerate() {
+        let (old, new) = (known.probe.of(state)?, self.probe.of(state)?);
+        for (i, (old, new)) in old.iter().zip(new).enumerate() {
             let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
             self.sides[i] = if same { known.sides[i] } else { 0.0 };
         }
@@ -162,121 +134,79 @@ impl EventLocator {
         Ok(())
     }
 
-    /// Where the stretch ends that begins at a time within the last step and on which the functions
-    /// are simple; `to` at the latest.
-    pub(super) fn stretch(
+    /// The first crossing that counts between two times of the stepper's last step, as far as the functions can be
+    /// followed in one go; and the time up to which they were.
+    pub(super) fn scan(
         &mut self,
         stepper: &mut dyn Stepper,
         from: f64,
         to: f64,
-    ) -> Result<f64, MotionError> {
+    ) -> Result<(Option<LocatedEvent>, f64), MotionError> {
         if from >= to {
-            return Ok(to);
+            return Ok((None, to));
         }
-        if let Some(end) = self.simple.filter(|&end| end > from) {
-            return Ok(end.min(to));
-        }
-        self.move_to(stepper, from)?;
-        let length = self.event_functions.resolved(&self.state, to - from).unwrap_or(f64::INFINITY);
+        let Some((piece, beyond)) = self.piece(stepper, from, to) else {
+            let end = self.stretch(stepper, from, to)?;
+            return Ok((self.sampled(stepper, from, end)?, end));
+        };
         let shortest = DIGITS * spacing(from);
-        self.shortest = if length < shortest { self.shortest + 1 } else { 0 };
-        if self.shortest > MOST_SHORTEST {
-            let kind = MotionErrorKind::ClockStands(spacing(from));
-            return Err(MotionError { time: from, kind, place: Vec::new() });
+        let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
+        if end - from >= shortest || end >= to {
+            self.shortest = 0;
+            return Ok((self.roots(stepper, &piece, (from, end))?, end));
         }
-        let end = from + length.max(shortest);
-        self.simple = Some(end);
-        Ok(end.min(to))
+        // a kink or a pole
+        let end = (from + shortest).min(to);
+        self.note_length(from, beyond)?;
+        Ok((self.sampled(stepper, from, end)?, end))
     }
 
-    /// The first crossing that counts, between two times of the stepper's last step, on a
-    /// [stretch](Crossings::stretch).
-    pub(super) fn first(
+    /// The piece that begins at a time within a step that is a power series and on which the functions are reported by
+    /// their own; at its end, if that is not the end asked for, there may be a kink. Also the time to which they are
+    /// told beyond that.
+    fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(Piece, f64)> {
+        let series = stepper.series()?;
+        let (origin, unit) = (series.time(), series.scale());
+        let from = self.probe.not_before(DoubleDouble::written(from));
+        let x = ((from - origin) / unit).high.max(0.0);
+        let whole = ((DoubleDouble::written(to) - from) / unit).high;
+        if unit <= 0.0 || whole <= 0.0 {
+            return None;
+        }
+        let event_functions = self.probe.event_functions();
+        let told = event_functions.expand(series, x, CUT_OFF)?;
+        let mut length = told.min(whole);
+        for switch in event_functions.expanded_switches() {
+            if let Some(change) = sign_changes(switch, length).next() {
+                length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
+            }
+        }
+        Some((Piece { from, unit, length }, told * unit))
+    }
+
+    /// The first crossing that counts on a piece.
+    fn roots(
         &mut self,
         stepper: &mut dyn Stepper,
-        from: f64,
-        to: f64,
+        piece: &Piece,
+        (from, to): (f64, f64),
     ) -> Result<Option<LocatedEvent>, MotionError> {
-        if from >= to {
-            return Ok(None);
-        }
-        let mut looks: Vec<Vec<Sample>> = vec![Vec::new(); self.sides.len()];
-        let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
-        let fresh = std::mem::take(&mut self.fresh);
-        let early = if fresh { math::log2((to - from) / soonest).ceil() as i32 } else { 0 };
-        let early = (3..early).rev().map(|k| math::powi(0.5, k));
-        let parts = (0..=PIECES).map(|k| k as f64 / PIECES as f64);
-        let mut parts: Vec<f64> = early.chain(parts).collect();
-        parts.sort_by(f64::total_cmp);
-        for part in parts {
-            let time = if part == 1.0 { to } else { from + (to - from) * part };
-            let width = (to - from) * part.max(1.0 / PIECES as f64);
-            for (i, look) in self.look(stepper, time, width, (from, to))?.into_iter().enumerate() {
-                looks[i].push(look);
+        self.fresh = false;
+        let moment = if from == 0.0 { to } else { from.abs() };
+        let (length, soonest) = (piece.length, SOONEST * moment / piece.unit);
+        let mut passed = Vec::new();
+        for event in 0..self.sides.len() {
+            let coefficients = self.probe.event_functions().expanded(event);
+            let mut polynomial = Polynomial { coefficients, length, soonest };
+            if polynomial.begins_at_zero() {
+                // the series has no more digits than `f64`
+                let exact = self.probe.exactly_at(stepper, event, piece.from)?;
+                polynomial.coefficients[0] = exact.high;
             }
-        }
-        let mut found: Option<LocatedEvent> = None;
-        let mut passed: Vec<Vec<Crossing>> = Vec::new();
-        for (event, looks) in looks.iter().enumerate() {
-            let crossings = self.follow(stepper, event, looks, (from, to))?;
-            let counts = crossings.last().filter(|c| self.counts(event, c));
-            if let Some(crossing) = counts
-                && found.is_none_or(|first| earlier(crossing.exact, first.exact))
-            {
-                found = Some(LocatedEvent { event, exact: crossing.exact });
-            }
+            let crossings = self.follow(stepper, event, &polynomial, piece, to)?;
             passed.push(crossings);
         }
-        let until = found.map_or(to, |found| found.exact.high);
-        for (event, crossings) in passed.iter().enumerate() {
-            let mine = found.is_some_and(|found| found.event == event);
-            let mut gone = crossings.iter().filter(|c| c.exact.high < until || mine);
-            if let Some(last) = gone.next_back() {
-                self.sides[event] = last.side;
-            }
-        }
-        Ok(found)
-    }
-
-    /// Looks at all functions at a time within the last step; slopes are taken over a small part
-    /// of `width`.
-    fn look(
-        &mut self,
-        stepper: &mut dyn Stepper,
-        time: f64,
-        width: f64,
-        (from, to): (f64, f64),
-    ) -> Result<Vec<Sample>, MotionError> {
-        self.move_to(stepper, time)?;
-        self.event_functions.look(&self.state, &mut self.values)?;
-        let here = self.values.clone();
-        // not so small that the clock's last digit decides
-        let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
-        let beside = if time + step <= to { time + step } else { (time - step).max(from) };
-        self.move_to(stepper, beside)?;
-        self.event_functions.look(&self.state, &mut self.values)?;
-        let looks = here.iter().zip(&self.values).map(|(&value, &next)| {
-            let slope = if beside == time { 0.0 } else { (next - value) / (beside - time) };
-            Sample { time, value, slope }
-        });
-        Ok(looks.collect())
-    }
-
-    /// The state at a time within the last step, though not before the last impulse.
-    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), MotionError> {
-        match self.begun.filter(|&begun| earlier(DoubleDouble::written(time), begun)) {
-            Some(begun) => stepper.at_exactly(begun, &mut self.state),
-            None => stepper.at(time, &mut self.state),
-        }
-    }
-
-    /// Whether a crossing is one the event waits for.
-    fn counts(&self, event: usize, crossing: &Crossing) -> bool {
-        match self.directions[event] {
-            Direction::Rising => crossing.side > 0.0,
-            Direction::Falling => crossing.side < 0.0,
-            Direction::Either => true,
-        }
+        Ok(first(&passed, &self.directions, &mut self.sides, to))
     }
 
     /// The crossings of one function, in time, up to the first that counts.
@@ -284,195 +214,116 @@ impl EventLocator {
         &mut self,
         stepper: &mut dyn Stepper,
         event: usize,
-        looks: &[Sample],
-        whole: (f64, f64),
+        polynomial: &Polynomial,
+        piece: &Piece,
+        to: f64,
     ) -> Result<Vec<Crossing>, MotionError> {
-        let mut walk = Search { event, whole, side: self.sides[event], found: Vec::new() };
-        for pair in looks.windows(2) {
-            if walk.side == 0.0 {
-                walk.side = sign(pair[0], pair[1]);
-                self.sides[event] = walk.side;
-            }
-            if self.piece(stepper, &mut walk, pair[0], pair[1], HALVINGS)? {
-                break;
-            }
+        let course = polynomial.follow(self.sides[event]);
+        let mut crossings = Vec::new();
+        if self.sides[event] == 0.0 {
+            self.sides[event] = course.side;
+        } else if course.side != 0.0 && course.side != self.sides[event] {
+            crossings.push(Crossing::at(piece.from, course.side));
         }
-        if let (true, [.., before, last]) = (walk.side == 0.0, looks) {
-            self.sides[event] = sign(*last, *before);
+        let mut side = course.side;
+        let direction = self.directions[event];
+        for change in &course.changes {
+            if crossings.last().is_some_and(|last| last.counts(direction)) {
+                return Ok(crossings);
+            }
+            if change.side == crossings.last().map_or(self.sides[event], |last| last.side) {
+                continue;
+            }
+            side = change.side;
+            let exact = piece.from + DoubleDouble::from(change.x) * piece.unit;
+            let mut crossing = Crossing::at(exact, side);
+            if crossing.counts(direction) {
+                crossing.exact = self.correct(stepper, event, polynomial, piece, change.x)?;
+            }
+            crossings.push(crossing);
         }
-        Ok(walk.found)
+        let counted = crossings.last().is_some_and(|last| last.counts(direction));
+        if !counted && polynomial.ends_at_zero(side) {
+            // it crosses just where the piece ends, as one does that ends there for a row or an impulse
+            crossings.push(Crossing::at(DoubleDouble::written(to), -side));
+        }
+        let end = DoubleDouble::written(to);
+        for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
+            crossing.exact = end;
+        }
+        Ok(crossings)
     }
 
-    /// Follows a function over one piece; true where a crossing that counts was found.
-    fn piece(
-        &mut self,
-        stepper: &mut dyn Stepper,
-        walk: &mut Search,
-        a: Sample,
-        b: Sample,
-        halvings: u32,
-    ) -> Result<bool, MotionError> {
-        let time = 0.5 * (a.time + b.time);
-        if time <= a.time || time >= b.time {
-            return self.end(stepper, walk, a, b);
-        }
-        let width = b.time - a.time;
-        let middle = self.look(stepper, time, width, walk.whole)?[walk.event];
-        let predicted = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
-        let steep = 1.5 * (b.value - a.value) / width - 0.25 * (a.slope + b.slope);
-        let size = a.value.abs().max(b.value.abs()).max(middle.value.abs());
-        let off = (middle.value - predicted).abs().max((middle.slope - steep).abs() * width / 8.0);
-        let surprise = off > PREDICTED * size;
-        if surprise && halvings > 0 {
-            return Ok(self.piece(stepper, walk, a, middle, halvings - 1)?
-                || self.piece(stepper, walk, middle, b, halvings - 1)?);
-        }
-        Ok(self.turned(stepper, walk, a, middle)? || self.turned(stepper, walk, middle, b)?)
-    }
-
-    /// A piece on which the function has one turning point at most: looks there, too, where it lies
-    /// towards zero.
-    fn turned(
-        &mut self,
-        stepper: &mut dyn Stepper,
-        walk: &mut Search,
-        a: Sample,
-        b: Sample,
-    ) -> Result<bool, MotionError> {
-        let same_side = a.value * b.value > 0.0;
-        let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
-        if !(same_side && towards) {
-            return self.end(stepper, walk, a, b);
-        }
-        let (mut left, mut right) = (a, b);
-        for _ in 0..60 {
-            // the turning point of a function with these slopes
-            let part = left.slope / (left.slope - right.slope);
-            let time = left.time + (right.time - left.time) * part.clamp(0.05, 0.95);
-            if time <= left.time || time >= right.time {
-                break;
-            }
-            let width = right.time - left.time;
-            let look = self.look(stepper, time, width, walk.whole)?[walk.event];
-            if look.value * a.value <= 0.0 {
-                return Ok(self.end(stepper, walk, a, look)? || self.end(stepper, walk, look, b)?);
-            }
-            if look.slope * a.value < 0.0 {
-                left = look;
-            } else {
-                right = look;
-            }
-            let rest = (left.slope.abs() + right.slope.abs()) * (right.time - left.time);
-            if rest < 1e-3 * look.value.abs() {
-                break;
-            }
-        }
-        self.end(stepper, walk, a, b)
-    }
-
-    /// A piece with one crossing at most: notes it.
-    fn end(
-        &mut self,
-        stepper: &mut dyn Stepper,
-        walk: &mut Search,
-        a: Sample,
-        b: Sample,
-    ) -> Result<bool, MotionError> {
-        let side = sign(b, a);
-        if side == 0.0 && b.time == walk.whole.1 && b.slope * walk.side < 0.0 {
-            // it crosses just where the step ends, as one does that ends there for a row or an impulse
-            let crossing = Crossing { exact: DoubleDouble::written(b.time), side: -walk.side };
-            walk.side = -walk.side;
-            walk.found.push(crossing);
-            return Ok(self.counts(walk.event, &crossing));
-        }
-        if side == 0.0 || side == walk.side {
-            return Ok(false);
-        }
-        if walk.side == 0.0 {
-            walk.side = side;
-            self.sides[walk.event] = side;
-            return Ok(false);
-        }
-        let exact = self.locate(stepper, walk.event, side, a.time, b.time)?;
-        walk.side = side;
-        let crossing = Crossing { exact, side };
-        walk.found.push(crossing);
-        Ok(self.counts(walk.event, &crossing))
-    }
-
-    /// The time of a crossing between two, after which the function is on `side`: halving, mixed
-    /// with the secant's step kept inside (R. P. Brent, Algorithms for Minimization without
-    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these.
-    fn locate(
+    /// A root to all digits of the function.
+    fn correct(
         &mut self,
         stepper: &mut dyn Stepper,
         event: usize,
-        side: f64,
-        mut left: f64,
-        mut right: f64,
+        polynomial: &Polynomial,
+        piece: &Piece,
+        x: f64,
     ) -> Result<DoubleDouble, MotionError> {
-        let mut low = self.exactly(stepper, event, left)?;
-        let mut high = self.exactly(stepper, event, right)?;
-        if low.high * side > 0.0 {
-            return Ok(DoubleDouble::written(left));
-        }
-        for round in 0..200 {
-            let middle = 0.5 * (left + right);
-            if middle <= left || middle >= right {
+        let slope = polynomial.slope(x);
+        let mut x = DoubleDouble::from(x);
+        for _ in 0..CORRECTIONS {
+            let time = piece.from + x * piece.unit;
+            let correction = self.probe.exactly_at(stepper, event, time)? / slope;
+            if !(correction.high.abs() < SMALL * piece.length) {
                 break;
             }
-            // a little beyond the secant's zero, so that the farther end comes near, too
-            let part = low.high / (low.high - high.high);
-            let digit = spacing(right.abs().max(left.abs()));
-            let secant = if part < 0.5 {
-                left + (right - left) * part * BEYOND + digit
-            } else {
-                right - (right - left) * (1.0 - part) * BEYOND - digit
-            };
-            let inside = secant > left && secant < right && round % 4 != 3;
-            let time = if inside { secant } else { middle };
-            let value = self.exactly(stepper, event, time)?;
-            if value.high == 0.0 {
-                return Ok(DoubleDouble::written(time));
-            }
-            if value.high * side > 0.0 {
-                (right, high) = (time, value);
-            } else {
-                (left, low) = (time, value);
+            x = x - correction;
+            if correction.high.abs() <= 1e-28 * x.high.abs() {
+                break;
             }
         }
-        // the states looked at were those at these times
-        let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
-        let part = low / (low - high);
-        Ok(if part.is_finite() { left + (right - left) * part } else { left })
+        Ok(piece.from + x * piece.unit)
     }
 
-    fn exactly(
+    /// Where the stretch ends that begins at a time within the last step and on which the functions
+    /// are simple; `to` at the latest.
+    fn stretch(
         &mut self,
         stepper: &mut dyn Stepper,
-        event: usize,
-        time: f64,
-    ) -> Result<DoubleDouble, MotionError> {
-        self.move_to(stepper, time)?;
-        self.event_functions.exactly(event, &self.state)
+        from: f64,
+        to: f64,
+    ) -> Result<f64, MotionError> {
+        if let Some(end) = self.simple.filter(|&end| end > from) {
+            return Ok(end.min(to));
+        }
+        let length = self.probe.resolved(stepper, from, to - from)?.unwrap_or(f64::INFINITY);
+        self.note_length(from, length)?;
+        let end = from + length.max(DIGITS * spacing(from));
+        self.simple = Some(end);
+        Ok(end.min(to))
     }
-}
 
-fn earlier(a: DoubleDouble, b: DoubleDouble) -> bool {
-    (a - b).high < 0.0
-}
+    /// Notes how far the functions are reported after a time: too often not as far as the clock tells times apart.
+    fn note_length(&mut self, from: f64, length: f64) -> Result<(), MotionError> {
+        let shortest = length < DIGITS * spacing(from);
+        self.shortest = if shortest { self.shortest + 1 } else { 0 };
+        if self.shortest > MOST_SHORTEST {
+            let kind = MotionErrorKind::ClockStands(spacing(from));
+            return Err(MotionError { time: from, kind, place: Vec::new() });
+        }
+        Ok(())
+    }
 
-/// One function on its way through a step.
-struct Search {
-    event: usize,
-    whole: (f64, f64),
-    side: f64,
-    found: Vec<Crossing>,
-}
-
-/// The side of zero a function is on; none where its value may be rounding.
-fn sign(here: Sample, beside: Sample) -> f64 {
-    let value = here.value;
-    if value.abs() > SIGNLESS * beside.value.abs() { value.signum() } else { 0.0 }
+    /// The first crossing that counts on a stretch on which the functions are simple.
+    fn sampled(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        from: f64,
+        to: f64,
+    ) -> Result<Option<LocatedEvent>, MotionError> {
+        let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
+        let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
+        let mut sampling = Sampling { probe: &mut self.probe, stepper, whole: (from, to) };
+        let looks = sampling.looks(self.sides.len(), soonest)?;
+        let mut passed: Vec<Vec<Crossing>> = Vec::new();
+        for (event, looks) in looks.iter().enumerate() {
+            let direction = self.directions[event];
+            passed.push(sampling.follow(event, direction, looks, &mut self.sides[event])?);
+        }
+        Ok(first(&passed, &self.directions, &mut self.sides, to))
+    }
 }

@@ -1,21 +1,9 @@
-//! The table of methods. To add one, write its file, ending in its row, and add its line here;
-//! picker, command line, documents and tests follow.
+//! What a method says of itself.
+//!
+//! In: what its file knows. Out: a row of the table. Never here: the table.
 
-use super::{Stepper, dop853, gauss, leapfrog, rk4, taylor, yoshida};
+use super::stepper::Stepper;
 use crate::system::System;
-
-/// The table; the first row is the default.
-pub const METHODS: &[Method] = &[
-    taylor::METHOD,
-    leapfrog::METHOD,
-    yoshida::FOURTH_ORDER,
-    yoshida::SIXTH_ORDER,
-    yoshida::EIGHTH_ORDER,
-    gauss::FOURTH_ORDER,
-    gauss::SIXTH_ORDER,
-    dop853::METHOD,
-    rk4::METHOD,
-];
 
 /// A way to step through time.
 pub struct Method {
@@ -81,12 +69,4 @@ pub struct MethodError {
     pub method: &'static str,
     /// Why.
     pub reason: String,
-}
-
-/// The method of a name; `auto` is the first.
-pub fn method_named(name: &str) -> Option<&'static Method> {
-    if name == "auto" {
-        return METHODS.first();
-    }
-    METHODS.iter().find(|method| method.name == name)
 }

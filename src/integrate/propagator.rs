@@ -7,8 +7,9 @@
 mod constraint_watch;
 mod occurrence;
 
-use super::event_location::{EventLocator, LocatedEvent};
+use super::event_location::EventLocator;
 use super::impulse_schedule::ImpulseSchedule;
+use super::located_event::LocatedEvent;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
@@ -290,14 +291,13 @@ impl Propagator {
     }
 
     /// Looks for events in what was computed beyond `clear`, up to the next impulse, as far as the
-    /// functions are simple.
+    /// functions can be followed in one go.
     fn scan(&mut self) -> Result<(), MotionError> {
         let end = self.stepper.time();
         let mut end =
             self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
         if let Some(crossings) = &mut self.crossings {
-            end = crossings.stretch(self.stepper.as_mut(), self.clear, end)?;
-            self.waiting = crossings.first(self.stepper.as_mut(), self.clear, end)?;
+            (self.waiting, end) = crossings.scan(self.stepper.as_mut(), self.clear, end)?;
         }
         self.clear = self.waiting.map_or(end, |found| found.exact.high);
         Ok(())

@@ -1,4 +1,4 @@
-//! The first root of a polynomial in an interval, found for certain: intervals are halved until
+//! The roots of a polynomial in an interval, found for certain: intervals are halved until
 //! Descartes' rule of signs, applied to Bernstein coefficients, leaves one root or none
 //! (G. E. Collins, A. G. Akritas, Proc. SYMSAC '76, 272; J. M. Lane, R. F. Riesenfeld, BIT 21
 //! (1981) 112), and a bracketed Newton iteration finishes.
@@ -12,6 +12,21 @@ const DEPTH: u32 = 48;
 /// The first place in `(0, end]` where a polynomial that is positive just after 0 becomes
 /// negative. `coefficients[k]` belongs to `x^k`; there are at most 64.
 pub fn first_crossing(coefficients: &[f64], end: f64) -> Option<f64> {
+    sign_changes(coefficients, end).find(|change| !change.rises).map(|change| change.x)
+}
+
+/// A place where a polynomial changes its sign.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct SignChange {
+    /// Where.
+    pub(super) x: f64,
+    /// Whether it is positive behind that place.
+    pub(super) rises: bool,
+}
+
+/// The places in `(0, end]` where a polynomial changes its sign, in order. `coefficients[k]`
+/// belongs to `x^k`; there are at most 64. A place where it touches zero is none.
+pub(super) fn sign_changes(coefficients: &[f64], end: f64) -> impl Iterator<Item = SignChange> {
     let n = coefficients.len().min(CAPACITY);
     let mut bernstein = [0.0; CAPACITY];
     let mut power = 1.0;
@@ -21,13 +36,66 @@ pub fn first_crossing(coefficients: &[f64], end: f64) -> Option<f64> {
         others += b.abs();
         power *= end;
     }
-    if !others.is_finite() || bernstein[0] > others - bernstein[0].abs() {
-        return None;
+    let mut waiting = Vec::new();
+    if n > 0 && others.is_finite() && bernstein[0].abs() <= others - bernstein[0].abs() {
+        to_bernstein(&mut bernstein[..n]);
+        waiting.push(Piece { bernstein, from: 0.0, width: 1.0, depth: 0 });
     }
-    to_bernstein(&mut bernstein[..n]);
-    let piece = Piece { bernstein, from: 0.0, width: 1.0, depth: 0 };
-    let [from, to] = piece.first_bracket(n)?;
-    Some(refine(&coefficients[..n], from * end, to * end))
+    let brackets = Brackets { n, waiting, sign: 0.0 };
+    brackets.map(move |Bracket { from, to, rises }| {
+        let sign = if rises { 1.0 } else { -1.0 };
+        let x = if from == to {
+            from * end
+        } else {
+            refine(&coefficients[..n], sign, from * end, to * end)
+        };
+        SignChange { x, rises }
+    })
+}
+
+/// A part of the unit interval in which a polynomial changes its sign once.
+struct Bracket {
+    from: f64,
+    to: f64,
+    rises: bool,
+}
+
+/// The parts in which a polynomial changes its sign, one after the other.
+struct Brackets {
+    n: usize,
+    /// What has not been looked at, the first part last.
+    waiting: Vec<Piece>,
+    /// The sign at the end of what has been looked at; zero before it is known.
+    sign: f64,
+}
+
+impl Iterator for Brackets {
+    type Item = Bracket;
+
+    fn next(&mut self) -> Option<Bracket> {
+        while let Some(piece) = self.waiting.pop() {
+            let Signs { changes, first, last } = signs(&piece.bernstein[..self.n]);
+            let (from, to) = (piece.from, piece.from + piece.width);
+            if first != 0.0 && self.sign * first < 0.0 {
+                // just between two pieces; this one is still to be looked at
+                self.waiting.push(piece);
+                self.sign = first;
+                return Some(Bracket { from, to: from, rises: first > 0.0 });
+            }
+            if changes > 1 && piece.depth < DEPTH {
+                let (left, right) = piece.halves(self.n);
+                self.waiting.extend([right, left]);
+                continue;
+            }
+            if last != 0.0 {
+                self.sign = last;
+            }
+            if first * last < 0.0 {
+                return Some(Bracket { from, to, rises: last > 0.0 });
+            }
+        }
+        None
+    }
 }
 
 /// A polynomial on a part of the unit interval.
@@ -39,24 +107,6 @@ struct Piece {
 }
 
 impl Piece {
-    /// The first part of this piece that holds exactly one change to negative values.
-    fn first_bracket(mut self, n: usize) -> Option<[f64; 2]> {
-        let mut waiting: Vec<Piece> = Vec::new();
-        loop {
-            let (changes, falls) = sign_changes(&self.bernstein[..n]);
-            if changes == 1 && falls {
-                return Some([self.from, self.from + self.width]);
-            }
-            if changes > 1 && self.depth < DEPTH {
-                let (left, right) = self.halves(n);
-                waiting.push(right);
-                self = left;
-            } else {
-                self = waiting.pop()?;
-            }
-        }
-    }
-
     /// Both halves, by de Casteljau's scheme.
     fn halves(&self, n: usize) -> (Piece, Piece) {
         let mut right = self.bernstein;
@@ -92,28 +142,38 @@ fn to_bernstein(a: &mut [f64]) {
     }
 }
 
-/// How often the signs of a list change, and whether the first change is one to minus.
-fn sign_changes(list: &[f64]) -> (u32, bool) {
-    let (mut changes, mut falls, mut last) = (0, false, 0.0);
-    for &x in list.iter().filter(|x| **x != 0.0) {
-        if last * x.signum() < 0.0 {
-            falls |= changes == 0 && x < 0.0;
-            changes += 1;
-        }
-        last = x.signum();
-    }
-    (changes, falls)
+/// The signs of a list.
+struct Signs {
+    /// How often they change.
+    changes: u32,
+    /// The first that is not zero; zero where there is none.
+    first: f64,
+    /// The last.
+    last: f64,
 }
 
-/// The root between `low`, where the polynomial is positive, and `high`, where it is negative:
-/// Newton's step where it stays inside, else halving.
-fn refine(coefficients: &[f64], mut low: f64, mut high: f64) -> f64 {
+fn signs(list: &[f64]) -> Signs {
+    let mut signs = Signs { changes: 0, first: 0.0, last: 0.0 };
+    for sign in list.iter().filter(|x| **x != 0.0).map(|x| x.signum()) {
+        if signs.first == 0.0 {
+            signs.first = sign;
+        } else if sign != signs.last {
+            signs.changes += 1;
+        }
+        signs.last = sign;
+    }
+    signs
+}
+
+/// The root between `low` and `high`, where the polynomial has this sign: Newton's step where it stays inside, else
+/// halving.
+fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     let mut x = 0.5 * (low + high);
     for _ in 0..200 {
         let (value, slope) = value_and_slope(coefficients, x);
-        if value > 0.0 {
+        if value * sign < 0.0 {
             low = x;
-        } else if value < 0.0 {
+        } else if value * sign > 0.0 {
             high = x;
         } else {
             return x;

@@ -2,7 +2,7 @@
 
 use super::Unstable;
 use crate::num::DoubleDouble;
-use crate::system::{Form, MotionError, State};
+use crate::system::{Form, MotionError, Series, State};
 
 /// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
 /// motion is known anywhere inside it.
@@ -39,6 +39,12 @@ pub trait Stepper: Send {
     /// is. A method that cannot tell such times apart gives the state at the nearest.
     fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         self.at(time.high, out)
+    }
+
+    /// The power series that the last step was taken by, about its beginning; `None` for methods that have none, and where
+    /// the last step was not taken by it.
+    fn series(&self) -> Option<&Series> {
+        None
     }
 
     /// The step in use: the fixed one, or the last one taken (zero before the first).

@@ -523,6 +523,11 @@ impl Stepper for Taylor {
         Ok(())
     }
 
+    fn series(&self) -> Option<&Series> {
+        let taken = self.resting.is_none() && self.leapt.is_none() && self.begin != self.state.time;
+        taken.then_some(&self.series)
+    }
+
     fn form(&self) -> Form {
         self.system.form()
     }

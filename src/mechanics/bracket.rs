@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Equations, Flow, NoClosedForm};
-use super::lagrange::zero_if_proved;
+use super::slope::zero_if_proved;
 use crate::expr::{Expr, Rank, Symbol, Zero};
 use crate::model::{Mechanics, Model};
 use crate::num::{Number, math};

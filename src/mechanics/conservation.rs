@@ -10,7 +10,8 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Equations, Flow, NoClosedForm};
-use super::sampling::{POINTS, Point, TRIES};
+use super::sampling::{POINTS, TRIES};
+use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol, Zero};
 use crate::model::Model;
 use crate::num::{Number, math};
@@ -115,7 +116,7 @@ fn at_parameters(model: &Model, equations: &mut Equations, rate: Expr, refuted: 
 fn by_values(model: &Model, equations: &Equations, rate: Expr) -> Class {
     let mut seen = 0;
     for n in 0..TRIES {
-        let Some(point) = Point::on_constraints(model, equations, n) else { continue };
+        let Some(point) = Valuation::on_constraints(model, equations, n) else { continue };
         let Some(solved) = solved_at(equations, &point) else { continue };
         let at = |s: Symbol| match s {
             s if s == equations.symbols.action => 0.0,
@@ -171,7 +172,7 @@ fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Cla
 
 /// q̈ and λ at a point, from M q̈ − Aᵀλ = f and A q̈ = γ; λ of least norm where constraints repeat
 /// each other.
-fn solved_at(equations: &Equations, point: &Point) -> Option<HashMap<Symbol, f64>> {
+fn solved_at(equations: &Equations, point: &Valuation) -> Option<HashMap<Symbol, f64>> {
     let Flow::Lagrange { mass, force, .. } = &equations.flow else { return Some(HashMap::new()) };
     let (n, rows) = (force.len(), &equations.constraints);
     let all = n + rows.len();

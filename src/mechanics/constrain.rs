@@ -6,8 +6,8 @@
 //! Source: *The Principles of Dynamics*, § 1.3.2.
 
 use super::equations::{ConstraintRow, CoordinateSymbols, NoClosedForm};
-use super::lagrange::tidy_derivative;
 use super::linear;
+use super::slope::tidy_derivative;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Constraint, Model};
 use crate::num::Number;

@@ -1,9 +1,8 @@
 //! What follows from a law of motion.
 
-use super::frames::Apparent;
 use super::rigid_body::{RigidBody, Tensor};
 use crate::expr::{Expr, Pool, Symbol};
-use crate::model::{CommonSymbols, Model};
+use crate::model::{CommonSymbols, Model, Point};
 
 /// Everything derived from one model. All expressions live in `pool`; they are functions of
 /// (q, q̇, t) for a Lagrangian system and of (q, p, t) for a Hamiltonian one, unless said
@@ -159,6 +158,26 @@ pub enum Flow {
         /// ẋ.
         rates: Vec<Expr>,
     },
+}
+
+/// The most pieces a solved or transformed expression may have and still be worth writing down.
+pub const CLOSED_FORM_LIMIT: u64 = 10_000;
+
+/// A particle as seen from a frame.
+#[derive(Clone, Debug)]
+pub struct Apparent {
+    /// r', where it is.
+    pub at: Point,
+    /// v', how fast it goes there.
+    pub velocity: Point,
+    /// −m ω×(ω×r').
+    pub centrifugal: Point,
+    /// −2m ω×v'.
+    pub coriolis: Point,
+    /// −m ω'×r'; zero where the frame turns evenly.
+    pub euler: Point,
+    /// −m R(−α) o''; zero where the origin is not accelerated.
+    pub dragging: Point,
 }
 
 /// Something conserved.

@@ -11,26 +11,9 @@
 //!
 //! The axis n is the same in both frames.
 
-use super::Equations;
+use super::equations::{Apparent, Equations};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Frame, Model, Point};
-
-/// A particle as seen from a frame.
-#[derive(Clone, Debug)]
-pub struct Apparent {
-    /// r', where it is.
-    pub at: Point,
-    /// v', how fast it goes there.
-    pub velocity: Point,
-    /// −m ω×(ω×r').
-    pub centrifugal: Point,
-    /// −2m ω×v'.
-    pub coriolis: Point,
-    /// −m ω'×r'; zero where the frame turns evenly.
-    pub euler: Point,
-    /// −m R(−α) o''; zero where the origin is not accelerated.
-    pub dragging: Point,
-}
 
 /// Every particle of every frame, seen from it.
 pub(super) fn find(model: &Model, equations: &mut Equations) -> Vec<Vec<Apparent>> {

@@ -2,8 +2,8 @@
 //! Source: *The Principles of Dynamics*, § 3.1.
 
 use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Separable, Supplements};
-use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
+use super::slope::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;

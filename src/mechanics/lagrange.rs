@@ -3,6 +3,7 @@
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
 use super::equations::{CoordinateSymbols, Equations, Flow, Supplements};
+use super::slope::{tidy_derivative, zero_if_proved};
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
@@ -133,20 +134,4 @@ fn energy_function(pool: &mut Pool, coordinates: &[CoordinateSymbols], lagrangia
     }
     let energy = pool.linear(Number::ZERO, &parts);
     pool.simplify_terms(energy)
-}
-
-/// ∂e/∂symbol, simplified, and 0 where it can be proved to vanish.
-pub(super) fn tidy_derivative(pool: &mut Pool, e: Expr, symbol: Symbol) -> Expr {
-    let slope = pool.derivative(e, symbol);
-    pool.refuse_heavy(slope);
-    if pool.is_full() {
-        return Expr::ZERO;
-    }
-    let slope = zero_if_proved(pool, slope);
-    pool.simplify(slope)
-}
-
-/// The expression itself, or 0 where it is proved to vanish identically.
-pub(super) fn zero_if_proved(pool: &mut Pool, e: Expr) -> Expr {
-    if pool.is_zero(e) == Zero::Proved { Expr::ZERO } else { e }
 }

@@ -6,7 +6,7 @@ mod root;
 use std::collections::HashMap;
 
 use super::equations::{CoordinateSymbols, NoClosedForm};
-use super::lagrange::tidy_derivative;
+use super::slope::tidy_derivative;
 use super::{CLOSED_FORM_LIMIT, linear};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::num::Number;

@@ -2,7 +2,7 @@
 //! first (a constant on the diagonal before anything that moves), every entry simplified, given
 //! up as soon as it is too long to be read.
 
-use super::CLOSED_FORM_LIMIT;
+use super::equations::CLOSED_FORM_LIMIT;
 use super::equations::NoClosedForm;
 use crate::expr::{Expr, Pool, Zero};
 use crate::num::Number;

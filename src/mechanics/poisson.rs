@@ -2,7 +2,7 @@
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
 use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Supplements};
-use super::lagrange::{tidy_derivative, zero_if_proved};
+use super::slope::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;
 

@@ -7,8 +7,10 @@
 //! Integration*, § VII.2.
 
 use super::equations::Equations;
+use super::flaw::StructureError;
 use super::rigid_body;
-use super::sampling::{POINTS, Point, TRIES};
+use super::sampling::{POINTS, TRIES};
+use super::valuation::Valuation;
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Zero};
 use crate::model::{Mechanics, Model};
@@ -22,24 +24,14 @@ const PROOF_PRODUCTS: usize = 20_000;
 /// An expression of more pieces than this is not reported in a message.
 const LONGEST: u64 = 60;
 
-/// Something false in what a file says of its brackets or its body.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct StructureError {
-    /// Where it stands in the file.
-    pub place: SourceRange,
-    /// What is false.
-    pub message: String,
-    /// What it is instead.
-    pub help: String,
-}
-
 /// What is false in the brackets and Casimirs of a Poisson system, and senseless in a body.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let mut flaws = rigid_body::flaws(model, &equations.pool, equations.supplements.body.as_ref());
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
         return flaws;
     };
-    let points: Vec<Point> = (0..TRIES).map(|n| Point::near_start(model, equations, n)).collect();
+    let points: Vec<Valuation> =
+        (0..TRIES).map(|n| Valuation::near_start(model, equations, n)).collect();
     let mut structure = Structure { model, equations: equations.clone(), brackets, points };
     flaws.extend(structure.jacobi(place));
     for (name, casimir, place) in casimirs {
@@ -53,7 +45,7 @@ struct Structure<'a> {
     model: &'a Model,
     equations: Equations,
     brackets: &'a [Vec<Expr>],
-    points: Vec<Point>,
+    points: Vec<Valuation>,
 }
 
 /// Three variables and the terms B_il ∂_l B_jk of their identity, as pairs of factors.

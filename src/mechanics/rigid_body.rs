@@ -8,7 +8,8 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use super::poisson_structure::StructureError;
+use super::flaw::StructureError;
+use super::valuation::Valuation;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
 use crate::num::{DoubleDouble, Number};
@@ -278,11 +279,8 @@ pub fn body_values(
     let (Some(names), Some(body)) = (model.body.as_ref().map(|b| b.names), body) else {
         return Vec::new();
     };
-    let at = |symbol: Symbol| {
-        let index = model.parameters.iter().position(|p| p.symbol == symbol);
-        index.map_or(f64::NAN, |i| parameters[i])
-    };
-    let value = |e: Expr| pool.evaluate(e, &at);
+    let known = Valuation::of_parameters(model, parameters);
+    let value = |e: Expr| known.value(pool, e);
     let inertia = body.inertia.map(value);
     let (moments, _) = principal(&inertia.map(DoubleDouble::from));
     let moments = moments.map(|m| m.high);
@@ -310,11 +308,8 @@ pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
 /// direction.
 pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<StructureError> {
     let (Some(body), Some(whole)) = (&model.body, whole) else { return Vec::new() };
-    let at = |symbol: Symbol| {
-        let parameter = model.parameters.iter().find(|p| p.symbol == symbol);
-        parameter.map_or(f64::NAN, |p| p.value)
-    };
-    let value = |e: Expr| pool.evaluate(e, &at);
+    let known = Valuation::of_parameters(model, &model.parameter_values());
+    let value = |e: Expr| known.value(pool, e);
     let mut flaws = Vec::new();
     let mut flaw = |place: &crate::diagnostic::SourceRange, message: String, help: &str| {
         flaws.push(StructureError { place: place.clone(), message, help: help.to_owned() });

@@ -1,15 +1,14 @@
-//! Points of phase space near the start: where an identity that no proof is found for is held
+//! Valuations of phase space near the start: where an identity that no proof is found for is held
 //! against numbers.
 //!
 //! In: a model with its equations. Out: values for every symbol of q, q̇, p, t and the parameters,
 //! the same for everybody; on request they obey the constraints. Never here: motion.
 
-use std::collections::HashMap;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::{ConstraintRow, Equations, Flow};
 use super::rigid_body::body_values;
+use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
 use crate::model::Model;
 
@@ -28,26 +27,17 @@ const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
 /// A point is on the constraints when it is moved by no more than this part of its size.
 const SETTLED: f64 = 1e-14;
 
-/// A value for each symbol of a system.
-#[derive(Clone, Debug)]
-pub struct Point(HashMap<Symbol, f64>);
-
-impl Point {
-    /// The value of a symbol; not a number for one that has none.
-    pub fn at(&self, symbol: Symbol) -> f64 {
-        self.0.get(&symbol).copied().unwrap_or(f64::NAN)
-    }
-
+impl Valuation {
     /// The n-th point near the start, at the file's parameters. The momenta of a Lagrangian system
     /// are those of its velocities, the velocities of any other those of its state.
-    pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Point {
-        let mut point = Point(model.parameters.iter().map(|p| (p.symbol, p.value)).collect());
+    pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
         let parameters = model.parameter_values();
         let body = equations.supplements.body.as_ref();
-        point.0.extend(body_values(model, &equations.pool, body, &parameters));
+        let body = body_values(model, &equations.pool, body, &parameters);
+        let mut point = Valuation::of_parameters(model, &parameters).with(body);
         let mut draws = Draws { n, k: 0 };
-        let initial = |point: &Point, e| {
-            let value = equations.pool.evaluate(e, &|s| point.at(s));
+        let initial = |point: &Valuation, e| {
+            let value = point.value(&equations.pool, e);
             if value.is_finite() { value } else { 0.0 }
         };
         let starts: Vec<(f64, f64)> = model
@@ -57,7 +47,7 @@ impl Point {
             .collect();
         let span = model.run.until.map_or(1.0, |until| (until - model.run.start).abs().max(1.0));
         let time = model.run.start + span * draws.next();
-        point.0.insert(model.symbols.time, time);
+        point.set(model.symbols.time, time);
         let largest = |of: fn(&(f64, f64)) -> f64| {
             let size = starts.iter().map(|start| of(start).abs()).fold(0.0, f64::max);
             // where everything starts at 0 nothing says how large it will be
@@ -67,8 +57,8 @@ impl Point {
         let width = WIDTHS[(n % WIDTHS.len() as u64) as usize];
         for (c, &(position, rate)) in model.coordinates.iter().zip(&starts) {
             let rate_symbol = if model.is_lagrangian() { c.velocity } else { c.momentum };
-            point.0.insert(c.position, draws.near(position, width * length));
-            point.0.insert(rate_symbol, draws.near(rate, width * speed));
+            point.set(c.position, draws.near(position, width * length));
+            point.set(rate_symbol, draws.near(rate, width * speed));
         }
         let (symbols, values): (Vec<Symbol>, _) = match &equations.flow {
             Flow::Lagrange { .. } => {
@@ -78,21 +68,19 @@ impl Point {
                 (model.coordinates.iter().map(|c| c.velocity).collect(), velocities)
             }
         };
-        let values: Vec<f64> =
-            values.iter().map(|&e| equations.pool.evaluate(e, &|s| point.at(s))).collect();
-        point.0.extend(symbols.into_iter().zip(values));
-        point
+        let values: Vec<f64> = values.iter().map(|&e| point.value(&equations.pool, e)).collect();
+        point.with(symbols.into_iter().zip(values))
     }
 }
 
 /// How often a point is moved towards the constraints.
 const CORRECTIONS: usize = 40;
 
-impl Point {
+impl Valuation {
     /// The n-th point near the start that obeys the constraints, moved onto them the shortest way
     /// (positions by Newton's method, then velocities); `None` where that does not succeed.
-    pub fn on_constraints(model: &Model, equations: &Equations, n: u64) -> Option<Point> {
-        let mut point = Point::near_start(model, equations, n);
+    pub fn on_constraints(model: &Model, equations: &Equations, n: u64) -> Option<Valuation> {
+        let mut point = Valuation::near_start(model, equations, n);
         let rows = &equations.constraints;
         if rows.is_empty() {
             return Some(point);
@@ -106,7 +94,8 @@ impl Point {
             if settled {
                 break;
             }
-            let residual: Vec<f64> = held.iter().map(|(_, e)| point.value(equations, *e)).collect();
+            let residual: Vec<f64> =
+                held.iter().map(|(_, e)| point.value(&equations.pool, *e)).collect();
             let rows: Vec<&ConstraintRow> = held.iter().map(|(c, _)| *c).collect();
             let moved = point.correct(equations, &rows, &residual, &positions)?;
             settled = moved <= SETTLED;
@@ -115,20 +104,16 @@ impl Point {
             .iter()
             .map(|c| {
                 let terms = c.row.iter().zip(&velocities);
-                let terms = terms.map(|(&a, &v)| point.value(equations, a) * point.at(v));
-                terms.sum::<f64>() + point.value(equations, c.rate)
+                let terms = terms.map(|(&a, &v)| point.value(&equations.pool, a) * point.at(v));
+                terms.sum::<f64>() + point.value(&equations.pool, c.rate)
             })
             .collect();
         point.correct(equations, &rows.iter().collect::<Vec<_>>(), &residual, &velocities)?;
         for (c, &p) in equations.coordinates.iter().zip(&equations.momenta) {
-            let value = point.value(equations, p);
-            point.0.insert(c.momentum, value);
+            let value = point.value(&equations.pool, p);
+            point.set(c.momentum, value);
         }
         settled.then_some(point)
-    }
-
-    fn value(&self, equations: &Equations, e: Expr) -> f64 {
-        equations.pool.evaluate(e, &|s| self.at(s))
     }
 
     /// Moves `symbols` by the least change that takes the residual of `rows` away, to first order;
@@ -142,7 +127,7 @@ impl Point {
         symbols: &[Symbol],
     ) -> Option<f64> {
         let matrix = DMatrix::from_fn(rows.len(), symbols.len(), |i, j| {
-            self.value(equations, rows[i].row[j])
+            self.value(&equations.pool, rows[i].row[j])
         });
         let mut matrix = matrix;
         let mut residual = DVector::from_column_slice(residual);
@@ -163,7 +148,7 @@ impl Point {
         let moved = change.amax();
         for (&s, &by) in symbols.iter().zip(change.iter()) {
             let value = self.at(s);
-            self.0.insert(s, value - by);
+            self.set(s, value - by);
         }
         Some(if size > 0.0 { moved / size } else { moved })
     }

@@ -24,8 +24,7 @@ use std::collections::BTreeSet;
 
 use super::draft::{Draft, Formula, Law};
 use crate::cancel::Cancel;
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};
 use names::Names;

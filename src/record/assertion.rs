@@ -9,6 +9,7 @@ use crate::diagnostic::nearest;
 use crate::experiment::{Snapshot, Status};
 use crate::instrument::{INSTRUMENTS, named};
 use crate::model::{Allowed, Scope};
+use crate::num::significant;
 
 use super::script::{Assert, Measure, Relation, Text};
 
@@ -103,12 +104,7 @@ fn compared(
 
 /// A number that need not be read back: four digits.
 fn short(x: f64) -> String {
-    let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
+    significant(x, 4, 1e-3..1e6)
 }
 
 fn status(status: &Status) -> &'static str {
@@ -201,7 +197,8 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
             },
         ));
     };
-    let value = pool.evaluate(e, &|symbol| lab.now(symbol));
+    let now = lab.valuation();
+    let value = pool.evaluate(e, &|symbol| now.at(symbol));
     if value.is_finite() {
         return Ok(value);
     }

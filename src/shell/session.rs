@@ -25,7 +25,8 @@ use super::request::Request;
 use super::store::{Store, StoreError};
 use super::writer::{Told, Writer};
 use crate::app::{
-    App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Saved, Unsaved,
+    App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Saved,
+    Unsaved,
 };
 use crate::diagnostic::Document;
 use crate::experiment::{Export, Prepared, Snapshot, Status};

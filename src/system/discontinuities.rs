@@ -7,10 +7,12 @@
 
 use std::sync::Arc;
 
+use super::expansion::{self, Expansion};
 use super::observables;
 use super::program::Program;
-use super::resolution::{self, Resolution};
+use super::resolution::Resolution;
 use super::rhs::ProgramBuilder;
+use super::series::Series;
 use super::value::Evaluator;
 use super::{Form, MotionError, MotionErrorKind, State, System};
 use crate::expr::{Expr, Symbol};
@@ -134,7 +136,7 @@ impl Discontinuities {
                 })
                 .collect(),
             when: observables::program(builder, &functions)?,
-            pace: resolution::program(builder, &functions)?,
+            pace: expansion::program(builder, &functions)?,
             change: observables::program(builder, &changes)?,
             schedule,
             quadratic: builder.is_quadratic(),
@@ -150,6 +152,8 @@ pub struct EventFunctions {
     quick: Evaluator<f64>,
     exact: Evaluator<DoubleDouble>,
     resolution: Resolution,
+    /// What expands the functions along a step whose series is known, once there was one.
+    expansion: Option<Expansion>,
     rounded: Vec<f64>,
     inputs: Vec<DoubleDouble>,
     /// The state looked at last, in the native form, where momenta alone do not tell it.
@@ -165,6 +169,38 @@ impl EventFunctions {
         self.quick.set_parameters(&inputs);
         self.exact.set_parameters(&inputs);
         self.resolution.set_parameters(&inputs);
+        self.expansion = None;
+    }
+
+    /// Expands the functions along a step whose series is known, about a time `x` after the series' origin, in its unit,
+    /// and gives how far after it these expansions tell the functions but for a part `cut_off` of their size; `None`
+    /// where there are none.
+    pub fn expand(&mut self, series: &Series, x: f64, cut_off: f64) -> Option<f64> {
+        let order = series.order();
+        let (system, parameters) = (&self.system, &self.parameters);
+        let expansion = self.expansion.take().filter(|known| known.order() == order);
+        let expansion = self.expansion.insert(expansion.unwrap_or_else(|| {
+            let discontinuities = system.discontinuities();
+            let (program, functions) =
+                (Arc::clone(&discontinuities.pace), discontinuities.events.len());
+            let mut new = Expansion::new(system, program, functions, order);
+            new.set_parameters(&system.inputs(parameters));
+            new
+        }));
+        if !expansion.about(series, x) {
+            return None;
+        }
+        Some(expansion.reach(cut_off)).filter(|reach| !reach.is_nan())
+    }
+
+    /// The coefficients of an event's function as it was last [expanded](Triggers::expand).
+    pub fn expanded(&self, event: usize) -> Vec<f64> {
+        self.expansion.iter().flat_map(|known| known.function(event)).collect()
+    }
+
+    /// The coefficients of what decides between the branches of the functions that were expanded.
+    pub fn expanded_switches(&self) -> impl Iterator<Item = &[f64]> {
+        self.expansion.iter().flat_map(Expansion::switches)
     }
 
     /// How far after a state the functions are so simple that looks at the ends, and at what these
@@ -242,6 +278,7 @@ impl System {
                 Arc::clone(&self.discontinuities().pace),
                 self.discontinuities().events.len(),
             ),
+            expansion: None,
             rounded: vec![0.0; inputs],
             inputs: vec![DoubleDouble::ZERO; inputs],
             near: None,

@@ -4,25 +4,25 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::program::{Block, Guard, LIVE_POWER_BITS, Op, Program, Register, Term};
-use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule, Symbol};
+use super::program::{Block, Guard, Op, Program, Register, Term};
+use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::{DoubleDouble, Number};
 
 /// A program being written.
 #[derive(Debug)]
 pub(super) struct Lowering<'a> {
-    pool: &'a mut Pool,
-    program: Program,
+    pub(super) pool: &'a mut Pool,
+    pub(super) program: Program,
     /// The register of every expression lowered, and of every symbol bound.
-    known: HashMap<Expr, Register>,
+    pub(super) known: HashMap<Expr, Register>,
     /// The register of every operation written: equal operations are one.
     written: HashMap<Op, Register>,
     constants: HashMap<(u64, u64), u32>,
     /// The expression of each switch.
-    switches: Vec<Expr>,
-    unknown: Option<Symbol>,
+    pub(super) switches: Vec<Expr>,
+    pub(super) unknown: Option<Symbol>,
     /// Whether the cut of `atan2` is a switch, as it is to a motion that is pushed by it.
-    cuts: bool,
+    pub(super) cuts: bool,
 }
 
 impl<'a> Lowering<'a> {
@@ -201,7 +201,7 @@ impl<'a> Lowering<'a> {
         Ok(Arc::new(self.program))
     }
 
-    fn push(&mut self, op: Op) -> Register {
+    pub(super) fn push(&mut self, op: Op) -> Register {
         if let (Some(&register), false) = (self.written.get(&op), op == Op::Written) {
             return register;
         }
@@ -231,11 +231,11 @@ impl<'a> Lowering<'a> {
         register
     }
 
-    fn is_fixed(&self, register: Register) -> bool {
+    pub(super) fn is_fixed(&self, register: Register) -> bool {
         self.program.fixed[register as usize]
     }
 
-    fn constant_index(&mut self, x: DoubleDouble) -> u32 {
+    pub(super) fn constant_index(&mut self, x: DoubleDouble) -> u32 {
         let key = (x.high.to_bits(), x.low.to_bits());
         let next = self.program.constants.len() as u32;
         let index = *self.constants.entry(key).or_insert(next);
@@ -245,12 +245,12 @@ impl<'a> Lowering<'a> {
         index
     }
 
-    fn constant(&mut self, x: DoubleDouble) -> Register {
+    pub(super) fn constant(&mut self, x: DoubleDouble) -> Register {
         let index = self.constant_index(x);
         self.push(Op::Constant(index))
     }
 
-    fn linear(&mut self, constant: Number, terms: &[(Number, Register)]) -> Register {
+    pub(super) fn linear(&mut self, constant: Number, terms: &[(Number, Register)]) -> Register {
         let first = self.program.terms.len() as u32;
         for &(c, register) in terms {
             self.program.terms.push(Term { coefficient: c.double(), register });
@@ -259,7 +259,7 @@ impl<'a> Lowering<'a> {
         self.push(Op::Linear { constant, first, count: terms.len() as u32 })
     }
 
-    fn multiply(&mut self, a: Register, b: Register) -> Register {
+    pub(super) fn multiply(&mut self, a: Register, b: Register) -> Register {
         match (self.is_fixed(a), self.is_fixed(b)) {
             _ if a == b => self.push(Op::Square(a)),
             (true, false) => self.push(Op::Scale(a, b)),
@@ -269,7 +269,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// `base^n` for n ≥ 1 by squares.
-    fn integer_power(&mut self, base: Register, n: u64) -> Register {
+    pub(super) fn integer_power(&mut self, base: Register, n: u64) -> Register {
         match n {
             1 => base,
             _ if n.is_multiple_of(2) => {
@@ -281,214 +281,6 @@ impl<'a> Lowering<'a> {
                 self.multiply(base, rest)
             }
         }
-    }
-
-    fn lower_node(&mut self, e: Expr) -> Register {
-        match self.pool.node(e).clone() {
-            Node::Number(n) => self.constant(n.double()),
-            Node::Pi => self.constant(DoubleDouble::PI),
-            Node::Symbol(symbol) => {
-                self.unknown.get_or_insert(symbol);
-                self.constant(DoubleDouble::from(f64::NAN))
-            }
-            Node::Sum(constant, terms) => {
-                let terms: Vec<(Number, Register)> =
-                    terms.iter().map(|(c, t)| (*c, self.known[t])).collect();
-                self.linear(constant, &terms)
-            }
-            Node::Product(coefficient, factors) => self.lower_product(coefficient, &factors),
-            Node::Power(base, exponent) => {
-                let (base, exponent) = (self.known[&base], self.known[&exponent]);
-                self.lower_power(base, exponent)
-            }
-            Node::Call(function, arguments) => self.lower_call(function, &arguments),
-        }
-    }
-
-    /// `coefficient · Π base^exponent`: what depends on parameters only is joined to one factor.
-    fn lower_product(&mut self, coefficient: Number, factors: &[(Expr, Number)]) -> Register {
-        if let Some(opened) = self.open_squares(coefficient, factors) {
-            return self.lower(opened);
-        }
-        // [fixed above, fixed below, varying above, varying below]
-        let mut parts: [Option<Register>; 4] = [None; 4];
-        for &(base, exponent) in factors {
-            let (register, inverse) = self.lower_factor(base, exponent);
-            let place = 2 * usize::from(!self.is_fixed(register)) + usize::from(inverse);
-            let joined = parts[place].map_or(register, |old| self.multiply(old, register));
-            parts[place] = Some(joined);
-        }
-        let mut fixed = (!coefficient.is_one()).then(|| self.constant(coefficient.double()));
-        if let Some(above) = parts[0] {
-            fixed = Some(fixed.map_or(above, |c| self.multiply(c, above)));
-        }
-        if let Some(below) = parts[1] {
-            let above = fixed.unwrap_or_else(|| self.constant(DoubleDouble::ONE));
-            fixed = Some(self.push(Op::Divide(above, below)));
-        }
-        let above = match (fixed, parts[2]) {
-            (Some(fixed), Some(above)) => self.multiply(fixed, above),
-            (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => self.constant(DoubleDouble::ONE),
-        };
-        parts[3].map_or(above, |below| self.push(Op::Divide(above, below)))
-    }
-
-    /// A power with a numeric exponent; true where it belongs below the line.
-    fn lower_factor(&mut self, base: Expr, exponent: Number) -> (Register, bool) {
-        if let Some(n) = exponent.as_integer() {
-            let base = self.known[&base];
-            return (self.integer_power(base, n.unsigned_abs()), n < 0);
-        }
-        let base = self.known[&base];
-        if exponent.abs() == Number::HALF {
-            return (self.push(Op::Root(base)), exponent.is_negative());
-        }
-        let whole = exponent + -Number::HALF;
-        if let Some(n @ 1..) = whole.as_integer() {
-            // the root passes zero as it is, where its cube would touch it
-            let (root, rest) = (self.push(Op::Root(base)), self.integer_power(base, n as u64));
-            return (self.multiply(root, rest), false);
-        }
-        let exponent = self.constant_index(exponent.double());
-        (self.push(Op::Power(base, exponent)), false)
-    }
-
-    /// A product in which roots of squares are written as what they are, if it has any:
-    /// `(b² c)^α = |b|^{2α} c^α`, and an odd power of `|b|` is `sign(b)` times that of `b`, so that
-    /// `x/√(x²)` is a sign also where it is 0/0. The kink at `b = 0` becomes one that is located.
-    fn open_squares(&mut self, coefficient: Number, factors: &[(Expr, Number)]) -> Option<Expr> {
-        let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
-        let mut opened = Vec::new();
-        let mut any = false;
-        for &(base, exponent) in factors {
-            let inner = match self.pool.node(base).clone() {
-                Node::Product(c, inner) if exponent.as_integer().is_none() => (c, inner),
-                Node::Call(FunctionId::Abs, arguments) => {
-                    let b = arguments[0];
-                    let own = factors.iter().find(|&&(other, _)| other == b).map(|&(_, m)| m);
-                    match (own.filter(|m| m.as_integer().is_some()), exponent.as_integer()) {
-                        // 1/|b| = sign(b)/b, and b |b|^α = sign(b) |b|^(1 + α)
-                        (Some(_), Some(n)) if n % 2 != 0 => {
-                            opened.push((self.pool.call(FunctionId::Sign, &[b]), Number::ONE));
-                            opened.push((b, exponent));
-                            any = true;
-                        }
-                        (Some(m), None) => {
-                            if !even(m) {
-                                opened.push((self.pool.call(FunctionId::Sign, &[b]), Number::ONE));
-                            }
-                            opened.push((base, m));
-                            opened.push((b, -m));
-                            opened.push((base, exponent));
-                            any = true;
-                        }
-                        _ => opened.push((base, exponent)),
-                    }
-                    continue;
-                }
-                _ => {
-                    opened.push((base, exponent));
-                    continue;
-                }
-            };
-            let (squares, others): (Vec<_>, Vec<_>) = inner.1.iter().partition(|(_, n)| even(*n));
-            any |= !squares.is_empty();
-            for (b, n) in squares {
-                let power = n * exponent;
-                if power.as_integer().is_none() {
-                    opened.push((self.pool.call(FunctionId::Abs, &[b]), power));
-                    continue;
-                }
-                if !even(power) {
-                    opened.push((self.pool.call(FunctionId::Sign, &[b]), Number::ONE));
-                }
-                opened.push((b, power));
-            }
-            opened.push((self.pool.monomial(inner.0, &others), exponent));
-        }
-        any.then(|| self.pool.monomial(coefficient, &opened))
-    }
-
-    fn lower_power(&mut self, base: Register, exponent: Register) -> Register {
-        if self.is_fixed(exponent) {
-            let register = self.push(Op::ParametricPower(base, exponent));
-            self.make_room(register, 2 * LIVE_POWER_BITS);
-            return register;
-        }
-        // b^e = exp(e ln b)
-        let logarithm = self.call(FunctionId::Ln, [base, base]);
-        let product = self.multiply(exponent, logarithm);
-        self.call(FunctionId::Exp, [product, product])
-    }
-
-    /// Registers behind one that needs more than one, if they are not there yet.
-    fn make_room(&mut self, register: Register, count: usize) {
-        if self.program.ops.len() == register as usize + 1 {
-            for _ in 0..count {
-                self.push(Op::Written);
-            }
-        }
-    }
-
-    fn call(&mut self, function: FunctionId, arguments: [Register; 2]) -> Register {
-        let register = self.push(Op::Call(function, arguments));
-        self.make_room(register, 1);
-        register
-    }
-
-    fn lower_call(&mut self, function: FunctionId, arguments: &[Expr]) -> Register {
-        match function.row().rule {
-            Rule::Series(_) if function == FunctionId::Atan2 && self.cuts => {
-                let branches = half_planes(self.pool, arguments);
-                self.cuts = false;
-                let register = self.select(branches);
-                self.cuts = true;
-                register
-            }
-            Rule::Series(_) => {
-                let first = self.known[&arguments[0]];
-                let second = arguments.get(1).map_or(first, |e| self.known[e]);
-                // one operation gives both of a pair
-                let (leader, offset) = match function {
-                    FunctionId::Cos => (FunctionId::Sin, 1),
-                    FunctionId::Cosh => (FunctionId::Sinh, 1),
-                    other => (other, 0),
-                };
-                self.call(leader, [first, second]) + offset
-            }
-            Rule::Branch(branches) => {
-                let branches = branches(self.pool, arguments);
-                self.select(branches)
-            }
-            Rule::Power => {
-                let base = self.known[&arguments[0]];
-                self.push(Op::Root(base))
-            }
-        }
-    }
-
-    fn select(&mut self, branches: Branches) -> Register {
-        let positive = self.lower(branches.positive);
-        let negative = self.lower(branches.negative);
-        let opposite = self.pool.neg(branches.switch);
-        if let Some(mode) = self.switches.iter().position(|&e| e == opposite) {
-            let switch = self.program.switches[mode];
-            let mode = Some(mode as u32);
-            return self.push(Op::Select { switch, mode, positive: negative, negative: positive });
-        }
-        let switch = self.lower(branches.switch);
-        let mode = (!self.is_fixed(switch)).then(|| self.mode(branches.switch, switch));
-        self.push(Op::Select { switch, mode, positive, negative })
-    }
-
-    fn mode(&mut self, e: Expr, register: Register) -> u32 {
-        if let Some(mode) = self.switches.iter().position(|&known| known == e) {
-            return mode as u32;
-        }
-        self.switches.push(e);
-        self.program.switches.push(register);
-        self.switches.len() as u32 - 1
     }
 }
 
@@ -502,19 +294,4 @@ fn guard(ops: &[Op], r: Register) -> Option<Guard> {
         }
         _ => None,
     }
-}
-
-/// `atan2(y, x)` on the two sides of y = 0, on each without a cut nearby:
-/// `±π/2 + atan2(∓x, ±y)`. They agree where x > 0, and differ by a turn where x < 0. The cuts of
-/// the calls it is made of lie where the other one is taken.
-fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> Branches {
-    let (y, x) = (arguments[0], arguments[1]);
-    let (minus_y, minus_x) = (pool.neg(y), pool.neg(x));
-    let above = pool.call(FunctionId::Atan2, &[minus_x, y]);
-    let below = pool.call(FunctionId::Atan2, &[x, minus_y]);
-    let pi = pool.pi();
-    let right_angle = pool.scale(Number::HALF, pi);
-    let positive = pool.add(right_angle, above);
-    let negative = pool.sub(below, right_angle);
-    Branches { switch: y, positive, negative }
 }

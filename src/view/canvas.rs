@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::RenderStyle;
 use super::colour::ColourDepth;
-use super::hit_test::Region;
+use super::region::Region;
 use super::theme::Role;
 use crate::app::HitTarget;
 use crate::printable;

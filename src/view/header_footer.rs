@@ -22,7 +22,7 @@ use crate::experiment::{Snapshot, Status};
 const PAGES: [(&str, &str, Page); 5] = [
     ("1", "Lab", Page::Lab),
     ("2", "Equations", Page::Equations),
-    ("3", "Notes", Page::PendingSignals),
+    ("3", "Notes", Page::Notes),
     ("4", "Numbers", Page::Numbers),
     ("9", "Plain", Page::Plain),
 ];

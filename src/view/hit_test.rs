@@ -7,24 +7,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
-use super::plot::{Frame, Scale};
-use super::{RenderStyle, paint};
-use crate::app::{App, Grab, HitTarget, ValueId};
-
-/// What something on the screen is for the mouse, told while it is drawn.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Region {
-    /// It hides what was there before.
-    Blank,
-    /// The same spot wherever it is touched.
-    Plain(HitTarget),
-    /// The bar of a value.
-    Bar(ValueId, Scale),
-    /// The inside of a plot's axes.
-    Plot(usize, Frame),
-    /// The inside of a picture of the motion in space.
-    Space(usize),
-}
+use super::look::RenderStyle;
+use super::region::Region;
+use super::screen::paint;
+use crate::app::{App, Grab, HitTarget};
 
 /// All that a screen shows, to be asked by place.
 #[derive(Clone, Debug)]

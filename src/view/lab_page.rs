@@ -6,10 +6,10 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
-use super::hit_test::Region;
 use super::layout::{Slot, panes};
 use super::number::brief;
 use super::quantity::Quantities;
+use super::region::Region;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};

@@ -205,7 +205,8 @@ impl Page<'_, '_> {
     }
 
     fn value(&mut self, what: &str, lab: &Lab, inquiry: &Inquiry) {
-        let value = inquiry.value(&|symbol| lab.now(symbol));
+        let now = lab.valuation();
+        let value = inquiry.value(&|symbol| now.at(symbol));
         let text = value.map_or_else(
             || "not known here".to_owned(),
             |value| readable(value, 10, self.canvas.look.glyphs),

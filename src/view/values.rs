@@ -7,9 +7,9 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
-use super::hit_test::Region;
 use super::number::brief;
 use super::plot::Scale;
+use super::region::Region;
 use super::sparkline::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};

@@ -182,6 +182,21 @@ fn every_room_uses_only_what_it_may() {
 }
 
 #[test]
+fn no_row_allows_what_its_room_does_not_use() {
+    let (table, files) = (table(), files());
+    let named = |room: &str| -> BTreeSet<String> {
+        let mine = files.iter().filter(|file| file.room == room);
+        mine.flat_map(|file| rooms_named(&file.code, file.depth)).collect()
+    };
+    let idle = |(room, allowed): (&String, &BTreeSet<String>)| {
+        let idle: Vec<String> = allowed.difference(&named(room)).cloned().collect();
+        (!idle.is_empty()).then(|| format!("{room} does not use {idle:?}"))
+    };
+    let wrong: Vec<String> = table.iter().filter_map(idle).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
 fn the_table_is_read_as_it_is_meant() {
     let table = table();
     let refused = |from: &str, to: &str| refusal(&table, from, to).is_some();
@@ -196,6 +211,7 @@ fn the_table_is_read_as_it_is_meant() {
         ("record", "worker"),
         ("app", "view"),
         ("shell", "cli"),
+        ("cli", "worker"),
     ] {
         assert!(refused(from, to), "{from} → {to}");
     }

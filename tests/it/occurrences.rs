@@ -374,6 +374,37 @@ fn what_is_narrow_or_small_within_a_long_step_is_found() {
 }
 
 #[test]
+fn every_pair_of_a_fast_swing_is_found() {
+    // each top of the sine lies above the level for nine thousandths of a turn
+    let found = of_free("sin(1e3*t) - 0.99999", 5.0, "taylor", None);
+    assert_eq!(found.len(), 2 * 796);
+    let half = 0.99999_f64.acos();
+    for (n, pair) in found.chunks(2).enumerate() {
+        let top = std::f64::consts::PI * (0.5 + 2.0 * n as f64);
+        let right = [top - half, top + half].map(|angle| angle / 1e3);
+        assert!((pair[0] - right[0]).abs() < 1e-12, "{n}: {pair:?}");
+        assert!((pair[1] - right[1]).abs() < 1e-12, "{n}: {pair:?}");
+    }
+}
+
+#[test]
+fn a_pole_is_no_crossing() {
+    let pi = std::f64::consts::PI;
+    for (method, step) in [("taylor", None), ("dop853", None), ("rk4", Some(0.3))] {
+        let check = |when: &str, right: &[f64]| {
+            let found = of_free(when, 10.0, method, step);
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-11;
+            let same = found.len() == right.len() && found.iter().zip(right).all(near);
+            assert!(same, "{method}: {when}: {found:?}");
+        };
+        check("1/(t - 5)", &[]);
+        check("1/(x - pi)^3 + 1", &[pi - 1.0]);
+        check("tan(x)", &[pi, 2.0 * pi, 3.0 * pi]);
+        check("sign(x - 5)", &[5.0]);
+    }
+}
+
+#[test]
 fn a_function_faster_than_the_clock_is_a_fault() {
     // at t = 10⁴ the digits of the clock are 1.8e-12 apart
     for (speed, told) in [("1e10", false), ("1e13", true)] {

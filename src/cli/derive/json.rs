@@ -3,92 +3,62 @@
 
 use serde_json::{Map, Value, json};
 
-use super::body::Numbers;
 use crate::expr::Expr;
-use crate::mechanics::{Classed, Equations, Flow, casimir_rate, with_reactions};
-use crate::model::{Action, Direction, Event, Impulse, Mechanics, Model};
+use crate::mechanics::{Further, Left, Line, Report};
+use crate::model::{Action, Direction, Event, Model};
 
-pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -> String {
-    let mut pool = equations.pool.clone();
-    let forces = match &equations.flow {
-        Flow::Lagrange { force, .. } => with_reactions(&mut pool, &equations.constraints, force),
-        Flow::Hamilton { .. } | Flow::Poisson { .. } => Vec::new(),
-    };
-    let text = |e: &Expr| Value::String(pool.text(*e));
-    let list = |all: &[Expr]| Value::Array(all.iter().map(text).collect());
-    let names = model.coordinates.iter().map(|c| c.name.as_str());
-    let name = |i: usize| model.coordinates[i].name.clone();
+pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
+    let page = Page { report };
     let mut why = Vec::new();
-
-    let momenta: Map<String, Value> = (0..equations.momenta.len())
-        .map(|i| (format!("p_{}", name(i)), text(&equations.momenta[i])))
-        .collect();
-    let solved = match &equations.solved {
-        Ok(rates) => rate_names(model).into_iter().zip(rates.iter().map(text)).collect(),
+    let solved = match &report.motion {
+        Ok(motion) => Value::Object(page.map(motion)),
         Err(reason) => {
             why.push(format!("equations: {reason}"));
             Value::Null
         }
     };
-    let (mass_matrix, right_hand_side) = match &equations.flow {
-        Flow::Lagrange { mass, .. } => (mass.iter().map(|row| list(row)).collect(), list(&forces)),
-        Flow::Hamilton { velocities, momentum_rates } => {
-            (Value::Null, list(&[velocities.as_slice(), momentum_rates].concat()))
-        }
-        Flow::Poisson { rates } => (Value::Null, list(rates)),
+    let mass_matrix = match report.unsolved() {
+        Some((mass, _)) => mass.iter().map(|row| page.list(row)).collect(),
+        None => Value::Null,
     };
-    let hamiltonian = match &equations.hamiltonian {
-        Ok(h) => text(h),
+    let hamiltonian = match &report.hamiltonian {
+        Ok(h) => page.text(h.right),
         Err(reason) => {
             why.push(format!("hamiltonian: {reason}"));
             Value::Null
         }
     };
-    let conserved: Vec<Value> = equations
-        .conserved
-        .iter()
-        .map(|c| {
-            json!({
-                "name": c.name,
-                "expression": text(&c.expression),
-                "reason": c.reason.to_string(),
-            })
-        })
-        .collect();
-    let observables: Vec<Value> = classes
-        .iter()
-        .map(|c| {
-            let rate = c.rate.as_ref().map_or(Value::Null, text);
-            json!({ "name": c.name, "class": c.class.to_string(), "rate": rate })
-        })
-        .collect();
+    let conserved = report.equations.conserved.iter().map(|c| {
+        let expression = page.text(c.expression);
+        json!({ "name": c.name, "expression": expression, "reason": c.reason.to_string() })
+    });
+    let observables = further.classes.iter().map(|c| {
+        let rate = c.rate.as_ref().map_or(Value::Null, |&rate| page.text(rate));
+        json!({ "name": c.name, "class": c.class.to_string(), "rate": rate })
+    });
+    let cyclic = report.cyclic.iter().map(|&q| page.left(Left::Symbol(q)));
     let mut object = json!({
         "phaselab": env!("CARGO_PKG_VERSION"),
-        "title": model.info.title,
-        "coordinates": names.collect::<Vec<_>>(),
-        "momenta": momenta,
+        "title": report.model.info.title,
+        "coordinates": report.model.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
+        "momenta": page.map(&report.momenta),
         "equations": solved,
         "mass_matrix": mass_matrix,
-        "right_hand_side": right_hand_side,
+        "right_hand_side": page.list(&further.right_hand_side),
         "hamiltonian": hamiltonian,
-        "energy": text(&equations.energy),
-        "energy_rate": text(&equations.energy_rate),
-        "cyclic": equations.cyclic.iter().map(|&i| name(i)).collect::<Vec<_>>(),
-        "conserved": conserved,
-        "observables": observables,
-        "constraints": constraints(model, equations),
-        "impulses": impulses(model),
-        "events": events(model),
+        "energy": page.text(report.energy.right),
+        "energy_rate": page.text(report.energy_rate),
+        "cyclic": cyclic.collect::<Vec<_>>(),
+        "conserved": conserved.collect::<Vec<_>>(),
+        "observables": observables.collect::<Vec<_>>(),
+        "constraints": page.constraints(),
+        "impulses": page.impulses(),
+        "events": events(report.model),
         "transformations": [],
     });
-    if let Some(body) = Numbers::of(model, equations) {
-        let name = |symbol| equations.pool.symbol_info(symbol).name.clone();
-        let whole = body.whole;
-        let named = [(body.names.mass, whole.mass)].into_iter();
-        let named = named.chain(body.names.centre.into_iter().zip(whole.centre));
-        let named = named.chain(body.names.inertia.into_iter().zip(whole.inertia));
-        let expressions: Map<String, Value> =
-            named.map(|(symbol, e)| (name(symbol), text(&e))).collect();
+    if let Some(body) = &report.body {
+        let expressions = page.map(&body.lines);
+        let body = body.numbers(report.model, report.equations);
         object["body"] = json!({
             "mass": body.mass,
             "centre_of_mass": body.centre,
@@ -98,18 +68,20 @@ pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -
             "expressions": expressions,
         });
     }
-    if let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics {
-        let mut equations = equations.clone();
-        let brackets = model.mechanics.brackets().into_iter();
+    if report.model.is_poisson() {
         object["variables"] = object["coordinates"].clone();
-        object["brackets"] =
-            brackets.map(|(i, j, e)| json!([name(i), name(j), equations.pool.text(e)])).collect();
+        let brackets = report.brackets.iter().filter_map(|line| match line.left {
+            Left::Bracket(a, b) => {
+                let [a, b] = [a, b].map(|symbol| page.left(Left::Symbol(symbol)));
+                Some(json!([a, b, page.text(line.right)]))
+            }
+            _ => None,
+        });
+        object["brackets"] = brackets.collect();
+        let casimirs = report.casimirs.iter().zip(&further.casimir_rates);
         object["casimirs"] = casimirs
-            .iter()
-            .map(|(name, e, _)| {
-                let rate = casimir_rate(&mut equations, *e, forces);
-                let text = |e| equations.pool.text(e);
-                json!({ "name": name, "expression": text(*e), "rate": text(rate) })
+            .map(|((name, e), rate)| {
+                json!({ "name": name, "expression": page.text(*e), "rate": page.text(*rate) })
             })
             .collect();
     }
@@ -119,49 +91,67 @@ pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -
     format!("{object:#}\n")
 }
 
-/// Each constraint, Σ coefficient · x' + rate = 0, with its multiplier: its name, and its value
-/// where it is known in closed form. The force on x is λ times the coefficient of x.
-fn constraints(model: &Model, equations: &Equations) -> Vec<Value> {
-    let text = |e: Expr| Value::String(equations.pool.text(e));
-    let all = model.constraints.iter().zip(&equations.constraints).enumerate();
-    all.map(|(k, (constraint, row))| {
-        let named = model.coordinates.iter().zip(&row.row);
-        let coefficients: Map<String, Value> =
-            named.map(|(c, &a)| (c.name.clone(), text(a))).collect();
-        let solved = equations.multipliers.as_ref().ok().map(|solved| text(solved[k]));
-        json!({
-            "name": constraint.name,
-            "expression": text(constraint.expression),
-            "holonomic": row.position.is_some(),
-            "coefficients": coefficients,
-            "rate": text(row.rate),
-            "multiplier": equations.pool.symbol_info(row.multiplier).name,
-            "lambda": solved,
-        })
-    })
-    .collect()
+struct Page<'a> {
+    report: &'a Report<'a>,
 }
 
-/// Each impulse with what it adds to momenta (or variables), and when.
-fn impulses(model: &Model) -> Vec<Value> {
-    let text = |e: Expr| Value::String(model.pool.text(e));
-    let object = |impulse: &Impulse| {
-        let changes = model.coordinates.iter().zip(&impulse.change);
-        let changes: Map<String, Value> = changes
-            .filter(|(_, e)| **e != Expr::ZERO)
-            .map(|(c, &e)| {
-                let lead = if model.is_poisson() { "" } else { "p_" };
-                (format!("{lead}{}", c.name), text(e))
+impl Page<'_> {
+    fn text(&self, e: Expr) -> Value {
+        Value::String(self.report.equations.pool.text(e))
+    }
+
+    fn list(&self, all: &[Expr]) -> Value {
+        all.iter().map(|&e| self.text(e)).collect()
+    }
+
+    fn map(&self, lines: &[Line]) -> Map<String, Value> {
+        lines.iter().map(|line| (self.left(line.left), self.text(line.right))).collect()
+    }
+
+    /// What stands left of a sign of equality: `x''`, `p_x'`.
+    fn left(&self, left: Left) -> String {
+        let name = |symbol| &self.report.equations.pool.symbol_info(symbol).name;
+        match left {
+            Left::Letter(letter) => letter.to_owned(),
+            Left::Symbol(s) | Left::Jump(s) => name(s).clone(),
+            Left::Rate(p) => format!("{}'", name(p)),
+            Left::Added(letter, q) => format!("{letter}_{}", name(q)),
+            Left::Bracket(a, b) => format!("{{{}, {}}}", name(a), name(b)),
+        }
+    }
+
+    /// Each constraint, Σ coefficient · x' + rate = 0, with its multiplier: its name, and its value
+    /// where it is known in closed form. The force on x is λ times the coefficient of x.
+    fn constraints(&self) -> Vec<Value> {
+        let all = self.report.constraints.iter().map(|known| {
+            let named = self.report.model.coordinates.iter().zip(&known.row.row);
+            let coefficients: Map<String, Value> =
+                named.map(|(c, &a)| (c.name.clone(), self.text(a))).collect();
+            json!({
+                "name": known.constraint.name,
+                "expression": self.text(known.constraint.expression),
+                "holonomic": known.row.position.is_some(),
+                "coefficients": coefficients,
+                "rate": self.text(known.row.rate),
+                "multiplier": self.left(Left::Symbol(known.row.multiplier)),
+                "lambda": known.multiplier.map(|e| self.text(e)),
             })
-            .collect();
-        json!({
-            "name": impulse.name,
-            "change": changes,
-            "at": impulse.times.iter().map(|&e| text(e)).collect::<Vec<_>>(),
-            "every": impulse.period.map(text),
-        })
-    };
-    model.impulses.iter().map(object).collect()
+        });
+        all.collect()
+    }
+
+    /// Each impulse with what it adds to momenta (or variables), and when.
+    fn impulses(&self) -> Vec<Value> {
+        let all = self.report.impulses.iter().map(|impulse| {
+            json!({
+                "name": impulse.impulse.name,
+                "change": self.map(&impulse.changes),
+                "at": self.list(&impulse.impulse.times),
+                "every": impulse.impulse.period.map(|e| self.text(e)),
+            })
+        });
+        all.collect()
+    }
 }
 
 fn events(model: &Model) -> Vec<Value> {
@@ -185,14 +175,4 @@ fn events(model: &Model) -> Vec<Value> {
         })
     };
     model.events.iter().map(object).collect()
-}
-
-/// What [`Equations::solved`] gives the rate of: `x''`, or `x'` then `p_x'`.
-fn rate_names(model: &Model) -> Vec<String> {
-    let names = model.coordinates.iter().map(|c| &c.name);
-    if model.is_lagrangian() {
-        return names.map(|name| format!("{name}''")).collect();
-    }
-    let velocities = names.clone().map(|name| format!("{name}'"));
-    velocities.chain(names.map(|name| format!("p_{name}'"))).collect()
 }

@@ -1,104 +1,86 @@
-//! What follows from a law of motion as a fragment for LaTeX with amsmath.
+//! The report on a law of motion as a fragment for LaTeX with amsmath.
 
-use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, Flow};
-use crate::model::{Mechanics, Model};
+use crate::expr::Symbol;
+use crate::mechanics::{Left, Line, Report};
 
-pub(super) fn write(model: &Model, equations: &Equations) -> String {
-    let pool = &equations.pool;
-    let symbol = |s: Symbol| pool.symbol_info(s).latex.clone();
-    let mut lines: Vec<String> = Vec::new();
-    if let (Some(body), Some(whole)) = (&model.body, &equations.supplements.body) {
-        let names = body.names;
-        let mut add =
-            |s: Symbol, e: Expr| lines.push(format!("{} &= {}", symbol(s), pool.latex(e)));
-        add(names.mass, whole.mass);
-        names.centre.into_iter().zip(whole.centre).for_each(|(s, e)| add(s, e));
-        names.inertia.into_iter().zip(whole.inertia).for_each(|(s, e)| add(s, e));
+pub(super) fn write(report: &Report<'_>) -> String {
+    let pool = &report.equations.pool;
+    let mut page = Page { report, lines: Vec::new() };
+    page.lines(report.body.iter().flat_map(|body| &body.lines));
+    page.lines([&report.law].into_iter().chain(&report.dissipation));
+    page.lines(report.forces.iter().chain(&report.brackets));
+    for (i, (_, casimir)) in report.casimirs.iter().enumerate() {
+        page.add(&format!("C_{{{}}}", i + 1), &pool.latex(*casimir));
     }
-    let (name, law) = model.mechanics.function();
-    lines.push(format!("{name} &= {}", pool.latex(law)));
-    let dissipation = model.mechanics.dissipation();
-    if dissipation != Expr::ZERO {
-        lines.push(format!("F &= {}", pool.latex(dissipation)));
+    for known in &report.constraints {
+        page.add(&pool.latex(known.constraint.expression), "0");
     }
-    let forces = model.mechanics.forces();
-    let forces = model.coordinates.iter().zip(forces).filter(|(_, force)| **force != Expr::ZERO);
-    let letter = if model.is_poisson() { 'f' } else { 'Q' };
-    lines.extend(forces.map(|(c, &force)| {
-        format!("{letter}_{{{}}} &= {}", symbol(c.position), pool.latex(force))
-    }));
-    let variable = |i: usize| symbol(model.coordinates[i].position);
-    lines.extend(
-        model.mechanics.brackets().into_iter().map(|(i, j, e)| {
-            format!("\\{{{}, {}\\}} &= {}", variable(i), variable(j), pool.latex(e))
-        }),
-    );
-    if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
-        let casimirs = casimirs.iter().enumerate();
-        lines.extend(
-            casimirs.map(|(i, (_, e, _))| format!("C_{{{}}} &= {}", i + 1, pool.latex(*e))),
-        );
+    let is_lagrangian = report.model.is_lagrangian();
+    if is_lagrangian {
+        page.lines(&report.momenta);
     }
-    for c in &model.constraints {
-        lines.push(format!("{} &= 0", pool.latex(c.expression)));
+    match &report.motion {
+        Ok(motion) => page.lines(motion),
+        Err(_) => page.unsolved(),
     }
-    if model.is_lagrangian() {
-        for (c, &p) in model.coordinates.iter().zip(&equations.momenta) {
-            lines.push(format!("{} &= {}", symbol(c.momentum), pool.latex(p)));
-        }
-    }
-    let rates = rates(model, &symbol);
-    match (&equations.solved, &equations.flow) {
-        (Ok(solved), _) => {
-            let solved = rates.iter().zip(solved);
-            lines.extend(solved.map(|(rate, &e)| format!("{rate} &= {}", pool.latex(e))));
-        }
-        (Err(_), Flow::Lagrange { mass, force, .. }) => {
-            let row = |row: &Vec<_>| row.iter().map(|&m| pool.latex(m)).collect::<Vec<_>>();
-            let mass: Vec<String> = mass.iter().map(|m| row(m).join(" & ")).collect();
-            lines.push(format!("{} {} &= {}", matrix(&mass), matrix(&rates), matrix(&row(force))));
-        }
-        // q̇ and ṗ are solved for as they stand
-        (Err(_), Flow::Hamilton { .. } | Flow::Poisson { .. }) => {}
-    }
-    for impulse in &model.impulses {
-        let changes = model.coordinates.iter().zip(&impulse.change);
-        for (c, &e) in changes.filter(|(_, e)| **e != Expr::ZERO) {
-            let moved = if model.is_poisson() { c.position } else { c.momentum };
-            lines.push(format!("\\Delta {} &= {}", symbol(moved), pool.latex(e)));
-        }
-    }
-    for event in &model.events {
+    page.lines(report.impulses.iter().flat_map(|impulse| &impulse.changes));
+    for event in &report.model.events {
         // no equation of motion: the sign of this is looked at
         let name = event.name.replace(|c: char| !c.is_alphanumeric(), " ");
-        lines.push(format!("&\\text{{event {name}: sign change of }} {}", pool.latex(event.when)));
+        let when = pool.latex(event.when);
+        page.lines.push(format!("&\\text{{event {name}: sign change of }} {when}"));
     }
-    if let Ok(solved) = &equations.multipliers {
-        let solved = equations.constraints.iter().zip(solved);
-        lines.extend(
-            solved.map(|(row, &e)| format!("{} &= {}", symbol(row.multiplier), pool.latex(e))),
-        );
+    page.lines(report.multipliers.iter().flatten());
+    if is_lagrangian {
+        page.lines(&report.hamiltonian);
+        page.lines([&report.energy]);
     }
-    if model.is_lagrangian() {
-        lines.extend(equations.hamiltonian.iter().map(|&h| format!("H &= {}", pool.latex(h))));
-        lines.push(format!("E &= {}", pool.latex(equations.energy)));
+    page.add("\\frac{dE}{dt}", &pool.latex(report.energy_rate));
+    let title = report.model.info.title.replace('\n', " ");
+    format!("% {title}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", page.lines.join(" \\\\\n"))
+}
+
+/// The lines so far.
+struct Page<'a> {
+    report: &'a Report<'a>,
+    lines: Vec<String>,
+}
+
+impl<'a> Page<'a> {
+    fn add(&mut self, left: &str, right: &str) {
+        self.lines.push(format!("{left} &= {right}"));
     }
-    lines.push(format!("\\frac{{dE}}{{dt}} &= {}", pool.latex(equations.energy_rate)));
-    let title = model.info.title.replace('\n', " ");
-    format!("% {title}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
+
+    fn lines(&mut self, lines: impl IntoIterator<Item = &'a Line>) {
+        for line in lines {
+            self.add(&self.left(line.left), &self.report.equations.pool.latex(line.right));
+        }
+    }
+
+    /// M q̈ = f; q̇ and ṗ are solved for as they stand.
+    fn unsolved(&mut self) {
+        let Some((mass, force)) = self.report.unsolved() else { return };
+        let pool = &self.report.equations.pool;
+        let row = |row: &[_]| row.iter().map(|&e| pool.latex(e)).collect::<Vec<_>>();
+        let mass: Vec<String> = mass.iter().map(|m| row(m).join(" & ")).collect();
+        let rates: Vec<String> = self.report.rates.iter().map(|&rate| self.left(rate)).collect();
+        let left = format!("{} {}", matrix(&mass), matrix(&rates));
+        self.add(&left, &matrix(&row(force)));
+    }
+
+    fn left(&self, left: Left) -> String {
+        let symbol = |s: Symbol| &self.report.equations.pool.symbol_info(s).latex;
+        match left {
+            Left::Letter(letter) => letter.to_owned(),
+            Left::Symbol(s) => symbol(s).clone(),
+            Left::Rate(p) => format!("\\dot {}", symbol(p)),
+            Left::Added(letter, q) => format!("{letter}_{{{}}}", symbol(q)),
+            Left::Bracket(a, b) => format!("\\{{{}, {}\\}}", symbol(a), symbol(b)),
+            Left::Jump(s) => format!("\\Delta {}", symbol(s)),
+        }
+    }
 }
 
 fn matrix(rows: &[String]) -> String {
     format!("\\begin{{pmatrix}} {} \\end{{pmatrix}}", rows.join(" \\\\ "))
-}
-
-/// The left sides of the equations of motion.
-fn rates(model: &Model, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
-    let all = model.coordinates.iter();
-    if model.is_lagrangian() {
-        return all.map(|c| symbol(c.acceleration)).collect();
-    }
-    let velocities = all.clone().map(|c| symbol(c.velocity));
-    velocities.chain(all.map(|c| format!("\\dot {}", symbol(c.momentum)))).collect()
 }

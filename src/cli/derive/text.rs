@@ -1,40 +1,34 @@
-//! What follows from a law of motion as mathematics to be read.
+//! The report on a law of motion as mathematics to be read.
 
 use std::fmt::Write;
 
 use unicode_width::UnicodeWidthStr;
 
 use super::super::script::Script;
-use super::body::Numbers;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Equations, Flow, NoClosedForm, Reason};
-use crate::model::{Mechanics, Model};
+use crate::mechanics::{Class, Classed, Constant, Left, Line, NoClosedForm, Report};
+use crate::model::Model;
 
-pub(super) fn write(
-    model: &Model,
-    equations: &Equations,
-    classes: &[Classed],
-    script: Script,
-) -> String {
-    let mut page = Page { equations, script, text: String::new() };
-    page.head(model);
-    page.body(model);
-    page.law(model);
-    page.constraints(model);
-    page.momenta(model);
-    page.motion(model);
+pub(super) fn write(report: &Report<'_>, classes: &[Classed], script: Script) -> String {
+    let mut page = Page { report, script, text: String::new() };
+    page.head(report.model);
+    page.body();
+    page.law();
+    page.constraints();
+    page.momenta();
+    page.motion();
     page.multipliers();
-    page.vakonomic(model);
-    page.occurrences(model);
+    page.vakonomic();
+    page.occurrences();
     page.energy();
-    page.conserved(model);
+    page.conserved();
     page.changing(classes);
     page.text
 }
 
 /// The text so far.
 struct Page<'a> {
-    equations: &'a Equations,
+    report: &'a Report<'a>,
     script: Script,
     text: String,
 }
@@ -51,22 +45,15 @@ impl Page<'_> {
     }
 
     /// The body of the file: expressions, and numbers at the file's parameters.
-    fn body(&mut self, model: &Model) {
-        let Some(body) = Numbers::of(model, self.equations) else { return };
-        let names = body.names;
-        let whole = body.whole;
+    fn body(&mut self) {
+        let Some(body) = &self.report.body else { return };
         let numbers = |all: &[f64]| {
             let all: Vec<String> = all.iter().map(f64::to_string).collect();
             format!("({})", all.join(", "))
         };
-        let mut rows = vec![(self.symbol(names.mass), self.math(whole.mass))];
-        for (symbol, e) in names.centre.into_iter().zip(whole.centre) {
-            rows.push((self.symbol(symbol), self.math(e)));
-        }
-        for (symbol, e) in names.inertia.into_iter().zip(whole.inertia) {
-            rows.push((self.symbol(symbol), self.math(e)));
-        }
-        self.section("Body", &rows);
+        self.lines("Body", &body.lines);
+        let moments = body.moments;
+        let body = body.numbers(self.report.model, self.report.equations);
         let mut rows = vec![
             ("mass".to_owned(), body.mass.to_string()),
             ("centre of mass".to_owned(), numbers(&body.centre)),
@@ -74,7 +61,7 @@ impl Page<'_> {
         let mark = |i: usize| format!("inertia, row {}", i + 1);
         rows.extend(body.inertia.iter().enumerate().map(|(i, row)| (mark(i), numbers(row))));
         for (i, (moment, axis)) in body.moments.iter().zip(&body.axes).enumerate() {
-            let name = self.symbol(names.principal[i]);
+            let name = self.symbol(moments[i]);
             // twelve digits of a direction are enough to read, and hide what rounding left of a zero
             let axis: Vec<f64> = axis.iter().map(|x| (x * 1e12).round() / 1e12 + 0.0).collect();
             rows.push((name, format!("{moment} about {}", numbers(&axis))));
@@ -82,86 +69,55 @@ impl Page<'_> {
         self.section("Its numbers at these parameters", &rows);
     }
 
-    fn law(&mut self, model: &Model) {
-        let (name, law) = model.mechanics.function();
-        let title = if model.is_lagrangian() { "Lagrangian" } else { "Hamiltonian" };
-        let mut rows = vec![(name.to_owned(), self.math(law))];
-        let dissipation = model.mechanics.dissipation();
-        if dissipation != Expr::ZERO {
-            rows.push(("F".to_owned(), self.math(dissipation)));
+    fn law(&mut self) {
+        let report = self.report;
+        let title = if report.model.is_lagrangian() { "Lagrangian" } else { "Hamiltonian" };
+        let beside = report.dissipation.iter().chain(&report.forces);
+        let law: Vec<Line> = [report.law].iter().chain(beside).copied().collect();
+        self.lines(title, &law);
+        if report.model.is_poisson() {
+            self.lines("Brackets", &report.brackets);
         }
-        let letter = if model.is_poisson() { 'f' } else { 'Q' };
-        for (c, &force) in model.coordinates.iter().zip(model.mechanics.forces()) {
-            if force != Expr::ZERO {
-                rows.push((format!("{letter}_{}", self.symbol(c.position)), self.math(force)));
-            }
-        }
-        self.section(title, &rows);
-        self.structure(model);
-    }
-
-    /// The brackets that do not vanish, and the Casimirs.
-    fn structure(&mut self, model: &Model) {
-        let Mechanics::Poisson { casimirs, .. } = &model.mechanics else { return };
-        let symbol = |i: usize| self.symbol(model.coordinates[i].position);
-        let brackets = model.mechanics.brackets().into_iter();
-        let rows: Vec<_> = brackets
-            .map(|(i, j, e)| (format!("{{{}, {}}}", symbol(i), symbol(j)), self.math(e)))
-            .collect();
-        self.section("Brackets", &rows);
-        if !casimirs.is_empty() {
+        if !report.casimirs.is_empty() {
+            let casimirs = report.casimirs.iter();
             let rows: Vec<_> =
-                casimirs.iter().map(|(name, e, _)| (self.words(name), self.math(*e))).collect();
+                casimirs.map(|&(name, e)| (self.words(name), self.math(e))).collect();
             self.section("Casimirs", &rows);
         }
     }
 
-    fn constraints(&mut self, model: &Model) {
-        if model.constraints.is_empty() {
-            return;
+    fn constraints(&mut self) {
+        if !self.report.constraints.is_empty() {
+            self.heading("Constraints");
         }
-        self.line("");
-        self.line("Constraints");
-        for (c, row) in model.constraints.iter().zip(&self.equations.constraints) {
-            let kind = match (row.position.is_some(), row.rate == Expr::ZERO) {
+        for known in &self.report.constraints {
+            let kind = match (known.row.position.is_some(), known.row.rate == Expr::ZERO) {
                 (true, true) => "holonomic",
                 (true, false) => "holonomic, moving",
                 (false, true) => "on the velocities",
                 (false, false) => "on the velocities, moving",
             };
-            let line = format!("  {} = 0   ({}; {kind})", self.math(c.expression), c.name);
-            self.line(&line);
+            let (name, e) = (&known.constraint.name, self.math(known.constraint.expression));
+            self.line(&format!("  {e} = 0   ({name}; {kind})"));
         }
     }
 
     /// λ in closed form, and the force it makes on each coordinate.
     fn multipliers(&mut self) {
-        let equations = self.equations;
-        if equations.constraints.is_empty() {
+        let report = self.report;
+        if report.constraints.is_empty() {
             return;
         }
-        match &equations.multipliers {
-            Ok(solved) => {
-                let rows = equations.constraints.iter().zip(solved);
-                let rows: Vec<_> =
-                    rows.map(|(row, &e)| (self.symbol(row.multiplier), self.math(e))).collect();
-                self.section("Multipliers", &rows);
-            }
-            Err(why) => self.why_not("Multipliers", why),
-        }
-        let mut rows = Vec::new();
-        for row in &equations.constraints {
-            for (c, &a) in equations.coordinates.iter().zip(&row.row) {
-                if a != Expr::ZERO {
-                    let left = format!("on {}", self.symbol(c.position));
-                    let factor = match self.math(a) {
-                        one if one == "1" => String::new(),
-                        other => format!("({other}) "),
-                    };
-                    rows.push((left, format!("{factor}{}", self.symbol(row.multiplier))));
-                }
-            }
-        }
+        self.lines_or_why("Multipliers", &report.multipliers);
+        let rows = report.reactions.iter().map(|reaction| {
+            let factor = match self.math(reaction.factor) {
+                one if one == "1" => String::new(),
+                other => format!("({other}) "),
+            };
+            let force = format!("{factor}{}", self.symbol(reaction.multiplier));
+            (format!("on {}", self.symbol(reaction.on)), force)
+        });
+        let rows: Vec<_> = rows.collect();
         self.section("Forces of constraint", &rows);
         self.line(
             "  (they stand beside the other forces, each constraint as written; many programs have the \
@@ -170,12 +126,10 @@ impl Page<'_> {
     }
 
     /// The Lagrangian that has the constraints put into it, and what it is not.
-    fn vakonomic(&mut self, model: &Model) {
-        let (Some(vakonomic), Some(comparison)) =
-            (&self.equations.supplements.vakonomic, &model.comparison)
-        else {
-            return;
-        };
+    fn vakonomic(&mut self) {
+        let model = self.report.model;
+        let vakonomic = &self.report.equations.supplements.vakonomic;
+        let (Some(vakonomic), Some(comparison)) = (vakonomic, &model.comparison) else { return };
         let title =
             "The wrong mechanics, for comparison: the constraints put into L before it varies";
         match &vakonomic.lagrangian {
@@ -190,114 +144,90 @@ impl Page<'_> {
         }
     }
 
-    fn occurrences(&mut self, model: &Model) {
-        if !model.impulses.is_empty() {
-            self.line("");
-            self.line("Impulses");
+    fn occurrences(&mut self) {
+        let report = self.report;
+        if !report.impulses.is_empty() {
+            self.heading("Impulses");
         }
-        for impulse in &model.impulses {
-            let changes = model.coordinates.iter().zip(&impulse.change);
-            let changes = changes.filter(|(_, e)| **e != Expr::ZERO).map(|(c, &e)| {
-                let moved = if model.is_poisson() { c.position } else { c.momentum };
-                format!("Δ{} = {}", self.symbol(moved), self.math(e))
-            });
-            let changes = self.words(&changes.collect::<Vec<_>>().join(", "));
-            let line = format!("  {changes}   ({})", impulse.name);
-            self.line(&line);
+        for impulse in &report.impulses {
+            let changes = impulse.changes.iter();
+            let changes: Vec<String> = changes
+                .map(|line| format!("{} = {}", self.left(line.left), self.math(line.right)))
+                .collect();
+            let changes = self.words(&changes.join(", "));
+            self.line(&format!("  {changes}   ({})", impulse.impulse.name));
         }
-        if !model.events.is_empty() {
-            self.line("");
-            self.line("Events");
+        if !report.model.events.is_empty() {
+            self.heading("Events");
         }
-        for event in &model.events {
+        for event in &report.model.events {
             let when = self.math(event.when);
-            let line = format!("  {when} = 0   ({})", event.name);
-            self.line(&line);
+            self.line(&format!("  {when} = 0   ({})", event.name));
         }
     }
 
-    fn momenta(&mut self, model: &Model) {
-        if model.is_lagrangian() {
-            let momenta = model.coordinates.iter().zip(&self.equations.momenta);
-            let rows: Vec<_> =
-                momenta.map(|(c, &p)| (self.symbol(c.momentum), self.math(p))).collect();
-            self.section("Momenta", &rows);
+    fn momenta(&mut self) {
+        if self.report.model.is_lagrangian() {
+            self.lines("Momenta", &self.report.momenta);
         }
     }
 
-    fn motion(&mut self, model: &Model) {
-        let rates = rates(model, self.script, &|symbol| self.symbol(symbol));
-        match &self.equations.solved {
-            Ok(solved) => {
-                let rows: Vec<_> =
-                    rates.into_iter().zip(solved.iter().map(|&e| self.math(e))).collect();
-                self.section("Equations of motion", &rows);
-            }
-            Err(why) => {
-                self.why_not("Equations of motion", why);
-                self.unsolved(&rates);
-            }
+    fn motion(&mut self) {
+        self.lines_or_why("Equations of motion", &self.report.motion);
+        if self.report.motion.is_err() {
+            self.unsolved();
         }
     }
 
     /// M q̈ = f, row by row.
-    fn unsolved(&mut self, rates: &[String]) {
-        let Flow::Lagrange { mass, force, .. } = &self.equations.flow else { return };
+    fn unsolved(&mut self) {
+        let Some((mass, force)) = self.report.unsolved() else { return };
         for (row, &f) in mass.iter().zip(force) {
-            let terms = row.iter().zip(rates).filter(|(m, _)| **m != Expr::ZERO);
-            let terms: Vec<String> =
-                terms.map(|(&m, rate)| format!("({}) {rate}", self.math(m))).collect();
+            let terms = row.iter().zip(&self.report.rates).filter(|(m, _)| **m != Expr::ZERO);
+            let terms: Vec<String> = terms
+                .map(|(&m, rate)| format!("({}) {}", self.math(m), self.left(*rate)))
+                .collect();
             let line = format!("  {} = {}", terms.join(" + "), self.math(f));
             self.line(&line);
         }
     }
 
     fn energy(&mut self) {
-        let equations = self.equations;
-        if equations.is_lagrangian() {
-            match &equations.hamiltonian {
-                Ok(h) => self.section("Hamiltonian", &[("H".to_owned(), self.math(*h))]),
-                Err(why) => self.why_not("Hamiltonian", why),
-            }
-            self.section("Energy", &[("E".to_owned(), self.math(equations.energy))]);
+        let report = self.report;
+        if report.model.is_lagrangian() {
+            let hamiltonian = report.hamiltonian.as_ref().map(|&h| vec![h]);
+            self.lines_or_why("Hamiltonian", &hamiltonian.map_err(|why| *why));
+            self.lines("Energy", &[report.energy]);
         }
-        if equations.energy_rate != Expr::ZERO {
-            let rate = [("dE/dt".to_owned(), self.math(equations.energy_rate))];
+        if report.energy_rate != Expr::ZERO {
+            let rate = [("dE/dt".to_owned(), self.math(report.energy_rate))];
             self.section("The energy's change", &rate);
         }
     }
 
-    fn conserved(&mut self, model: &Model) {
-        let cyclic = self.equations.cyclic.iter();
-        let cyclic: Vec<String> =
-            cyclic.map(|&i| self.symbol(model.coordinates[i].position)).collect();
+    fn conserved(&mut self) {
+        let report = self.report;
+        let cyclic: Vec<String> = report.cyclic.iter().map(|&q| self.symbol(q)).collect();
         let cyclic = if cyclic.is_empty() { "none".to_owned() } else { cyclic.join(", ") };
-        if !model.is_poisson() {
-            self.line("");
-            self.line(&format!("Cyclic coordinates: {cyclic}"));
+        if !report.model.is_poisson() {
+            self.heading(&format!("Cyclic coordinates: {cyclic}"));
         }
-        self.line("");
-        if self.equations.conserved.is_empty() {
-            return self.line("Conserved: nothing that is known");
+        if report.conserved.is_empty() {
+            return self.heading("Conserved: nothing that is known");
         }
-        self.line("Conserved");
-        for conserved in &self.equations.conserved {
-            let reason = self.words(&conserved.reason.to_string());
-            let momentum =
-                model.coordinates.iter().find(|c| conserved.name == format!("p_{}", c.name));
+        self.heading("Conserved");
+        for kept in &report.conserved {
+            let reason = self.words(&kept.reason.to_string());
             // what stands above needs no second formula
-            let line = match momentum {
-                Some(c) => format!("  {}   ({reason})", self.symbol(c.momentum)),
-                None if conserved.name == "energy" => format!("  E   ({reason})"),
-                None if conserved.reason == Reason::Casimir => {
-                    format!("  {}   ({reason})", self.words(&conserved.name))
-                }
-                None => {
-                    let name = self.words(&conserved.name);
-                    format!("  {name} = {}   ({reason})", self.math(conserved.expression))
+            let what = match kept.constant {
+                Constant::Momentum(p) => self.symbol(p),
+                Constant::Energy => "E".to_owned(),
+                Constant::Casimir(name) => self.words(name),
+                Constant::Other(name) => {
+                    format!("{} = {}", self.words(name), self.math(kept.expression))
                 }
             };
-            self.line(&line);
+            self.line(&format!("  {what}   ({reason})"));
         }
     }
 
@@ -344,8 +274,7 @@ impl Page<'_> {
         ];
         for (title, rows) in sections {
             if !rows.is_empty() {
-                self.line("");
-                self.line(title);
+                self.heading(title);
                 for row in &rows {
                     self.line(row);
                 }
@@ -355,8 +284,7 @@ impl Page<'_> {
 
     /// A title and lines `name = value`, the signs of equality below each other.
     fn section(&mut self, title: &str, rows: &[(String, String)]) {
-        self.line("");
-        self.line(title);
+        self.heading(title);
         let width = rows.iter().map(|(name, _)| name.width()).max().unwrap_or(0);
         for (name, value) in rows {
             let gap = " ".repeat(width - name.width());
@@ -365,10 +293,42 @@ impl Page<'_> {
     }
 
     fn why_not(&mut self, title: &str, why: &NoClosedForm) {
-        self.line("");
-        self.line(title);
+        self.heading(title);
         let why = self.words(&why.to_string());
         self.line(&format!("  {why}"));
+    }
+
+    fn lines(&mut self, title: &str, lines: &[Line]) {
+        let rows = lines.iter().map(|line| (self.left(line.left), self.math(line.right)));
+        let rows: Vec<_> = rows.collect();
+        self.section(title, &rows);
+    }
+
+    fn lines_or_why(&mut self, title: &str, lines: &Result<Vec<Line>, &NoClosedForm>) {
+        match lines {
+            Ok(lines) => self.lines(title, lines),
+            Err(why) => self.why_not(title, why),
+        }
+    }
+
+    fn heading(&mut self, title: &str) {
+        self.line("");
+        self.line(title);
+    }
+
+    fn left(&self, left: Left) -> String {
+        match left {
+            Left::Letter(letter) => letter.to_owned(),
+            Left::Symbol(symbol) => self.symbol(symbol),
+            Left::Rate(p) => match self.script {
+                Script::Ascii => format!("{}'", self.symbol(p)),
+                // the dot stands over the letter p
+                Script::Unicode => self.symbol(p).replacen('p', "ṗ", 1),
+            },
+            Left::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
+            Left::Bracket(a, b) => format!("{{{}, {}}}", self.symbol(a), self.symbol(b)),
+            Left::Jump(symbol) => format!("Δ{}", self.symbol(symbol)),
+        }
     }
 
     fn line(&mut self, line: &str) {
@@ -377,30 +337,15 @@ impl Page<'_> {
     }
 
     fn math(&self, e: Expr) -> String {
-        self.script.math(&self.equations.pool, e)
+        self.script.math(&self.report.equations.pool, e)
     }
 
     fn symbol(&self, symbol: Symbol) -> String {
-        self.script.symbol(&self.equations.pool, symbol)
+        self.script.symbol(&self.report.equations.pool, symbol)
     }
 
     /// Words as the reader's terminal can show them.
     fn words(&self, text: &str) -> String {
         self.script.words(text)
     }
-}
-
-/// The left sides of the equations of motion.
-fn rates(model: &Model, script: Script, symbol: &dyn Fn(Symbol) -> String) -> Vec<String> {
-    let all = model.coordinates.iter();
-    if model.is_lagrangian() {
-        return all.map(|c| symbol(c.acceleration)).collect();
-    }
-    let velocities = all.clone().map(|c| symbol(c.velocity));
-    let mark = |p: String| match script {
-        Script::Ascii => format!("{p}'"),
-        // the dot stands over the letter p
-        Script::Unicode => p.replacen('p', "ṗ", 1),
-    };
-    velocities.chain(all.map(|c| mark(symbol(c.momentum)))).collect()
 }

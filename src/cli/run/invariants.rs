@@ -4,6 +4,7 @@ use crate::analysis::Verdict;
 use crate::cli::report::Invariant;
 use crate::experiment::{Gauge, MethodFact};
 use crate::integrate::{METHODS, Stepping};
+use crate::num::short;
 
 /// One invariant a gauge.
 pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
@@ -84,16 +85,5 @@ fn size(x: f64) -> String {
         0.01..1000.0 => format!("{x:.2}"),
         _ if x.is_finite() => format!("{x:.1e}"),
         _ => "more than can be reported".to_owned(),
-    }
-}
-
-/// A number in four digits.
-fn short(x: f64) -> String {
-    let digits = format!("{x:.3e}");
-    let value: f64 = digits.parse().unwrap_or(x);
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
     }
 }

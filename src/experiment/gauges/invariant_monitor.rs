@@ -2,11 +2,13 @@
 //!
 //! In: values, and what moves. Out: a [`Gauge`]. Never here: where the values come from.
 
-use super::LEDGER;
 use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::TermWatch;
+
+/// The gauge that is constant by the law of the energy's change.
+pub(super) const LEDGER: &str = "energy ledger";
 
 /// One gauge's own memory.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 //! In: a motion at the time of it. Out: the state after it, and a [`Occurrence`]. Never here: when it is due.
 
 use super::Propagator;
-use crate::integrate::event_location::LocatedEvent;
+use crate::integrate::located_event::LocatedEvent;
 use crate::model::Action;
 use crate::system::{MotionError, MotionErrorKind, State};
 

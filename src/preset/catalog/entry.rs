@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::NotFound;
-use crate::diagnostic::{Diagnostic, Diagnostics, Document, Severity};
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::Info;
 use crate::preset::{draft, toml_errors};
 use crate::printable;

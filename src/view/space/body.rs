@@ -35,8 +35,9 @@ impl Outline {
     pub(super) fn of(q: &Quantities<'_>) -> Option<Self> {
         let model: &Model = &q.lab.loaded.model;
         let body = model.body.as_ref()?;
-        let value = |e: Expr| model.pool.evaluate(e, &|symbol| q.lab.now(symbol));
-        let centre = body.names.centre.map(|symbol| q.lab.now(symbol));
+        let now = q.lab.valuation();
+        let value = |e: Expr| now.value(&model.pool, e);
+        let centre = body.names.centre.map(|symbol| now.at(symbol));
         let mut outline = Self { edges: Vec::new(), axes: Vec::new(), points: Vec::new() };
         for piece in &body.pieces {
             let at = piece.at.map(value);
@@ -53,7 +54,7 @@ impl Outline {
                 .extend(lines.into_iter().map(|line| line.into_iter().map(place).collect()));
         }
         let reach = AXES * outline.reach();
-        let inertia = body.names.inertia.map(|symbol| DoubleDouble::from(q.lab.now(symbol)));
+        let inertia = body.names.inertia.map(|symbol| DoubleDouble::from(now.at(symbol)));
         let (_, axes) = principal(&inertia);
         outline.axes = axes.map(|axis| vec![[0.0; 3], axis.map(|n| reach * n)]).to_vec();
         Some(outline.standing(q))

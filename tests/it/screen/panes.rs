@@ -384,13 +384,17 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let potential = |app: &phaselab::app::App, r: f64| {
         let lab = app.lab.as_ref().unwrap();
         let view = lab.loaded.model.views.iter().position(|v| v.kind == "potential");
-        Along::of(lab.loaded.physics(), view.unwrap()).unwrap().at(&lab.present().unwrap(), r)
+        Along::of(lab.loaded.physics(), view.unwrap()).unwrap().at(
+            &lab.loaded.model.pool,
+            &lab.valuation(),
+            r,
+        )
     };
     app.update(Event::Loaded(Ok(planet.clone())));
     app.update(Event::Snapshot(Arc::new(now.clone())));
     // V_eff = V + p²/(2 m r²): p held, so doubling r divides the wall by four
     let lab = app.lab.as_ref().unwrap();
-    let symbol = |name: &str| lab.now(planet.model.pool.find_symbol(name).unwrap());
+    let symbol = |name: &str| lab.valuation().at(planet.model.pool.find_symbol(name).unwrap());
     let (m, p) = (symbol("m"), symbol("p_theta"));
     let wall = |r: f64| p * p / (2.0 * m * r * r);
     let attraction = |r: f64| potential(&app, r) - wall(r);

@@ -1,0 +1,212 @@
+//! The command line: which subcommands there are, and which one is meant.
+//!
+//! In: words. Out: an exit code. Never here: what a subcommand does.
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use super::bracket;
+use super::check;
+use super::completions;
+use super::config;
+use super::demo;
+use super::derive;
+use super::doctor;
+use super::exit;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::lab;
+use super::list;
+use super::manual;
+use super::methods;
+use super::play;
+use super::record;
+use super::run;
+use super::stderr;
+use super::theme;
+use crate::diagnostic::nearest;
+use crate::preset::{Catalog, is_path};
+use crate::printable;
+
+/// A laboratory for analytical mechanics.
+///
+/// Without a command it opens the laboratory on the screen, at a preset or a file, or at the
+/// picker where no name is given. A name with a `/` in it or ending in `.toml` is a file, any
+/// other a preset; your own presets (in `phaselab/presets` of your configuration folder) come
+/// before shipped ones of the same name.
+#[derive(Debug, Parser)]
+#[command(name = "phaselab", version, args_conflicts_with_subcommands = true)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    pub(super) lab: lab::Arguments,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+/// What stands below the help of the program itself.
+const EXAMPLES: &str = "\
+Examples:
+  phaselab                             choose a system and watch it move
+  phaselab double-pendulum             open a preset
+  phaselab my/system.toml              open a file
+  phaselab derive heavy-top            what follows from its Lagrangian
+  phaselab --demo                      a tour of ten seconds that ends by itself
+  phaselab run pendulum > swing.csv    the same motion without a screen
+  phaselab man | man -l -              the manual, with all keys";
+
+/// The whole command line, as help, completions and the manual are made from it.
+pub fn command() -> clap::Command {
+    let exits = exit::lines(80);
+    Arguments::command().after_help(format!("{EXAMPLES}\n\nExit status:\n{exits}"))
+}
+
+/// The commands; what each is for stands with its arguments.
+#[derive(Debug, Subcommand)]
+enum Command {
+    List(list::Arguments),
+    Derive(derive::Arguments),
+    Check(check::Arguments),
+    Bracket(bracket::Arguments),
+    Run(Box<run::Arguments>),
+    Record(Box<record::Arguments>),
+    Script(demo::Arguments),
+    Play(play::Arguments),
+    Methods(methods::Arguments),
+    Doctor(doctor::Arguments),
+    Config(config::Arguments),
+    Completions(completions::Arguments),
+    Man(manual::Arguments),
+    Theme(theme::Arguments),
+}
+
+/// Does what the arguments say; the first is the program's name.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let words: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match parse(command(), &words) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // help that is asked for is no mistake
+            if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
+                stderr::tell(&message);
+                return CommandError::WrongUse(message).code();
+            }
+            return refused(&words, &error);
+        }
+    };
+    match perform(arguments, &words) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            stderr::tell(failure.message());
+            failure.code()
+        }
+    }
+}
+
+pub(super) fn parse(command: clap::Command, words: &[OsString]) -> Result<Arguments, clap::Error> {
+    Arguments::from_arg_matches(&command.try_get_matches_from(words)?)
+}
+
+fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError> {
+    let Some(command) = arguments.command else { return lab::perform(&arguments.lab, words) };
+    let interrupt = Interrupt::watch();
+    match command {
+        Command::List(arguments) => list::perform(&arguments),
+        Command::Derive(arguments) => derive::perform(&arguments),
+        Command::Check(arguments) => check::perform(&arguments),
+        Command::Bracket(arguments) => bracket::perform(&arguments),
+        Command::Run(arguments) => run::perform(&arguments, &interrupt),
+        Command::Record(arguments) => record::perform(&arguments),
+        Command::Script(arguments) => demo::perform(&arguments),
+        Command::Play(arguments) => play::perform(&arguments, &interrupt),
+        Command::Methods(arguments) => methods::perform(&arguments),
+        Command::Doctor(arguments) => doctor::perform(&arguments),
+        Command::Config(arguments) => config::perform(&arguments),
+        Command::Completions(arguments) => completions::perform(&arguments),
+        Command::Man(arguments) => manual::perform(&arguments),
+        Command::Theme(arguments) => theme::perform(&arguments),
+    }
+}
+
+/// Shows help, the version, or what is wrong with the words.
+fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        return match printed.map_err(|why| CommandError::writing("standard output", &why)) {
+            Ok(()) | Err(CommandError::NobodyReads) => ExitCode::SUCCESS,
+            Err(failure) => {
+                stderr::tell(failure.message());
+                failure.code()
+            }
+        };
+    }
+    let said = error.render().to_string();
+    let shown = fit(&said, words);
+    if shown == said {
+        // in colour, where that is wanted; whether anybody hears it changes nothing
+        let _ = error.print();
+    } else {
+        stderr::show(&shown);
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE))
+}
+
+/// What is said of the words of a command line, with those in it that are fit to be shown, and not at any length.
+fn fit(said: &str, words: &[OsString]) -> String {
+    let mut text = said.to_owned();
+    for word in words.iter().filter_map(|word| word.to_str()) {
+        let parts = [Some(word), word.split_once('=').map(|(_, value)| value)];
+        for part in parts.into_iter().flatten() {
+            let shown = printable::quoted(part);
+            if shown != part {
+                text = text.replace(part, &shown);
+            }
+        }
+    }
+    let lines = text.split('\n').map(|line| printable::shortened(line, LONGEST_LINE));
+    printable::lines(&lines.collect::<Vec<_>>().join("\n")).into_owned()
+}
+
+/// The most characters of a line about wrong words; help is not so wide.
+const LONGEST_LINE: usize = 400;
+
+/// What is to be said where the first of several words is no command: almost one, or nothing there is. By itself it would
+/// be a preset's name.
+fn misspelt(words: &[OsString]) -> Option<String> {
+    let [_, first, second, ..] = words else { return None };
+    let first = first.to_str().filter(|first| !first.starts_with('-'))?;
+    let command = Arguments::command();
+    let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    if names.contains(&first) {
+        return None;
+    }
+    let shown = printable::quoted(first);
+    if let Some(near) = nearest(first, names.iter().copied()) {
+        return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
+    }
+    // an option behind a preset's name is the lab's, and what is wrong with it is reported
+    if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
+        return None;
+    }
+    unknown(first)
+}
+
+/// What is to be said of a word that is neither a command nor a preset's name, with the nearest that is.
+pub(super) fn unknown(word: &str) -> Option<String> {
+    let catalog = Catalog::load();
+    let presets = || catalog.entries().iter().map(|entry| entry.name.as_str());
+    if is_path(word) || presets().any(|preset| preset == word) {
+        return None;
+    }
+    let command = Arguments::command();
+    let commands: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let help = match nearest(word, commands.iter().copied().chain(presets())) {
+        Some(near) => format!("did you mean `{}`?", printable::line(near)),
+        None => {
+            format!("the commands are {}; `phaselab list` has the presets", commands.join(", "))
+        }
+    };
+    Some(format!("there is no command or preset `{}`; {help}", printable::quoted(word)))
+}

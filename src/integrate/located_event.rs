@@ -1,0 +1,71 @@
+//! A place where the function of an event changes its sign.
+//!
+//! In: a time, a side. Out: whether it counts. Never here: how it is found, and what follows from it.
+
+use super::probe::earlier;
+use crate::model::Direction;
+use crate::num::DoubleDouble;
+
+/// A crossing of one function.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Crossing {
+    /// When.
+    pub(super) exact: DoubleDouble,
+    /// The side it leads to.
+    pub(super) side: f64,
+    /// Whether the function leads there by a pole, and not by zero.
+    pub(super) pole: bool,
+}
+
+/// An event found.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct LocatedEvent {
+    pub(super) event: usize,
+    /// Of this the nearest `f64` is the time.
+    pub(super) exact: DoubleDouble,
+}
+
+impl Crossing {
+    /// A crossing of zero.
+    pub(super) fn at(exact: DoubleDouble, side: f64) -> Crossing {
+        Crossing { exact, side, pole: false }
+    }
+
+    /// Whether it is one that an event of this direction waits for.
+    pub(super) fn counts(&self, direction: Direction) -> bool {
+        let awaited = match direction {
+            Direction::Rising => self.side > 0.0,
+            Direction::Falling => self.side < 0.0,
+            Direction::Either => true,
+        };
+        awaited && !self.pole
+    }
+}
+
+/// The first crossing that counts of all functions, of which each list has those up to its own first; and the side on
+/// which each function is when it has passed, where that has changed.
+pub(super) fn first(
+    passed: &[Vec<Crossing>],
+    directions: &[Direction],
+    sides: &mut [f64],
+    to: f64,
+) -> Option<LocatedEvent> {
+    let mut found: Option<LocatedEvent> = None;
+    for (event, crossings) in passed.iter().enumerate() {
+        let counts = crossings.last().filter(|crossing| crossing.counts(directions[event]));
+        if let Some(crossing) = counts
+            && found.is_none_or(|first| earlier(crossing.exact, first.exact))
+        {
+            found = Some(LocatedEvent { event, exact: crossing.exact });
+        }
+    }
+    let until = found.map_or(to, |found| found.exact.high);
+    for (event, crossings) in passed.iter().enumerate() {
+        let mine = found.is_some_and(|found| found.event == event);
+        let mut gone = crossings.iter().filter(|c| c.exact.high < until || mine);
+        if let Some(last) = gone.next_back() {
+            sides[event] = last.side;
+        }
+    }
+    found
+}

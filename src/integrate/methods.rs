@@ -1,0 +1,26 @@
+//! The table of methods. To add one, write its file, ending in its row, and add its line here;
+//! picker, command line, documents and tests follow.
+
+use super::method::Method;
+use super::{dop853, gauss, leapfrog, rk4, taylor, yoshida};
+
+/// The table; the first row is the default.
+pub const METHODS: &[Method] = &[
+    taylor::METHOD,
+    leapfrog::METHOD,
+    yoshida::FOURTH_ORDER,
+    yoshida::SIXTH_ORDER,
+    yoshida::EIGHTH_ORDER,
+    gauss::FOURTH_ORDER,
+    gauss::SIXTH_ORDER,
+    dop853::METHOD,
+    rk4::METHOD,
+];
+
+/// The method of a name; `auto` is the first.
+pub fn method_named(name: &str) -> Option<&'static Method> {
+    if name == "auto" {
+        return METHODS.first();
+    }
+    METHODS.iter().find(|method| method.name == name)
+}

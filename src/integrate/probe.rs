@@ -1,0 +1,100 @@
+//! The functions of the events looked at inside a step.
+//!
+//! In: a stepper that has taken a step, a time within it. Out: values. Never here: where they are zero.
+
+use super::Stepper;
+use crate::num::DoubleDouble;
+use crate::system::{EventFunctions, MotionError, State};
+
+/// What looks at the functions of one motion.
+#[derive(Clone, Debug)]
+pub(super) struct Probe {
+    event_functions: EventFunctions,
+    /// When the last impulse fell: the motion after it is not to be asked about earlier times.
+    begun: Option<DoubleDouble>,
+    values: Vec<f64>,
+    state: State,
+}
+
+impl Probe {
+    pub(super) fn new(event_functions: EventFunctions, functions: usize, blank: State) -> Probe {
+        Probe { event_functions, begun: None, values: vec![0.0; functions], state: blank }
+    }
+
+    pub(super) fn event_functions(&mut self) -> &mut EventFunctions {
+        &mut self.event_functions
+    }
+
+    /// The motion begins anew at a time, or with nothing behind it.
+    pub(super) fn begin(&mut self, begun: Option<DoubleDouble>) {
+        self.begun = begun;
+    }
+
+    /// A time, though not before the last impulse.
+    pub(super) fn not_before(&self, time: DoubleDouble) -> DoubleDouble {
+        self.begun.filter(|&begun| earlier(time, begun)).unwrap_or(time)
+    }
+
+    /// The values at a state.
+    pub(super) fn of(&mut self, state: &State) -> Result<&[f64], MotionError> {
+        self.event_functions.look(state, &mut self.values)?;
+        Ok(&self.values)
+    }
+
+    /// The values at a time within the last step.
+    pub(super) fn at(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        time: f64,
+    ) -> Result<&[f64], MotionError> {
+        self.move_to(stepper, time)?;
+        self.event_functions.look(&self.state, &mut self.values)?;
+        Ok(&self.values)
+    }
+
+    /// One value at a time within the last step, in all digits.
+    pub(super) fn exactly(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        event: usize,
+        time: f64,
+    ) -> Result<DoubleDouble, MotionError> {
+        self.move_to(stepper, time)?;
+        self.event_functions.exactly(event, &self.state)
+    }
+
+    /// The same at a time known beyond the last digit of an `f64`.
+    pub(super) fn exactly_at(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        event: usize,
+        time: DoubleDouble,
+    ) -> Result<DoubleDouble, MotionError> {
+        stepper.at_exactly(self.not_before(time), &mut self.state)?;
+        self.event_functions.exactly(event, &self.state)
+    }
+
+    /// How far after a time within the last step the functions are simple; `near` is a length of time not far from the
+    /// motion's own.
+    pub(super) fn resolved(
+        &mut self,
+        stepper: &mut dyn Stepper,
+        time: f64,
+        near: f64,
+    ) -> Result<Option<f64>, MotionError> {
+        self.move_to(stepper, time)?;
+        Ok(self.event_functions.resolved(&self.state, near))
+    }
+
+    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), MotionError> {
+        match self.begun.filter(|&begun| earlier(DoubleDouble::written(time), begun)) {
+            Some(begun) => stepper.at_exactly(begun, &mut self.state),
+            None => stepper.at(time, &mut self.state),
+        }
+    }
+}
+
+/// Whether one time comes before another.
+pub(super) fn earlier(a: DoubleDouble, b: DoubleDouble) -> bool {
+    (a - b).high < 0.0
+}

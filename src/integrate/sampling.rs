@@ -1,0 +1,292 @@
+//! EventLocator looked for on the dense output of a method that has no series, and where a series tells nothing.
+//!
+//! In: a stepper that has taken a step, a stretch of it on which the functions are simple. Out: where each crosses zero.
+//! Never here: which crossing counts first, and what follows from it.
+//!
+//! A function is followed from look to look by its values and slopes (cubic interpolation); where
+//! it is not what its ends foretell, the piece is halved, so that functions that change faster than
+//! the motion are not stepped over, and neither are two zeros within one piece.
+
+use super::Stepper;
+use super::clock::spacing;
+use super::located_event::Crossing;
+use super::probe::Probe;
+use crate::model::Direction;
+use crate::num::{DoubleDouble, math};
+use crate::system::MotionError;
+
+/// Into how many pieces a stretch on which the functions are simple is cut at first.
+const PIECES: usize = 4;
+
+/// How far a look goes beyond the zero of a secant, in parts of the way to it.
+const BEYOND: f64 = 1.01;
+
+/// A value between two looks may differ from what they foretell by this part of its size.
+const PREDICTED: f64 = 0.02;
+
+/// How often a piece may be halved.
+const HALVINGS: u32 = 14;
+
+/// The part of a piece over which a slope is taken.
+const SLOPE_OVER: f64 = 1e-5;
+
+/// How far beside a change of sign a function is looked at again, in parts of the distance of the times between which
+/// it lies.
+const ASIDE: f64 = 4.0;
+
+/// A value below this part of those beside it has no sign that could be trusted.
+pub(super) const SIGNLESS: f64 = 1e-13;
+
+/// A look at one function.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    time: f64,
+    value: f64,
+    slope: f64,
+}
+
+/// What follows the functions over one stretch.
+pub(super) struct Sampling<'a> {
+    pub(super) probe: &'a mut Probe,
+    pub(super) stepper: &'a mut dyn Stepper,
+    /// Where the stretch begins and ends.
+    pub(super) whole: (f64, f64),
+}
+
+impl Sampling<'_> {
+    /// Looks at all of so many functions over the whole stretch. `soonest` is the part of the time after which the first
+    /// look is due, if an impulse has just fallen.
+    pub(super) fn looks(
+        &mut self,
+        functions: usize,
+        soonest: Option<f64>,
+    ) -> Result<Vec<Vec<Look>>, MotionError> {
+        let (from, to) = self.whole;
+        let mut looks: Vec<Vec<Look>> = vec![Vec::new(); functions];
+        let halvings = |soonest: f64| math::log2((to - from) / soonest).ceil() as i32;
+        let early = soonest.map_or(0, halvings);
+        let early = (3..early).rev().map(|k| math::powi(0.5, k));
+        let parts = (0..=PIECES).map(|k| k as f64 / PIECES as f64);
+        let mut parts: Vec<f64> = early.chain(parts).collect();
+        parts.sort_by(f64::total_cmp);
+        for part in parts {
+            let time = if part == 1.0 { to } else { from + (to - from) * part };
+            let width = (to - from) * part.max(1.0 / PIECES as f64);
+            for (i, look) in self.look(time, width)?.into_iter().enumerate() {
+                looks[i].push(look);
+            }
+        }
+        Ok(looks)
+    }
+
+    /// Looks at all functions at a time within the stretch; slopes are taken over a small part of `width`.
+    fn look(&mut self, time: f64, width: f64) -> Result<Vec<Look>, MotionError> {
+        let (from, to) = self.whole;
+        let here = self.probe.at(self.stepper, time)?.to_vec();
+        // not so small that the clock's last digit decides
+        let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
+        let beside = if time + step <= to { time + step } else { (time - step).max(from) };
+        let there = self.probe.at(self.stepper, beside)?;
+        let looks = here.iter().zip(there).map(|(&value, &next)| {
+            let slope = if beside == time { 0.0 } else { (next - value) / (beside - time) };
+            Look { time, value, slope }
+        });
+        Ok(looks.collect())
+    }
+
+    /// The crossings of one function, in time, up to the first that counts.
+    pub(super) fn follow(
+        &mut self,
+        event: usize,
+        direction: Direction,
+        looks: &[Look],
+        known: &mut f64,
+    ) -> Result<Vec<Crossing>, MotionError> {
+        let mut walk = Walk { event, direction, side: *known, known, found: Vec::new() };
+        for pair in looks.windows(2) {
+            if walk.side == 0.0 {
+                walk.side = sign(pair[0], pair[1]);
+                *walk.known = walk.side;
+            }
+            if self.piece(&mut walk, pair[0], pair[1], HALVINGS)? {
+                break;
+            }
+        }
+        if let (true, [.., before, last]) = (walk.side == 0.0, looks) {
+            *walk.known = sign(*last, *before);
+        }
+        Ok(walk.found)
+    }
+
+    /// Follows a function over one piece; true where a crossing that counts was found.
+    fn piece(
+        &mut self,
+        walk: &mut Walk<'_>,
+        a: Look,
+        b: Look,
+        halvings: u32,
+    ) -> Result<bool, MotionError> {
+        let time = 0.5 * (a.time + b.time);
+        if time <= a.time || time >= b.time {
+            return self.end(walk, a, b);
+        }
+        let width = b.time - a.time;
+        let middle = self.look(time, width)?[walk.event];
+        let predicted = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
+        let steep = 1.5 * (b.value - a.value) / width - 0.25 * (a.slope + b.slope);
+        let size = a.value.abs().max(b.value.abs()).max(middle.value.abs());
+        let off = (middle.value - predicted).abs().max((middle.slope - steep).abs() * width / 8.0);
+        let surprise = off > PREDICTED * size;
+        if surprise && halvings > 0 {
+            return Ok(self.piece(walk, a, middle, halvings - 1)?
+                || self.piece(walk, middle, b, halvings - 1)?);
+        }
+        Ok(self.turned(walk, a, middle)? || self.turned(walk, middle, b)?)
+    }
+
+    /// A piece on which the function has one turning point at most: looks there, too, where it lies
+    /// towards zero.
+    fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
+        let same_side = a.value * b.value > 0.0;
+        let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
+        if !(same_side && towards) {
+            return self.end(walk, a, b);
+        }
+        let (mut left, mut right) = (a, b);
+        for _ in 0..60 {
+            // the turning point of a function with these slopes
+            let part = left.slope / (left.slope - right.slope);
+            let time = left.time + (right.time - left.time) * part.clamp(0.05, 0.95);
+            if time <= left.time || time >= right.time {
+                break;
+            }
+            let width = right.time - left.time;
+            let look = self.look(time, width)?[walk.event];
+            if look.value * a.value <= 0.0 {
+                return Ok(self.end(walk, a, look)? || self.end(walk, look, b)?);
+            }
+            if look.slope * a.value < 0.0 {
+                left = look;
+            } else {
+                right = look;
+            }
+            let rest = (left.slope.abs() + right.slope.abs()) * (right.time - left.time);
+            if rest < 1e-3 * look.value.abs() {
+                break;
+            }
+        }
+        self.end(walk, a, b)
+    }
+
+    /// A piece with one crossing at most: notes it.
+    fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
+        let side = sign(b, a);
+        if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
+            // it crosses just where the step ends, as one does that ends there for a row or an impulse
+            let crossing = Crossing::at(DoubleDouble::written(b.time), -walk.side);
+            walk.side = -walk.side;
+            walk.found.push(crossing);
+            return Ok(crossing.counts(walk.direction));
+        }
+        if side == 0.0 || side == walk.side {
+            return Ok(false);
+        }
+        if walk.side == 0.0 {
+            walk.side = side;
+            *walk.known = side;
+            return Ok(false);
+        }
+        let crossing = self.locate(walk.event, side, a.time, b.time)?;
+        walk.side = side;
+        walk.found.push(crossing);
+        Ok(crossing.counts(walk.direction))
+    }
+
+    /// The time of a crossing between two, after which the function is on `side`: halving, mixed
+    /// with the secant's step kept inside (R. P. Brent, Algorithms for Minimization without
+    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these. Where the
+    /// function has a pole, there is no zero.
+    fn locate(
+        &mut self,
+        event: usize,
+        side: f64,
+        mut left: f64,
+        mut right: f64,
+    ) -> Result<Crossing, MotionError> {
+        let mut low = self.probe.exactly(self.stepper, event, left)?;
+        let mut high = self.probe.exactly(self.stepper, event, right)?;
+        if low.high * side > 0.0 {
+            // in all digits it has crossed already
+            let next = (left + spacing(left)).min(right);
+            let beside = self.probe.exactly(self.stepper, event, next)?;
+            let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
+            return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
+        }
+        for round in 0..200 {
+            let middle = 0.5 * (left + right);
+            if middle <= left || middle >= right {
+                break;
+            }
+            // a little beyond the secant's zero, so that the farther end comes near, too
+            let part = low.high / (low.high - high.high);
+            let digit = spacing(right.abs().max(left.abs()));
+            let secant = if part < 0.5 {
+                left + (right - left) * part * BEYOND + digit
+            } else {
+                right - (right - left) * (1.0 - part) * BEYOND - digit
+            };
+            let inside = secant > left && secant < right && round % 4 != 3;
+            let time = if inside { secant } else { middle };
+            let value = self.probe.exactly(self.stepper, event, time)?;
+            if value.high == 0.0 {
+                return Ok(Crossing::at(DoubleDouble::written(time), side));
+            }
+            if value.high * side > 0.0 {
+                (right, high) = (time, value);
+            } else {
+                (left, low) = (time, value);
+            }
+        }
+        let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
+        // the states looked at were those at these times
+        let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
+        let part = low / (low - high);
+        let exact = if part.is_finite() { left + (right - left) * part } else { left };
+        Ok(Crossing { exact, side, pole })
+    }
+
+    /// Whether a function that changes its sign between two neighbouring times is smaller farther from them: zeros are
+    /// left behind by what grows, poles by what falls.
+    fn is_pole(
+        &mut self,
+        event: usize,
+        (left, low): (f64, f64),
+        (right, high): (f64, f64),
+    ) -> Result<bool, MotionError> {
+        let aside = ASIDE * (right - left);
+        let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
+        if before == left && after == right {
+            return Ok(false);
+        }
+        let earlier = self.probe.exactly(self.stepper, event, before)?.high.abs();
+        let later = self.probe.exactly(self.stepper, event, after)?.high.abs();
+        let falls = |distant: bool, value: f64, near: f64| !distant || value < near.abs();
+        Ok(falls(before < left, earlier, low) && falls(after > right, later, high))
+    }
+}
+
+/// One function on its way through a stretch.
+struct Walk<'a> {
+    event: usize,
+    direction: Direction,
+    side: f64,
+    /// The side it was on where the stretch begins, or where that was first known.
+    known: &'a mut f64,
+    found: Vec<Crossing>,
+}
+
+/// The side of zero a function is on; none where its value may be rounding.
+fn sign(here: Look, beside: Look) -> f64 {
+    let value = here.value;
+    if value.abs() > SIGNLESS * beside.value.abs() { value.signum() } else { 0.0 }
+}

@@ -1,0 +1,75 @@
+//! The way from a law to its equations, arrow by arrow.
+//!
+//! In: a [`Model`]. Out: [`Equations`]. Never here: any of the arrows.
+
+use super::attitude;
+use super::equations::{Equations, Flow, NoClosedForm};
+use super::frames;
+use super::hamilton;
+use super::invariants;
+use super::lagrange;
+use super::poisson;
+use super::rigid_body;
+use super::vakonomic;
+use crate::expr::NODE_LIMIT;
+use crate::model::{Mechanics, Model};
+
+/// Derives everything that follows from a model's law of motion.
+///
+/// # Errors
+/// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
+pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
+    let mut pool = model.pool.clone();
+    let constraints = model.constraints.iter().map(|c| c.expression);
+    let given = [model.mechanics.function().1, model.mechanics.dissipation()];
+    let given = given.into_iter().chain(model.mechanics.forces().to_vec()).chain(constraints);
+    given.for_each(|e| pool.refuse_heavy(e));
+    if pool.is_full() {
+        return Err(too_large());
+    }
+    let mut equations = match &model.mechanics {
+        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
+            lagrange::equations(&mut pool, model, *lagrangian, *dissipation, forces)
+        }
+        Mechanics::Hamiltonian { hamiltonian, forces } => {
+            hamilton::equations(&mut pool, model, *hamiltonian, forces)
+        }
+        Mechanics::Poisson { hamiltonian, brackets, forces, .. } => {
+            poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
+        }
+    };
+    equations.supplements.body =
+        model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.pool = pool;
+    attitude::find(&mut equations, model);
+    equations.supplements.frames = frames::find(model, &mut equations);
+    if let Some(comparison) = &model.comparison {
+        equations.supplements.vakonomic =
+            Some(vakonomic::vakonomic(&mut equations, model, comparison));
+    }
+    if !equations.supplements.auxiliary.is_empty() {
+        let why = "numbers are carried along that do not follow from H";
+        equations.separable = Err(NoClosedForm(why.to_owned()));
+    }
+    invariants::find(&mut equations, model);
+    if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
+        return Err(too_large());
+    }
+    Ok(equations)
+}
+
+fn too_large() -> NoClosedForm {
+    NoClosedForm(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
+}
+
+/// The pieces of the longest expression derived, written out.
+fn longest(equations: &Equations) -> u64 {
+    let (first, second) = match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => (mass.concat(), force),
+        Flow::Hamilton { velocities, momentum_rates } => (velocities.clone(), momentum_rates),
+        Flow::Poisson { rates } => (Vec::new(), rates),
+    };
+    let others = [equations.energy, equations.energy_rate, equations.action_rate];
+    let all = first.iter().chain(second).chain(&equations.momenta).chain(&others);
+    all.map(|&e| equations.pool.weight(e)).max().unwrap_or(0)
+}

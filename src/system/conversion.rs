@@ -1,0 +1,220 @@
+//! States made, and turned from one form into the other: velocities and momenta, values of the parameters before and after.
+//!
+//! In: what is given at the start, or a state. Out: a state of the form asked for. Never here: steps.
+
+use std::sync::Arc;
+
+use super::compiled::System;
+use super::consistent_initial::Known;
+use super::error::MotionError;
+use super::legendre::Legendre;
+use super::value::Evaluator;
+use super::{Form, InitialOverride, State};
+use crate::num::DoubleDouble;
+
+impl System {
+    /// The initial coordinates, then velocities or momenta, as the file gives them at these
+    /// parameters.
+    pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {
+        let values = self.initial_program(&self.inputs(parameters));
+        (0..self.moving()).map(|i| values.output(i).high).collect()
+    }
+
+    pub(super) fn initial_program(&self, parameters: &[DoubleDouble]) -> Evaluator<DoubleDouble> {
+        let mut values = Evaluator::new(Arc::clone(&self.shared.initial));
+        values.set_parameters(parameters);
+        values
+    }
+
+    /// The initial state at these parameters; `given` values take the place of the file's.
+    pub fn initial(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
+        let mut state = self.begin(start, parameters, given)?;
+        let program = &self.shared.auxiliary;
+        if program.outputs() > 0 {
+            let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
+            values.set_parameters(&self.inputs(parameters));
+            let numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
+            let found = values.evaluate(state.exact_time(), &numbers);
+            found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
+            for i in 0..program.outputs() {
+                state.set(self.moving() + i, values.output(i));
+            }
+            self.check_finite(&state)?;
+        }
+        Ok(state)
+    }
+
+    /// The initial state but for the numbers carried along.
+    fn begin(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
+        let n = self.degrees();
+        let inputs = self.inputs(parameters);
+        let values = self.initial_program(&inputs);
+        let mut state: Vec<DoubleDouble> = (0..self.moving()).map(|i| values.output(i)).collect();
+        let mut targets = vec![None; n];
+        let mut known = self.shared.known.clone();
+        for &given in given {
+            match (given, self.form()) {
+                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::written(x),
+                (InitialOverride::Velocity(i, x), Form::Velocity)
+                | (InitialOverride::Momentum(i, x), Form::Momentum) => {
+                    (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
+                    known[i] = Known::InitialOverride;
+                }
+                (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
+                    targets[i] = Some(DoubleDouble::written(x));
+                    known[i] = Known::Momentum(DoubleDouble::written(x));
+                }
+            }
+        }
+        let time = DoubleDouble::written(start);
+        if self.constraints() > 0 {
+            let state = self.state_of(time, self.form(), &state);
+            self.check_finite(&state)?;
+            return self.begin_on_constraints(state, &known, parameters);
+        }
+        if targets.iter().any(Option::is_some) {
+            let mut legendre = self.legendre(&inputs);
+            legendre
+                .solve(time, &mut state, &targets)
+                .map_err(|why| self.unsolved(why, time.high, &state))?;
+            let solutions = legendre.solutions(time, &state, &targets);
+            if solutions.len() > 1 {
+                return Err(self.several(time.high, &solutions, &targets));
+            }
+        }
+        let state = self.state_of(time, self.form(), &state);
+        self.check_finite(&state)?;
+        Ok(state)
+    }
+
+    /// The same state in another form. Where several velocities belong to the momenta, those are
+    /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
+    pub fn convert(
+        &self,
+        state: &State,
+        form: Form,
+        parameters: &[f64],
+    ) -> Result<State, MotionError> {
+        let inputs = self.inputs(parameters);
+        let mut legendre = self.legendre(&inputs);
+        if state.form != form && self.has_branches() && form == self.form() {
+            let values = self.initial_program(&inputs);
+            let rates = (self.degrees()..self.moving()).map(|i| values.output(i)).collect();
+            return self.convert_from(&mut legendre, state, rates);
+        }
+        self.convert_by(&mut legendre, state, form, None)
+    }
+
+    /// To the native form, from a guess of the rates that need not be near.
+    fn convert_from(
+        &self,
+        legendre: &mut Legendre,
+        state: &State,
+        rates: Vec<DoubleDouble>,
+    ) -> Result<State, MotionError> {
+        let n = self.degrees();
+        let targets: Vec<_> = (n..2 * n).map(|i| Some(state.exact(i))).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
+        let outcome = legendre.solve(state.exact_time(), &mut numbers, &targets);
+        outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
+        let mut result = state.clone();
+        result.form = self.form();
+        for (i, &x) in numbers.iter().enumerate() {
+            result.set(i, x);
+        }
+        self.check_finite(&result)?;
+        Ok(result)
+    }
+
+    /// Whether velocities are found from momenta by iteration only: several may belong to the
+    /// same.
+    pub(super) fn has_branches(&self) -> bool {
+        self.form() == Form::Velocity && !self.motion().canonical.1
+    }
+
+    /// Carries a state through a jump of the parameters: q and p are kept, and so q̇ may change.
+    /// Where the constraints change with them, q is moved by the least amount that keeps them, and
+    /// p by their reactions.
+    pub fn change_parameters(
+        &self,
+        state: &State,
+        old: &[f64],
+        new: &[f64],
+    ) -> Result<State, MotionError> {
+        if state.form != Form::Velocity {
+            return Ok(state.clone());
+        }
+        let mut legendre = self.legendre(&self.inputs(old));
+        let canonical = self.convert_by(&mut legendre, state, Form::Momentum, None)?;
+        if let Some(mut projector) = self.projector(new) {
+            let n = self.degrees();
+            let target: Vec<DoubleDouble> = (n..2 * n).map(|i| canonical.exact(i)).collect();
+            let mut after = state.clone();
+            projector.project(&mut after)?;
+            return Ok(self.impulse_outcome(&after, &target, new)?.0);
+        }
+        legendre.set_parameters(&self.inputs(new));
+        self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
+    }
+
+    /// Converts with a relation at hand; `guess` is a state near the result.
+    pub(super) fn convert_by(
+        &self,
+        legendre: &mut Legendre,
+        state: &State,
+        form: Form,
+        guess: Option<&State>,
+    ) -> Result<State, MotionError> {
+        if state.form == form {
+            return Ok(state.clone());
+        }
+        let n = self.degrees();
+        let time = state.exact_time();
+        let mut result = state.clone();
+        result.form = form;
+        let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let outcome = if form == legendre.native() {
+            let targets: Vec<_> = numbers[n..].iter().copied().map(Some).collect();
+            for i in n..2 * n {
+                numbers[i] = guess.map_or(DoubleDouble::ZERO, |guess| guess.exact(i));
+            }
+            match guess {
+                Some(_) => legendre.follow(time, &mut numbers, &targets),
+                None => legendre.solve(time, &mut numbers, &targets),
+            }
+        } else {
+            let mut other = vec![DoubleDouble::ZERO; n];
+            let outcome = legendre.other_rates(time, &numbers, &mut other);
+            numbers[n..].copy_from_slice(&other);
+            outcome
+        };
+        outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
+        for (i, &x) in numbers.iter().enumerate() {
+            result.set(i, x);
+        }
+        self.check_finite(&result)?;
+        Ok(result)
+    }
+
+    /// The same in the system's own form, near a state that has it already: on the same branch,
+    /// where several velocities belong to the momenta.
+    pub fn convert_near(
+        &self,
+        state: &State,
+        near: &State,
+        parameters: &[f64],
+    ) -> Result<State, MotionError> {
+        let mut legendre = self.legendre(&self.inputs(parameters));
+        self.convert_by(&mut legendre, state, self.form(), Some(near))
+    }
+}

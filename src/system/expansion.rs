@@ -1,0 +1,238 @@
+//! The Taylor series of the events' functions along a motion whose own series is known.
+//!
+//! In: the series of the motion, a time within its step. Out: the coefficients of every function about that time, and
+//! how far they tell it. Never here: zeros.
+//!
+//! The estimate is that of a step by Taylor series: À. Jorba, M. Zou, Experimental Mathematics 14
+//! (2005) 99, section 3.
+
+use std::sync::Arc;
+
+use super::System;
+use super::jet::{Jet, Side};
+use super::observables;
+use super::program::Program;
+use super::rhs::ProgramBuilder;
+use super::series::Series;
+use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::num::{DoubleDouble, math};
+
+/// How many of the last orders are looked at: those of even and of odd functions vanish in turn.
+const LAST: usize = 3;
+
+/// The argument of an exponential may change by this, …
+const FARTHEST_ARGUMENT: f64 = 3.0;
+
+/// … or by this part of itself: far out in its tail nothing happens.
+const PART_OF_ARGUMENT: f64 = 0.5;
+
+/// The program of the functions whose series are looked at: those of the events, then the arguments
+/// of the exponentials in them, which may vanish far away and not nearby.
+pub(super) fn program(
+    builder: &mut ProgramBuilder<'_>,
+    functions: &[Option<Expr>],
+) -> Result<Arc<Program>, Symbol> {
+    let given: Vec<Expr> = functions.iter().flatten().copied().collect();
+    let mut all = functions.to_vec();
+    for part in builder.pool.reachable(&given) {
+        match builder.pool.node(part) {
+            Node::Call(
+                FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
+                arguments,
+            ) => all.extend(arguments.iter().map(|&u| Some(u))),
+            Node::Power(_, exponent) => all.push(Some(*exponent)),
+            _ => {}
+        }
+    }
+    observables::program(builder, &all)
+}
+
+/// The series of the functions, to one order.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion {
+    system: System,
+    jet: Jet<f64>,
+    /// How many outputs are functions of events; the others are arguments.
+    functions: usize,
+    outputs: usize,
+    /// A series of the motion moved to another time.
+    moved: Vec<f64>,
+}
+
+impl Expansion {
+    pub(super) fn new(
+        system: &System,
+        program: Arc<Program>,
+        functions: usize,
+        order: usize,
+    ) -> Expansion {
+        Expansion {
+            system: system.clone(),
+            outputs: program.outputs(),
+            jet: Jet::new(program, order),
+            functions,
+            moved: vec![0.0; order + 1],
+        }
+    }
+
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
+        self.jet.set_parameters(parameters);
+    }
+
+    pub(super) fn order(&self) -> usize {
+        self.jet.order()
+    }
+
+    /// Expands the functions about a time `x` after the origin of the motion's series, in its unit; false where one is
+    /// not finite.
+    pub(super) fn about(&mut self, series: &Series, x: f64) -> bool {
+        self.take_in(series, x);
+        let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
+        if !self.grow(time, series.scale()) {
+            return false;
+        }
+        let mut turned = false;
+        for i in 0..self.jet.switches() {
+            let side = side(self.jet.switch(i));
+            turned |= side != self.jet.side(i);
+            self.jet.set_side(i, side);
+        }
+        !turned || self.grow(time, series.scale())
+    }
+
+    /// The coefficients of what the functions depend on.
+    fn take_in(&mut self, series: &Series, x: f64) {
+        let driven_len = self.system.driven_len();
+        let mut next = driven_len;
+        for place in 0..driven_len {
+            self.take_in_one(place, series.coefficients(place), x);
+        }
+        for (place, auxiliary) in (driven_len..).zip(self.system.carries()) {
+            if auxiliary && next < series.len() {
+                self.take_in_one(place, series.coefficients(next), x);
+                next += 1;
+            } else {
+                (0..=self.order()).for_each(|k| self.jet.set_input(place, k, 0.0));
+            }
+        }
+    }
+
+    /// Σ cₖ (x + y)ᵏ by powers of y, by repeated division.
+    fn take_in_one(&mut self, place: usize, coefficients: &[f64], x: f64) {
+        let order = self.order();
+        self.moved.copy_from_slice(&coefficients[..=order]);
+        if x != 0.0 {
+            for first in 0..order {
+                for k in (first..order).rev() {
+                    self.moved[k] += self.moved[k + 1] * x;
+                }
+            }
+        }
+        for (k, &c) in self.moved.iter().enumerate() {
+            self.jet.set_input(place, k, c);
+        }
+    }
+
+    fn grow(&mut self, time: f64, unit: f64) -> bool {
+        let order = self.order();
+        (0..=order).all(|k| self.jet.advance(k, time, unit).is_ok())
+            && (0..self.outputs).all(|i| (0..=order).all(|k| self.jet.output(i, k).is_finite()))
+    }
+
+    /// The coefficients of an event's function.
+    pub(super) fn function(&self, event: usize) -> impl Iterator<Item = f64> + '_ {
+        (0..=self.order()).map(move |k| self.jet.output(event, k))
+    }
+
+    /// The series of what decides between branches: beyond a zero of one the functions are others.
+    pub(super) fn switches(&self) -> impl Iterator<Item = &[f64]> {
+        (0..self.jet.switches()).map(|i| self.jet.switch(i))
+    }
+
+    /// How far the series tell their functions but for a part `cut_off` of them, in their unit; infinite for
+    /// polynomials.
+    pub(super) fn reach(&self, cut_off: f64) -> f64 {
+        let mut series = vec![0.0; self.order() + 1];
+        let mut reach = f64::INFINITY;
+        for i in 0..self.outputs {
+            series.iter_mut().enumerate().for_each(|(k, c)| *c = self.jet.output(i, k));
+            let own = if i < self.functions { told(&series, cut_off) } else { moving(&series) };
+            // what is not a number is not lost
+            reach = if own < reach || own.is_nan() { own } else { reach };
+        }
+        self.switches().map(|c| told(c, cut_off)).fold(reach, f64::min)
+    }
+}
+
+/// The side of a switch just after the origin.
+pub(super) fn side(c: &[f64]) -> Side {
+    match c.iter().find(|x| **x != 0.0) {
+        Some(x) if *x < 0.0 => Side::Negative,
+        _ => Side::Positive,
+    }
+}
+
+/// How far a series cut off at its last order tells its function, in its own unit.
+fn told(c: &[f64], cut_off: f64) -> f64 {
+    let mut length = f64::INFINITY;
+    for k in c.len() - LAST..c.len() {
+        if c[k] == 0.0 {
+            continue;
+        }
+        let to_term = |j: usize| {
+            let ratio = cut_off * (c[j] / c[k]).abs();
+            math::powf(ratio, 1.0 / (k - j) as f64)
+        };
+        length = length.min((0..k).map(to_term).fold(0.0, f64::max));
+    }
+    length
+}
+
+/// How far the argument of an exponential stays where its value is of one kind.
+fn moving(c: &[f64]) -> f64 {
+    let bound = FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs());
+    let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);
+    let reach = terms.map(|(k, x)| math::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
+    reach.fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ORDER: usize = 12;
+    const CUT_OFF: f64 = 1e-3;
+
+    fn factorial(k: usize) -> f64 {
+        (1..=k).map(|i| i as f64).product()
+    }
+
+    #[test]
+    fn a_sine_is_simple_for_about_half_a_turn_and_a_pole_is_kept_at_a_distance() {
+        for speed in [1.0, 1e6, 1e-6] {
+            let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
+                let sign = [0.0, 1.0, 0.0, -1.0][k % 4];
+                sign * math::powi(speed, k as i32) / factorial(k)
+            });
+            let turn = told(&sine, CUT_OFF) * speed;
+            assert!((2.5..4.5).contains(&turn), "{turn}");
+            let pole: [f64; ORDER + 1] = std::array::from_fn(|k| math::powi(speed, k as i32));
+            let part = told(&pole, CUT_OFF) * speed;
+            assert!((0.4..0.7).contains(&part), "{part}");
+        }
+        let mut line = [0.0; ORDER + 1];
+        (line[0], line[1]) = (-5.0, 1.0);
+        assert_eq!(told(&line, CUT_OFF), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_tail_of_an_exponential_is_approached_in_ever_smaller_steps() {
+        // the argument −a (t − 500)², seen from 0, from 250 and from 499
+        for (from, most) in [(0.0, 250.0), (250.0, 125.0), (499.0, 1.0)] {
+            let (a, d) = (1e4, from - 500.0);
+            let c = [-a * d * d, -2.0 * a * d, -a];
+            let reach = moving(&c);
+            assert!(reach < most && reach > 0.05 * most, "{from}: {reach}");
+        }
+    }
+}

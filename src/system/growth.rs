@@ -1,0 +1,217 @@
+//! The Taylor series of a motion in one precision, growing order by order.
+//!
+//! In: the numbers of a state, the sides of its switches. Out: coefficients; or why there are none. Never here: which
+//! precision is wanted for which orders, time.
+
+use std::sync::Arc;
+
+use super::jet::{Jet, Side};
+use super::program::{Program, Singular};
+use super::solve::Factored;
+use crate::cancel::Cancel;
+use crate::num::{DoubleDouble, ExtendedRange, Real};
+
+/// When the origin is, and the unit of time.
+#[derive(Clone, Copy)]
+pub(super) struct Clock {
+    pub(super) time: DoubleDouble,
+    pub(super) scale: f64,
+}
+
+/// Why a series cannot be built.
+pub(super) enum Halt {
+    Singular(Singular),
+    /// No weights keep the switches at zero.
+    Sticks,
+    /// Somebody asked that it stop.
+    Cancelled,
+}
+
+impl From<Singular> for Halt {
+    fn from(singular: Singular) -> Halt {
+        Halt::Singular(singular)
+    }
+}
+
+/// The series in one precision, growing order by order.
+#[derive(Clone, Debug)]
+pub(super) struct SeriesBuilder<R> {
+    pub(super) jet: Jet<R>,
+    /// The highest order of the state's series.
+    pub(super) order: usize,
+    pub(super) inputs: usize,
+    /// For each number of the state its coefficients, `order + 1` of them.
+    state: Vec<R>,
+    /// The switches that are kept at zero.
+    pub(super) kept: Vec<usize>,
+    /// How many orders later these feel a weight: one where it acts on what they are made of, two
+    /// where it acts on its rate of change.
+    pub(super) depth: usize,
+}
+
+impl<R: Real> SeriesBuilder<R> {
+    pub(super) fn new(
+        program: Arc<Program>,
+        inputs: usize,
+        len: usize,
+        order: usize,
+    ) -> SeriesBuilder<R> {
+        let state = vec![R::ZERO; len * (order + 1)];
+        SeriesBuilder {
+            jet: Jet::new(program, order),
+            order,
+            inputs,
+            state,
+            kept: Vec::new(),
+            depth: 1,
+        }
+    }
+
+    pub(super) fn series(&self, i: usize) -> &[R] {
+        &self.state[i * (self.order + 1)..][..=self.order]
+    }
+
+    fn len(&self) -> usize {
+        self.state.len() / (self.order + 1)
+    }
+
+    pub(super) fn begin(&mut self, origin: &[DoubleDouble], sides: &[Side]) {
+        for (i, &x) in origin.iter().enumerate() {
+            self.state[i * (self.order + 1)] = R::of(x);
+        }
+        self.kept.clear();
+        for (switch, &side) in sides.iter().enumerate() {
+            self.jet.set_side(switch, side);
+            if side == Side::Between {
+                self.kept.push(switch);
+            }
+        }
+    }
+
+    /// Takes over all orders known in another precision.
+    pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
+        for i in 0..self.len() {
+            for (k, &c) in other.series(i).iter().enumerate() {
+                self.state[i * (self.order + 1) + k] = R::of(c.double());
+            }
+        }
+        self.kept.clone_from(&other.kept);
+        self.depth = other.depth;
+        self.jet.take_over(&other.jet, other.order)
+    }
+
+    /// All orders that are known in a wider range, to be read and not to be continued.
+    pub(super) fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>) {
+        for i in 0..self.len() {
+            for k in 0..=self.order {
+                self.state[i * (self.order + 1) + k] = R::of(wide.series(i)[k].double());
+            }
+        }
+        self.jet.copy(&wide.jet, self.order + 1);
+    }
+
+    /// From order `k` of the state to order `k + 1`.
+    pub(super) fn grow(&mut self, k: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
+        if cancel.is_cancelled() {
+            return Err(Halt::Cancelled);
+        }
+        self.extend(k, clock)?;
+        if !self.kept.is_empty() {
+            self.keep(k, clock)?;
+            self.extend(k, clock)?;
+        }
+        Ok(())
+    }
+
+    fn extend(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
+        let stride = self.order + 1;
+        for i in 0..self.inputs {
+            self.jet.set_input(i, k, self.state[i * stride + k]);
+        }
+        self.jet.advance(k, R::of(clock.time), clock.scale)?;
+        for i in 0..self.len() {
+            self.state[i * stride + k + 1] = self.jet.output(i, k) * clock.scale / (k + 1) as f64;
+        }
+        Ok(())
+    }
+
+    /// The highest order of everything but the state.
+    pub(super) fn watch(&mut self, clock: Clock) -> Result<(), Singular> {
+        let k = self.order;
+        for i in 0..self.inputs {
+            self.jet.set_input(i, k, self.state[i * (k + 1) + k]);
+        }
+        for &switch in &self.kept {
+            self.jet.set_weight(switch, k, R::ZERO);
+        }
+        self.jet.advance(k, R::of(clock.time), clock.scale)
+    }
+
+    /// Finds the coefficients of order `k` of the weights that make those of order `k + 1` of the
+    /// kept switches vanish. These depend linearly on them.
+    fn keep(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
+        let kept = self.kept.clone();
+        let n = kept.len();
+        if k == 0 {
+            self.depth = 1;
+        }
+        if k + self.depth > self.order {
+            for &switch in &kept {
+                self.jet.set_weight(switch, k, R::ZERO);
+            }
+            return Ok(());
+        }
+        let mut matrix = vec![R::ZERO; n * n];
+        let mut factored = Factored::new(n);
+        let rest = loop {
+            let rest = self.probe(k, clock, &kept, None)?;
+            for (j, &switch) in kept.iter().enumerate() {
+                let moved = self.probe(k, clock, &kept, Some(switch))?;
+                for i in 0..n {
+                    matrix[i * n + j] = moved[i] - rest[i];
+                }
+            }
+            if factored.factor(|i, j| matrix[i * n + j]) {
+                break rest;
+            }
+            // at rest on the surface a force may hold them there
+            let still = rest.iter().all(|x| x.value() == 0.0);
+            if k > 0 || self.depth > 1 || !still {
+                return Err(Halt::Sticks);
+            }
+            self.depth = 2;
+        };
+        let mut weights: Vec<R> = rest.iter().map(|&x| -x).collect();
+        factored.solve(&mut weights);
+        for (&switch, &w) in kept.iter().zip(&weights) {
+            self.jet.set_weight(switch, k, w);
+        }
+        Ok(())
+    }
+
+    /// The kept switches `depth` orders on, where one weight of order `k` is 1 and the others 0.
+    fn probe(
+        &mut self,
+        k: usize,
+        clock: Clock,
+        kept: &[usize],
+        one: Option<usize>,
+    ) -> Result<Vec<R>, Singular> {
+        for &switch in kept {
+            let weight = if one == Some(switch) { R::ONE } else { R::ZERO };
+            self.jet.set_weight(switch, k, weight);
+            for later in k + 1..=k + self.depth {
+                self.jet.set_weight(switch, later, R::ZERO);
+            }
+        }
+        let last = k + self.depth;
+        for order in k..last {
+            self.extend(order, clock)?;
+            for i in 0..self.inputs {
+                self.jet.set_input(i, order + 1, self.state[i * (self.order + 1) + order + 1]);
+            }
+        }
+        self.jet.advance(last, R::of(clock.time), clock.scale)?;
+        Ok(kept.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
+    }
+}

@@ -1,0 +1,37 @@
+//! What the symbols of a system are worth at one look at it.
+//!
+//! In: a time, parameters, the value of every channel. Out: a [`Valuation`]. Never here: states.
+
+use super::{ChannelKind, System};
+use crate::mechanics::{Equations, Valuation};
+use crate::model::Model;
+
+impl System {
+    /// What every symbol is worth: the parameters and what follows from the file's body, the time, and what channels of
+    /// their own tell.
+    pub fn valuation(
+        &self,
+        (model, equations): (&Model, &Equations),
+        time: f64,
+        parameters: &[f64],
+        values: &[f64],
+    ) -> Valuation {
+        let symbol = |kind: ChannelKind| match kind {
+            ChannelKind::Position(i) => Some(equations.coordinates[i].position),
+            ChannelKind::Velocity(i) => Some(equations.coordinates[i].velocity),
+            ChannelKind::Momentum(i) => Some(equations.coordinates[i].momentum),
+            ChannelKind::Multiplier(k) => Some(equations.constraints[k].multiplier),
+            ChannelKind::Energy => Some(equations.symbols.energy),
+            ChannelKind::Attitude(i) => {
+                equations.supplements.attitude_symbols.map(|matrix| matrix[i / 3][i % 3])
+            }
+            _ => None,
+        };
+        let seen = self.channels().iter().zip(values);
+        let seen = seen.filter_map(|(channel, &value)| Some((symbol(channel.kind)?, value)));
+        Valuation::of_parameters(model, parameters)
+            .with(self.body_values(parameters))
+            .with(seen)
+            .with([(equations.symbols.time, time)])
+    }
+}

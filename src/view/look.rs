@@ -1,0 +1,24 @@
+//! How everything looks on one terminal.
+//!
+//! In: what the terminal can show, and a theme. Out: a [`RenderStyle`]. Never here: cells.
+
+use super::glyphs::Glyphs;
+use super::theme::Theme;
+use crate::app::App;
+
+/// How the screen looks: what the terminal can show, and in which colours.
+#[derive(Clone, Debug)]
+pub struct RenderStyle {
+    /// The colours.
+    pub theme: Theme,
+    /// The characters.
+    pub glyphs: Glyphs,
+}
+
+impl RenderStyle {
+    /// The look in the theme that a person chose, if it is another than this one's.
+    pub(super) fn chosen_by(&self, app: &App) -> Option<Self> {
+        let name = app.theme_shown().filter(|name| *name != self.theme.palette().name)?;
+        Some(Self { theme: self.theme.renamed(name)?, glyphs: self.glyphs })
+    }
+}

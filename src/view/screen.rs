@@ -1,0 +1,127 @@
+//! The whole screen: which panes and pages there are, and which lie over which.
+//!
+//! In: an [`App`]. Out: cells. Never here: what a pane shows.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::canvas::{Canvas, row};
+use super::equations;
+use super::header_footer;
+use super::help;
+use super::lab_page;
+use super::layout::{LEAST, Screen};
+use super::look::RenderStyle;
+use super::menu;
+use super::notes;
+use super::numbers;
+use super::picker;
+use super::plain;
+use super::prompt;
+use super::quantity::Quantities;
+use super::text_page::TextPage;
+use super::theme::Role;
+use super::workbench;
+use super::wrap;
+use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
+
+/// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
+pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
+    let themed = look.chosen_by(app);
+    let look = themed.as_ref().unwrap_or(look);
+    let mut canvas = Canvas::over(buffer, look);
+    let drawn = paint(&mut canvas, app, area);
+    Drawn { cursor: canvas.cursor.map(|at| (at.x, at.y)), ..drawn }
+}
+
+pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
+    let area = area.intersection(canvas.buffer.area);
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        too_small(canvas, area);
+        return Drawn::default();
+    }
+    // What is read keeps still, and says the status itself.
+    let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
+    let screen = Screen::of(area, status);
+    header_footer::header(canvas, screen.header, app);
+    let drawn = body(canvas, screen.body, app);
+    header_footer::notice(canvas, screen.body, app);
+    header_footer::status(canvas, screen.status, app);
+    header_footer::footer(canvas, screen.footer, app);
+    drawn
+}
+
+fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
+    let look = canvas.look;
+    let over = app.overlay.as_ref();
+    if let Some(Overlay::Help { .. }) = over {
+        let page = help::document(look, app.places_below());
+        return text(canvas, area, "Keys", page, app.scroll);
+    }
+    if let Some(Overlay::Message(failure)) = over {
+        let mut page = TextPage::default();
+        for line in failure.message.lines() {
+            page.row(vec![(Role::Text, line.to_owned())]);
+        }
+        let title = format!("{} has mistakes", failure.name);
+        return text(canvas, area, &title, page, app.scroll);
+    }
+    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
+        return workbench::draw(canvas, area, (app, lab), sheet);
+    }
+    let drawn = match (app.page, &app.lab) {
+        (Page::Picker, _) | (_, None) => {
+            picker::draw(canvas, area, app);
+            Drawn::default()
+        }
+        (Page::Lab, Some(lab)) => {
+            lab_page::draw(canvas, area, app, lab);
+            Drawn::default()
+        }
+        (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
+    };
+    match (over, &app.lab) {
+        (Some(Overlay::Menu(menu)), _) => menu::draw(canvas, area, menu),
+        (Some(Overlay::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
+        _ => {}
+    }
+    drawn
+}
+
+fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
+    let look = canvas.look;
+    if page == Page::Plain {
+        canvas.spot(area, HitTarget::Text);
+        let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
+        let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
+        let document = read.map(|q| plain::document(&q)).unwrap_or_default();
+        return document.read(canvas, area, app.reading.line);
+    }
+    let (title, document) = match page {
+        Page::Equations => ("Equations", equations::document(lab, look)),
+        Page::Notes => ("Notes", notes::document(lab, look)),
+        _ => {
+            let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q));
+            ("Numbers", numbers.unwrap_or_default())
+        }
+    };
+    text(canvas, area, title, document, app.scroll)
+}
+
+fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
+    let title = [canvas.span(Role::Title, title)];
+    let inner = canvas.pane(area, &title, true);
+    canvas.spot(area, HitTarget::Text);
+    page.draw(canvas, inner, scroll)
+}
+
+/// What stands on a screen on which nothing else has room.
+fn too_small(canvas: &mut Canvas<'_>, area: Rect) {
+    let needed = format!(
+        "phaselab needs {}x{} characters, here are {}x{}; q leaves it",
+        LEAST.0, LEAST.1, area.width, area.height
+    );
+    for (index, line) in wrap::words(&needed, area.width.into()).iter().enumerate() {
+        canvas.left(row(area, index), Role::Text, line);
+    }
+}
