@@ -40,7 +40,7 @@ pub(crate) mod whole;
 
 pub use bandwidth::{Bandwidth, NotBandwidth};
 pub use diagnosis::{Finding, diagnosis};
-pub use input::{Input, PASTE_LIMIT};
+pub use input::{Input, PASTE_LIMIT, decode};
 pub use log::{LogFile, NoLog};
 pub use options::Options;
 pub use panic::report_panics;

@@ -47,6 +47,19 @@ const IN_ALL: u32 = 10;
 /// The longest sequence that is waited for, in bytes; what is longer is noise.
 const SEQUENCE_LIMIT: usize = 16 * 1024;
 
+/// What bytes mean that come in pieces without a pause, and then nothing more, where every report was asked for.
+pub fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Input> {
+    let (mut decoder, now) = (Decoder::default(), Instant::now());
+    for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+        decoder.expect(mode, true);
+    }
+    pieces.into_iter().for_each(|piece| decoder.feed(piece, now));
+    if decoder.deadline().is_some() {
+        decoder.expire();
+    }
+    std::iter::from_fn(|| decoder.next()).collect()
+}
+
 /// Turns bytes into inputs.
 #[derive(Default)]
 pub(super) struct Decoder {

@@ -12,6 +12,7 @@ mod elementary;
 mod experiment;
 mod expr;
 mod expr_parse;
+mod fuzz;
 mod hand;
 mod happenings;
 mod layers;
@@ -32,3 +33,12 @@ mod taylor;
 mod terminal;
 mod thresholds;
 mod worker;
+
+use proptest::test_runner::Config;
+
+/// So many random cases of a property, where `PROPTEST_CASES` says nothing else; else as much more or less as that is of
+/// the usual 256.
+fn cases(count: u32) -> Config {
+    let config = Config::default();
+    Config { cases: count * config.cases.max(32) / 256, failure_persistence: None, ..config }
+}

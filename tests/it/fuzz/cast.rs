@@ -1,0 +1,67 @@
+//! Casts: a mistake has its line; what is read is the same after it was written, in both versions; and it can be shown.
+
+use std::time::Duration;
+
+use phaselab::app::{Code, Key};
+use phaselab::record::cast::{Cast, Version};
+use phaselab::record::{Tape, Turn};
+use phaselab::shell::{Input, Page, Projector};
+use phaselab::view::theme::PALETTES;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::screen::rich;
+
+pub(crate) const WORDS: &[&str] = &[
+    "[0.5, \"o\", \"", "\"]\n", "[1, \"r\", \"100x40\"]\n", "[1, \"m\", \"one\"]\n", "\\u001b[",
+    "31m", "2J", "?1049h", "\\u001b]0;", "\\r\\n", "65535b", "1;1H", "\\u001b[1000;1000H", "\"o\"",
+    "\"version\":2", "\"width\":80", "idle_time_limit", "[", "]", ",", "{", "}", "\n", "e9", "-",
+];
+
+/// How often it is looked at, and what is larger is not shown: an emulator takes its time for each line.
+const FRAMES: u32 = 4;
+const SHOWN: u16 = 200;
+
+fn written(tape: &Tape, version: Version) -> Tape {
+    let title = tape.title.clone().unwrap_or_default();
+    let mut cast = Cast::begin(Vec::new(), version, tape.size, &title, &PALETTES[0]).unwrap();
+    for (time, turn) in &tape.events {
+        match turn {
+            Turn::Output(text) => cast.output(*time, text),
+            Turn::Resize(columns, rows) => cast.resize(*time, (*columns, *rows)),
+            Turn::Marker(name) => cast.marker(*time, name),
+        }
+        .unwrap();
+    }
+    cast.end(tape.end, tape.size).unwrap();
+    let text = String::from_utf8(cast.into_inner()).unwrap();
+    Tape::read(&text).unwrap_or_else(|why| panic!("{text}: {why}"))
+}
+
+pub(crate) fn check(bytes: &[u8]) {
+    let text = &*String::from_utf8_lossy(bytes);
+    let tape = match Tape::read(text) {
+        Ok(tape) => tape,
+        Err(why) => {
+            let lines = text.lines().count().max(1);
+            assert!((1..=lines).contains(&why.line) && !why.what.is_empty(), "{why:?}");
+            return;
+        }
+    };
+    for version in [Version::Two, Version::Three] {
+        let again = written(&tape, version);
+        assert_eq!((again.size, again.end), (tape.size, tape.end), "{version:?}");
+        // it begins by hiding the cursor, and ends by giving it back
+        assert_eq!(again.events[1..again.events.len() - 1], tape.events, "{version:?}");
+    }
+    if tape.size.0.max(tape.size.1) > SHOWN {
+        return;
+    }
+    let area = Rect::new(0, 0, 60, 20);
+    let mut projector = Projector::new(tape, rich());
+    for _ in 0..FRAMES {
+        projector.advance(Duration::from_millis(500));
+        projector.draw(area, &mut Buffer::empty(area));
+        projector.input(Input::Key(Key::plain(Code::Tab)));
+    }
+}
