@@ -15,6 +15,7 @@ mod expr_parse;
 mod fuzz;
 mod hand;
 mod happenings;
+mod honest;
 mod layers;
 mod mechanics;
 mod methods;

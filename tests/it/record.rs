@@ -8,8 +8,10 @@ mod schema;
 mod scripts;
 mod stills;
 
-use phaselab::preset::{Catalog, Document, demo};
+use phaselab::preset::{Document, demo};
 use phaselab::record::{Recording, Script, play};
+
+use crate::hand::catalog;
 
 /// The script of a text.
 pub(crate) fn script(text: &str) -> Script {
@@ -21,7 +23,7 @@ pub(crate) fn script(text: &str) -> Script {
 /// A script of a preset, played.
 pub(crate) fn played(preset: &str, text: &str) -> Recording {
     let document = Document::new("test.demo", text);
-    let system = Catalog::with_folder(None).find(preset).expect("a preset");
+    let system = catalog().find(preset).expect("a preset");
     play(&script(text), &system, preset, (80, 24))
         .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
 }

@@ -13,9 +13,31 @@ use ratatui::layout::Rect;
 use crate::screen::rich;
 
 pub(crate) const WORDS: &[&str] = &[
-    "[0.5, \"o\", \"", "\"]\n", "[1, \"r\", \"100x40\"]\n", "[1, \"m\", \"one\"]\n", "\\u001b[",
-    "31m", "2J", "?1049h", "\\u001b]0;", "\\r\\n", "65535b", "1;1H", "\\u001b[1000;1000H", "\"o\"",
-    "\"version\":2", "\"width\":80", "idle_time_limit", "[", "]", ",", "{", "}", "\n", "e9", "-",
+    "[0.5, \"o\", \"",
+    "\"]\n",
+    "[1, \"r\", \"100x40\"]\n",
+    "[1, \"m\", \"one\"]\n",
+    "\\u001b[",
+    "31m",
+    "2J",
+    "?1049h",
+    "\\u001b]0;",
+    "\\r\\n",
+    "65535b",
+    "1;1H",
+    "\\u001b[1000;1000H",
+    "\"o\"",
+    "\"version\":2",
+    "\"width\":80",
+    "idle_time_limit",
+    "[",
+    "]",
+    ",",
+    "{",
+    "}",
+    "\n",
+    "e9",
+    "-",
 ];
 
 /// How often it is looked at, and what is larger is not shown: an emulator takes its time for each line.

@@ -9,8 +9,21 @@ use phaselab::shell::options::OPTIONS;
 use super::preset::are_placed;
 
 pub(crate) const WORDS: &[&str] = &[
-    "fps = 30\n", "theme = \"dark\"\n", "color = 256\n", "glyphs = \"ascii\"\n", "mouse = true\n",
-    "=", "\"", "\n", "auto", "[", "]", "#", "true", "'''", ".",
+    "fps = 30\n",
+    "theme = \"dark\"\n",
+    "color = 256\n",
+    "glyphs = \"ascii\"\n",
+    "mouse = true\n",
+    "=",
+    "\"",
+    "\n",
+    "auto",
+    "[",
+    "]",
+    "#",
+    "true",
+    "'''",
+    ".",
 ];
 
 pub(crate) fn check(bytes: &[u8]) {

@@ -60,12 +60,7 @@ pub(crate) fn hunt(target: &'static Target, seed: u64, length: Length) -> Result
     hunter.join().unwrap_or_else(|_| Err("the hunter itself panicked".to_owned()))
 }
 
-fn look(
-    target: &Target,
-    seed: u64,
-    length: Length,
-    tell: &Sender<Input>,
-) -> Result<u64, String> {
+fn look(target: &Target, seed: u64, length: Length, tell: &Sender<Input>) -> Result<u64, String> {
     let fails = |bytes: &[u8]| catch_unwind(|| (target.check)(bytes)).is_err();
     let mut inputs = Vec::new();
     for (place, bytes) in target.corpus() {

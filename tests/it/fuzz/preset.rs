@@ -4,10 +4,39 @@ use phaselab::experiment::{Export, Ready};
 use phaselab::preset::{Document, Mistake};
 
 pub(crate) const WORDS: &[&str] = &[
-    "[coordinates]\n", "[parameters]\n", "[lagrangian]\n", "[[views]]\n", "[[events]]\n",
-    "[[impulses]]\n", "[run]\n", "initial = ", "velocity = ", "until = ", "= ", "\"", "'", "{", "}",
-    "[", "]", ",", "\n", "sin(", "sqrt(", ")", "^2", "/", "theta'", "t", "-", "1/2*", "true", "'''",
-    "\"\"\"", "#", "\\",
+    "[coordinates]\n",
+    "[parameters]\n",
+    "[lagrangian]\n",
+    "[[views]]\n",
+    "[[events]]\n",
+    "[[impulses]]\n",
+    "[run]\n",
+    "initial = ",
+    "velocity = ",
+    "until = ",
+    "= ",
+    "\"",
+    "'",
+    "{",
+    "}",
+    "[",
+    "]",
+    ",",
+    "\n",
+    "sin(",
+    "sqrt(",
+    ")",
+    "^2",
+    "/",
+    "theta'",
+    "t",
+    "-",
+    "1/2*",
+    "true",
+    "'''",
+    "\"\"\"",
+    "#",
+    "\\",
 ];
 
 /// One of so many is also run, if it is right and short.
@@ -31,7 +60,8 @@ pub(crate) fn check(bytes: &[u8]) {
         Ok(checked) if checked.warnings.is_empty() => {}
         Ok(checked) => are_placed(&document, &checked.warnings),
     }
-    let sum = bytes.iter().fold(0_u64, |sum, byte| sum.wrapping_mul(31).wrapping_add((*byte).into()));
+    let sum =
+        bytes.iter().fold(0_u64, |sum, byte| sum.wrapping_mul(31).wrapping_add((*byte).into()));
     if bytes.len() > SHORT || sum % RUN != 0 {
         return;
     }

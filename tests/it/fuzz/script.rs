@@ -6,9 +6,23 @@ use phaselab::record::Script;
 use super::preset::are_placed;
 
 pub(crate) const WORDS: &[&str] = &[
-    "Open pendulum\n", "Size 80x24\n", "Fps 20\n", "Wait 2s\n", "Press Right\n", "Type \"a\"\n",
-    "Set m 2\n", "Sweep m 1 2 3s\n", "Assert energy constant\n", "Caption \"", "Marker \"", "\"",
-    "\n", "#", "x", "ms", "Ctrl-",
+    "Open pendulum\n",
+    "Size 80x24\n",
+    "Fps 20\n",
+    "Wait 2s\n",
+    "Press Right\n",
+    "Type \"a\"\n",
+    "Set m 2\n",
+    "Sweep m 1 2 3s\n",
+    "Assert energy constant\n",
+    "Caption \"",
+    "Marker \"",
+    "\"",
+    "\n",
+    "#",
+    "x",
+    "ms",
+    "Ctrl-",
 ];
 
 pub(crate) fn check(bytes: &[u8]) {

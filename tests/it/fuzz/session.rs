@@ -12,9 +12,29 @@ use crate::hand::{catalog, in_lab, pendulum, press};
 use crate::screen::rich;
 
 pub(crate) const WORDS: &[&str] = &[
-    "version = 1\n", "page = ", "focus = ", "plots = []\n", "[[plots]]\n", "kind = \"space\"\n",
-    "kind = \"time\"\n", "[moment]\n", "time = ", "\"Lab\"", "\"", "=", "\n", "true", "{", "}", "[",
-    "]", ",", "nan", "inf", "-", "e300",
+    "version = 1\n",
+    "page = ",
+    "focus = ",
+    "plots = []\n",
+    "[[plots]]\n",
+    "kind = \"space\"\n",
+    "kind = \"time\"\n",
+    "[moment]\n",
+    "time = ",
+    "\"Lab\"",
+    "\"",
+    "=",
+    "\n",
+    "true",
+    "{",
+    "}",
+    "[",
+    "]",
+    ",",
+    "nan",
+    "inf",
+    "-",
+    "e300",
 ];
 
 /// The application before the pendulum is there.
@@ -30,7 +50,9 @@ pub(super) fn own() -> Vec<String> {
         press(&mut app, keys);
         toml::to_string(&app.saved().expect("a lab is open")).expect("it can be written")
     };
-    ["", "Tab Tab Tab + + x Right c g z", "Right Tab Right Tab Tab Tab Tab Tab 2"].map(session).into()
+    ["", "Tab Tab Tab + + x Right c g z", "Right Tab Right Tab Tab Tab Tab Tab 2"]
+        .map(session)
+        .into()
 }
 
 pub(crate) fn check(bytes: &[u8]) {

@@ -48,8 +48,14 @@ pub(crate) const TARGETS: [Target; 7] = [
         cases: 200,
         check: terminal::check,
     },
-    Target { name: "casts", folders: &[],
-        own: Vec::new, words: cast::WORDS, cases: 300, check: cast::check },
+    Target {
+        name: "casts",
+        folders: &[],
+        own: Vec::new,
+        words: cast::WORDS,
+        cases: 300,
+        check: cast::check,
+    },
     Target {
         name: "sessions",
         folders: &[],

@@ -1,12 +1,14 @@
 //! A stranger's file can do no harm: whatever the bytes, an answer comes soon and without a panic.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
-use phaselab::preset::{Catalog, Document, Mistake, TEXT_LIMIT, read, report};
+use phaselab::preset::{Document, Mistake, TEXT_LIMIT, read, report};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
 use super::GOOD;
+use crate::hand::catalog;
 
 /// Reads bytes and draws whatever is wrong with them; all places lie in the text.
 fn survive(bytes: &[u8]) {
@@ -27,9 +29,10 @@ fn survive(bytes: &[u8]) {
     document.report(&mistakes, true);
 }
 
-fn shipped() -> Vec<String> {
-    let catalog = Catalog::with_folder(None);
-    catalog.entries().iter().map(|e| e.document().unwrap().text).collect()
+fn shipped() -> &'static [String] {
+    static TEXTS: LazyLock<Vec<String>> =
+        LazyLock::new(|| catalog().entries().iter().map(|e| e.document().unwrap().text).collect());
+    &TEXTS
 }
 
 /// One change of a text.
