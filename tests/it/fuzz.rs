@@ -33,6 +33,7 @@ fn number<T: FromStr<Err: Debug>>(variable: &str) -> Option<T> {
 }
 
 #[track_caller]
+#[expect(clippy::print_stdout, reason = "who looks for long wants to know how much was looked at")]
 fn check(name: &str) {
     let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
     let seed = number("PHASELAB_FUZZ_SEED").unwrap_or(SEED);

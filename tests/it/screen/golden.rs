@@ -85,7 +85,9 @@ fn weights(buffer: &Buffer) -> String {
 /// Systems of different kinds on a large screen: in colour, without, and in ASCII.
 #[test]
 fn laboratories_on_a_large_screen() {
-    for name in ["double-pendulum", "planet", "heavy-top-body", "rolling-race", "kicked-rotor"] {
+    for name in
+        ["double-pendulum", "merry-go-round", "heavy-top-body", "rolling-race", "kicked-rotor"]
+    {
         let (app, size) = (lab(name, 2.0), (120, 40));
         let look = |depth, glyphs| Look { theme: Theme::dark(depth), glyphs };
         let colourful = screen(&app, &rich(), size);
