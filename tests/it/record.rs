@@ -8,7 +8,8 @@ mod schema;
 mod scripts;
 mod stills;
 
-use phaselab::preset::{Document, demo};
+use phaselab::diagnostic::Document;
+use phaselab::preset::demo;
 use phaselab::record::{Recording, Script, play};
 
 use crate::hand::catalog;

@@ -8,8 +8,8 @@
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
 use super::super::roots::{first_crossing, value_and_slope};
-use crate::expr::{Double, portable};
-use crate::system::{ExactRates, Fault, Series, Side, State};
+use crate::num::{DoubleDouble, math};
+use crate::system::{ExactRates, MotionError, Series, Side, State};
 
 /// Switches that cross within this part of a step of each other cross together.
 const TOGETHER: f64 = 1e-12;
@@ -35,7 +35,7 @@ pub(super) struct Kinks {
 /// A surface met within a step.
 pub(super) struct Crossing {
     /// The time after the series' origin, in its unit.
-    pub(super) after: Double,
+    pub(super) after: DoubleDouble,
     switches: Vec<usize>,
 }
 
@@ -49,7 +49,7 @@ impl Crossing {
         self.switches.iter().all(|&i| {
             let switch = series.switch(i);
             let last = switch.len() - 1;
-            let term = |k: usize| (switch[k] * portable::powi(self.after.high, k as i32)).abs();
+            let term = |k: usize| (switch[k] * math::powi(self.after.high, k as i32)).abs();
             term(last).max(term(last - 1)) <= LAST * term(0)
         })
     }
@@ -63,12 +63,12 @@ impl Kinks {
         series: &mut Series,
         rates: &mut ExactRates,
         state: &State,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         *self = Kinks::default();
         if series.switches() == 0 {
             return Ok(());
         }
-        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         rates.evaluate(state.exact_time(), &numbers)?;
         for i in 0..series.switches() {
             let value = rates.switch(i);
@@ -118,7 +118,7 @@ impl Kinks {
         let switches = (0..series.switches()).filter(|&i| i == first || met(i, near).is_some());
         let switches: Vec<usize> = switches.collect();
         let after = match series.sides()[first] {
-            Side::Between => Double::from(x),
+            Side::Between => DoubleDouble::from(x),
             _ => self.polish(series, first, x),
         };
         Some(Crossing { after, switches })
@@ -137,7 +137,7 @@ impl Kinks {
         for &i in &self.on_surface {
             // a number of the state that has come to zero is zero, not a rounding error
             if let (Some(number), true) = (series.switch_number(i), moved) {
-                state.set(number, Double::ZERO);
+                state.set(number, DoubleDouble::ZERO);
             }
         }
         self.stalled < PATIENCE
@@ -157,13 +157,13 @@ impl Kinks {
     }
 
     /// A root to the precision of the series' lowest orders.
-    fn polish(&self, series: &Series, i: usize, x: f64) -> Double {
+    fn polish(&self, series: &Series, i: usize, x: f64) -> DoubleDouble {
         let origin = if self.on_surface.contains(&i) {
-            series.switch_after(i, Double::ZERO)
+            series.switch_after(i, DoubleDouble::ZERO)
         } else {
-            Double::ZERO
+            DoubleDouble::ZERO
         };
-        let mut x = Double::from(x);
+        let mut x = DoubleDouble::from(x);
         for _ in 0..2 {
             let (_, slope) = value_and_slope(series.switch(i), x.high);
             let correction = (series.switch_after(i, x) - origin) / slope;

@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use phaselab::app::{Code, Key};
-use phaselab::record::cast::{Cast, Version};
-use phaselab::record::{Tape, Turn};
-use phaselab::shell::{Input, Page, Projector};
+use phaselab::record::cast_writer::{Cast, Version};
+use phaselab::record::{CastEvent, RecordedCast};
+use phaselab::shell::{CastPlayer, Input, Screen};
 use phaselab::view::theme::PALETTES;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -44,25 +44,25 @@ pub(crate) const WORDS: &[&str] = &[
 const FRAMES: u32 = 4;
 const SHOWN: u16 = 200;
 
-fn written(tape: &Tape, version: Version) -> Tape {
+fn written(tape: &RecordedCast, version: Version) -> RecordedCast {
     let title = tape.title.clone().unwrap_or_default();
     let mut cast = Cast::begin(Vec::new(), version, tape.size, &title, &PALETTES[0]).unwrap();
     for (time, turn) in &tape.events {
         match turn {
-            Turn::Output(text) => cast.output(*time, text),
-            Turn::Resize(columns, rows) => cast.resize(*time, (*columns, *rows)),
-            Turn::Marker(name) => cast.marker(*time, name),
+            CastEvent::Output(text) => cast.output(*time, text),
+            CastEvent::Resize(columns, rows) => cast.resize(*time, (*columns, *rows)),
+            CastEvent::Marker(name) => cast.marker(*time, name),
         }
         .unwrap();
     }
     cast.end(tape.end, tape.size).unwrap();
     let text = String::from_utf8(cast.into_inner()).unwrap();
-    Tape::read(&text).unwrap_or_else(|why| panic!("{text}: {why}"))
+    RecordedCast::read(&text).unwrap_or_else(|why| panic!("{text}: {why}"))
 }
 
 pub(crate) fn check(bytes: &[u8]) {
     let text = &*String::from_utf8_lossy(bytes);
-    let tape = match Tape::read(text) {
+    let tape = match RecordedCast::read(text) {
         Ok(tape) => tape,
         Err(why) => {
             let lines = text.lines().count().max(1);
@@ -80,7 +80,7 @@ pub(crate) fn check(bytes: &[u8]) {
         return;
     }
     let area = Rect::new(0, 0, 60, 20);
-    let mut projector = Projector::new(tape, rich());
+    let mut projector = CastPlayer::new(tape, rich());
     for _ in 0..FRAMES {
         projector.advance(Duration::from_millis(500));
         projector.draw(area, &mut Buffer::empty(area));

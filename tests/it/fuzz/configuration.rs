@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use phaselab::preset::Document;
+use phaselab::diagnostic::Document;
 use phaselab::shell::config;
 use phaselab::shell::options::OPTIONS;
 

@@ -1,7 +1,7 @@
 //! Presets: mistakes lie in the text; what can be run runs or says why not, and is a right file again when it is written.
 
-use phaselab::experiment::{Export, Ready};
-use phaselab::preset::{Document, Mistake};
+use phaselab::diagnostic::{Diagnostic, Document};
+use phaselab::experiment::{Export, Prepared};
 
 pub(crate) const WORDS: &[&str] = &[
     "[coordinates]\n",
@@ -44,7 +44,7 @@ const RUN: u64 = 4;
 const SHORT: usize = 3000;
 
 /// Mistakes are some, each in the text, and each is shown.
-pub(super) fn are_placed(document: &Document, mistakes: &[Mistake]) {
+pub(super) fn are_placed(document: &Document, mistakes: &[Diagnostic]) {
     assert!(!mistakes.is_empty());
     for mistake in mistakes {
         assert!(document.text.get(mistake.place.clone()).is_some(), "{mistake:?}");
@@ -65,7 +65,7 @@ pub(crate) fn check(bytes: &[u8]) {
     if bytes.len() > SHORT || sum % RUN != 0 {
         return;
     }
-    let mut experiment = match Ready::of(&document) {
+    let mut experiment = match Prepared::of(&document) {
         Ok(ready) => ready.experiment,
         Err(why) => return assert!(!why.report.is_empty() && !why.mistakes.is_empty()),
     };

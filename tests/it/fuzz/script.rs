@@ -1,6 +1,6 @@
 //! Scripts of demos: mistakes lie in the text, and what is read is read the same again.
 
-use phaselab::preset::Document;
+use phaselab::diagnostic::Document;
 use phaselab::record::Script;
 
 use super::preset::are_placed;

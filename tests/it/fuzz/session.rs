@@ -79,7 +79,7 @@ pub(crate) fn check(bytes: &[u8]) {
     app.resume(saved);
     for effect in app.update(Event::Loaded(Ok(loaded))) {
         if let Effect::Tell(command) = effect {
-            experiment.obey(command);
+            experiment.execute(command);
         }
     }
     app.update(Event::Snapshot(Arc::new(experiment.snapshot())));

@@ -1,6 +1,6 @@
 //! One character in a cell: no terminal, multiplexer or player can then lose a row.
 
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -13,7 +13,7 @@ use crate::hand::{catalog, lab, press};
 const PAGES: [&str; 8] = ["", "2", "3", "4", "9", "?", ":", "Enter"];
 
 /// What is wrong with the cells of every page of a system.
-fn wrong(name: &str, looks: &[Look]) -> Vec<String> {
+fn wrong(name: &str, looks: &[RenderStyle]) -> Vec<String> {
     let opened = lab(name, 1.0);
     let mut wrong = Vec::new();
     for page in PAGES {
@@ -33,7 +33,7 @@ fn wrong(name: &str, looks: &[Look]) -> Vec<String> {
 fn every_cell_of_every_preset_holds_one_character_of_one_column() {
     let theme = Theme::dark(ColourDepth::True);
     let looks =
-        [Glyphs::Braille, Glyphs::Ascii].map(|glyphs| Look { theme: theme.clone(), glyphs });
+        [Glyphs::Braille, Glyphs::Ascii].map(|glyphs| RenderStyle { theme: theme.clone(), glyphs });
     let names = catalog().entries();
     assert!(names.len() > 50);
     let wrong: Vec<String> = names.iter().flat_map(|entry| wrong(&entry.name, &looks)).collect();

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
@@ -28,7 +28,7 @@ const LETTERS: [(Role, char); 10] = [
     (Role::Level, 'l'),
 ];
 
-fn letter(cell: &Cell, look: &Look) -> char {
+fn letter(cell: &Cell, look: &RenderStyle) -> char {
     if cell.modifier.contains(Modifier::REVERSED) {
         return 'S';
     }
@@ -40,7 +40,7 @@ fn letter(cell: &Cell, look: &Look) -> char {
     LETTERS.into_iter().find(|(role, _)| is(*role)).map_or('#', |(_, letter)| letter)
 }
 
-fn written(buffer: &Buffer, look: &Look) -> String {
+fn written(buffer: &Buffer, look: &RenderStyle) -> String {
     let mut text = rows(buffer).join("\n");
     text.push('\n');
     for y in 0..buffer.area.height {
@@ -51,7 +51,7 @@ fn written(buffer: &Buffer, look: &Look) -> String {
     text
 }
 
-fn check(name: &str, buffer: &Buffer, look: &Look) {
+fn check(name: &str, buffer: &Buffer, look: &RenderStyle) {
     check_text(name, &written(buffer, look));
 }
 
@@ -66,7 +66,7 @@ fn check_text(name: &str, now: &str) {
 
 /// What sets a cell apart where there is no colour: the first letter of it; a dot where nothing does.
 fn weights(buffer: &Buffer) -> String {
-    let letters = [
+    let messages = [
         (Modifier::REVERSED, 'r'),
         (Modifier::BOLD, 'b'),
         (Modifier::UNDERLINED, 'u'),
@@ -74,7 +74,7 @@ fn weights(buffer: &Buffer) -> String {
     ];
     let letter = |cell: &Cell| {
         assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
-        let found = letters.into_iter().find(|(weight, _)| cell.modifier.contains(*weight));
+        let found = messages.into_iter().find(|(weight, _)| cell.modifier.contains(*weight));
         found.map_or('.', |(_, letter)| letter)
     };
     let row = |y| (0..buffer.area.width).map(|x| letter(&buffer[(x, y)])).collect::<String>();
@@ -89,7 +89,7 @@ fn laboratories_on_a_large_screen() {
         ["double-pendulum", "merry-go-round", "heavy-top-body", "rolling-race", "kicked-rotor"]
     {
         let (app, size) = (lab(name, 2.0), (120, 40));
-        let look = |depth, glyphs| Look { theme: Theme::dark(depth), glyphs };
+        let look = |depth, glyphs| RenderStyle { theme: Theme::dark(depth), glyphs };
         let colourful = screen(&app, &rich(), size);
         let plain = screen(&app, &look(ColourDepth::None, Glyphs::Braille), size);
         let ascii = screen(&app, &look(ColourDepth::Ansi16, Glyphs::Ascii), size);

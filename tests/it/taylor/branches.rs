@@ -1,7 +1,7 @@
 //! Kinks that hide in roots and powers: cones, chords, contacts, angles.
 
 use super::{Run, near};
-use phaselab::system::FaultKind;
+use phaselab::system::MotionErrorKind;
 
 fn line(initial: &str, velocity: &str, rest: &str) -> Run {
     Run::new(&format!(
@@ -163,9 +163,12 @@ fn sides_are_chosen_before_a_series_is_judged() {
 }
 
 #[test]
-fn an_edge_without_a_limit_is_told_with_its_place() {
+fn an_edge_without_a_limit_is_reported_with_its_place() {
     let mut run = potential("1.0", "0.0", "sqrt(abs(x))");
     let fault = run.try_to(10.0).expect_err("the force grows beyond all bounds");
-    assert!(matches!(fault.kind, FaultKind::Rough | FaultKind::StepUnderflow(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::Rough | MotionErrorKind::StepUnderflow(_)),
+        "{fault}"
+    );
     assert!(fault.place[0].1.abs() < 1e-9 && run.steps < 500, "{fault}");
 }
