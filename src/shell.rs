@@ -41,7 +41,7 @@ mod writer;
 
 pub use bandwidth::{Bandwidth, BandwidthError};
 pub use cast_player::CastPlayer;
-pub use decoder::PASTE_LIMIT;
+pub use decoder::{PASTE_LIMIT, decode};
 pub use diagnosis::{Finding, diagnosis};
 pub use frame_loop::{Ending, Pace, Screen, ScreenRequest, perform};
 pub use lab::{perform_demo, run, show};

@@ -76,6 +76,7 @@ impl Pool {
 
     /// Builds the node of a merged and settled product.
     pub(super) fn finish_product(&mut self, coefficient: Number, factors: Vec<Factor>) -> Expr {
+        let coefficient = coefficient.canonical();
         if coefficient.is_zero() {
             return Expr::ZERO;
         }
@@ -199,6 +200,9 @@ fn merge(factors: &mut Vec<Factor>) {
             Some((last, total)) if *last == base => *total = *total + exponent,
             _ => merged.push((base, exponent)),
         }
+    }
+    for (_, exponent) in &mut merged {
+        *exponent = exponent.canonical();
     }
     merged.retain(|(_, exponent)| !exponent.is_zero());
     *factors = merged;

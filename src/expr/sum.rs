@@ -59,6 +59,11 @@ impl Pool {
                 _ => merged.push((c, e)),
             }
         }
+        // sums of reals may be numbers that have an exact form: 1 − 1e-22 is the number one
+        let constant = constant.canonical();
+        for (c, _) in &mut merged {
+            *c = c.canonical();
+        }
         merged.retain(|(c, _)| !c.is_zero());
         match merged.as_slice() {
             [] => self.number(constant),

@@ -53,6 +53,19 @@ const READ: usize = 4096;
 /// The longest sequence that is waited for, in bytes; what is longer is noise.
 const SEQUENCE_LIMIT: usize = 16 * 1024;
 
+/// What bytes mean that come in pieces without a pause, and then nothing more, where every report was asked for.
+pub fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Event> {
+    let (mut decoder, now) = (Decoder::default(), Instant::now());
+    for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+        decoder.expect(mode, true);
+    }
+    pieces.into_iter().for_each(|piece| decoder.feed(piece, now));
+    if decoder.deadline().is_some() {
+        decoder.expire();
+    }
+    decoder.sink.events.drain(..).collect()
+}
+
 /// Turns bytes into events.
 #[derive(Default)]
 pub(super) struct Decoder {

@@ -10,10 +10,13 @@ mod verdicts;
 
 use std::sync::Arc;
 
+use phaselab::app::Loaded;
 use phaselab::experiment::{Experiment, Gauge, Progress, Setup, Snapshot};
 use phaselab::mechanics;
-use phaselab::preset::{self, Catalog};
+use phaselab::preset;
 use phaselab::system::System;
+
+use crate::hand::loaded;
 
 /// More steps than any test needs.
 pub(crate) const PLENTY: u64 = 10_000_000;
@@ -31,8 +34,9 @@ pub(crate) fn build(text: &str, change: impl FnOnce(&mut Setup)) -> Experiment {
 
 /// An experiment of a shipped preset.
 pub(crate) fn shipped(name: &str) -> Experiment {
-    let document = Catalog::with_folder(None).find(name).expect("it is shipped");
-    build(&document.text, |_| ())
+    let Loaded { model, equations, system, .. } = loaded(name, 1);
+    let setup = Setup::of(&model);
+    Experiment::new(&model, &equations, &system, setup).expect("its method fits")
 }
 
 /// Carries an experiment to a time.

@@ -206,7 +206,7 @@ pub(crate) fn close(a: f64, b: f64, size: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::cases(300))]
 
     #[test]
     fn printing_parses_back_to_the_same_tree(source in sources()) {

@@ -1,7 +1,8 @@
 //! Made by hand for the tests of `app` and `view`: loaded systems, snapshots that no integrator had a part in, keys
 //! written as words.
 
-use std::sync::{Arc, OnceLock};
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
@@ -19,9 +20,16 @@ pub(crate) fn catalog() -> &'static Catalog {
     CATALOG.get_or_init(|| Catalog::with_folder(None))
 }
 
-/// A shipped preset, lowered.
+/// A shipped preset, lowered: once in a process, however many tests ask for it.
 pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
-    lower(name, epoch, catalog().find(name).unwrap())
+    type Shelf = Mutex<HashMap<String, Arc<OnceLock<Loaded>>>>;
+    static SHELF: LazyLock<Shelf> = LazyLock::new(Shelf::default);
+    let place = {
+        let mut shelf = SHELF.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(shelf.entry(name.to_owned()).or_default())
+    };
+    let loaded = place.get_or_init(|| lower(name, 1, catalog().find(name).unwrap()));
+    Loaded { epoch, ..loaded.clone() }
 }
 
 /// The text of a file, lowered; epoch 1.
@@ -38,10 +46,9 @@ fn lower(name: &str, epoch: u64, document: Document) -> Loaded {
     Loaded { name: name.to_owned(), epoch, document, model, equations, system }
 }
 
-/// The pendulum, derived once.
+/// The pendulum.
 pub(crate) fn pendulum() -> Loaded {
-    static PENDULUM: OnceLock<Loaded> = OnceLock::new();
-    PENDULUM.get_or_init(|| loaded("pendulum", 1)).clone()
+    loaded("pendulum", 1)
 }
 
 /// What one could see at a time if every coordinate swung like a cosine of its own about its initial value; where
@@ -117,23 +124,34 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
 
 /// The application as it is once the pendulum is open in the lab and was seen at t = 2.
 pub(crate) fn in_lab() -> App {
-    let (mut app, _) = App::new(catalog(), Some("pendulum"));
+    static LAB: LazyLock<App> = LazyLock::new(|| lab("pendulum", 2.0));
+    LAB.clone()
+}
+
+/// The application as it is once a shipped preset is open in the lab and was seen at that time.
+pub(crate) fn lab(name: &str, time: f64) -> App {
+    let loaded = loaded(name, 1);
+    let seen = snapshot(&loaded, time);
+    let (mut app, _) = App::new(catalog(), Some(name));
     app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-    app.update(Event::Loaded(Ok(pendulum())));
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
     app
 }
 
 /// The application at the picker, with the pendulum as a preview.
 pub(crate) fn at_picker() -> App {
-    let (mut app, _) = App::new(catalog(), None);
-    while app.picker.current().unwrap().name != "pendulum" {
-        press(&mut app, "Down");
-    }
-    press(&mut app, "Wait");
-    app.update(Event::Loaded(Ok(pendulum())));
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
-    app
+    static PICKER: LazyLock<App> = LazyLock::new(|| {
+        let (mut app, _) = App::new(catalog(), None);
+        while app.picker.current().unwrap().name != "pendulum" {
+            press(&mut app, "Down");
+        }
+        press(&mut app, "Wait");
+        app.update(Event::Loaded(Ok(pendulum())));
+        app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+        app
+    });
+    PICKER.clone()
 }
 
 /// Presses keys written as words: `Down Enter q Ctrl-c`. `Wait` lets a second pass. Returns what was asked for.

@@ -14,7 +14,9 @@ mod elementary;
 mod experiment;
 mod expr;
 mod expr_parse;
+mod fuzz;
 mod hand;
+mod honest;
 mod instrument;
 mod layers;
 mod mechanics;
@@ -34,3 +36,12 @@ mod taylor;
 mod terminal;
 mod thresholds;
 mod worker;
+
+use proptest::test_runner::Config;
+
+/// So many random cases of a property, where `PROPTEST_CASES` says nothing else; else as much more or less as that is of
+/// the usual 256.
+fn cases(count: u32) -> Config {
+    let config = Config::default();
+    Config { cases: count * config.cases.max(32) / 256, failure_persistence: None, ..config }
+}

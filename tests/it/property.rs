@@ -2,7 +2,7 @@
 //! judge as of `examples/property`, which runs as long as one likes.
 
 mod case;
-mod dice;
+pub(crate) mod dice;
 mod extrapolation;
 mod jet;
 mod judge;

@@ -9,8 +9,10 @@ mod scripts;
 mod stills;
 
 use phaselab::diagnostic::Document;
-use phaselab::preset::{Catalog, demo};
+use phaselab::preset::demo;
 use phaselab::record::{Recording, Script, play};
+
+use crate::hand::catalog;
 
 /// The script of a text.
 pub(crate) fn script(text: &str) -> Script {
@@ -22,7 +24,7 @@ pub(crate) fn script(text: &str) -> Script {
 /// A script of a preset, played.
 pub(crate) fn played(preset: &str, text: &str) -> Recording {
     let document = Document::new("test.demo", text);
-    let system = Catalog::with_folder(None).find(preset).expect("a preset");
+    let system = catalog().find(preset).expect("a preset");
     play(&script(text), &system, preset, (80, 24))
         .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
 }

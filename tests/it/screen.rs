@@ -43,9 +43,13 @@ pub(crate) fn rows(buffer: &Buffer) -> Vec<String> {
 /// The first place of a text on the screen: column and row.
 fn find(buffer: &Buffer, text: &str) -> Option<(u16, u16)> {
     (0..buffer.area.height).find_map(|y| {
-        (0..buffer.area.width).find_map(|x| {
-            let rest: String = (x..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect();
-            rest.starts_with(text).then_some((x, y))
-        })
+        let row: String = (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect();
+        let mut starts = (0..buffer.area.width).scan(0, |end, x| {
+            let start = *end;
+            *end += buffer[(x, y)].symbol().len();
+            Some((x, start))
+        });
+        let found = row.find(text)?;
+        starts.find(|(_, start)| *start == found).map(|(x, _)| (x, y))
     })
 }

@@ -1,7 +1,7 @@
 //! The table of keys: no twins, and nothing in it that does nothing.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
@@ -33,7 +33,14 @@ fn every_place_is_in_a_chain_and_in_the_help() {
 }
 
 /// Some states in which the keys of a place hold; between them every key there finds something to do.
-fn states(place: Place) -> Vec<App> {
+fn states(place: Place) -> &'static [App] {
+    static STATES: OnceLock<Vec<Vec<App>>> = OnceLock::new();
+    let states = STATES.get_or_init(|| Place::ALL.into_iter().map(states_made).collect());
+    let at = Place::ALL.iter().position(|other| *other == place);
+    &states[at.expect("it is one of all")]
+}
+
+fn states_made(place: Place) -> Vec<App> {
     let lab = |keys: &str| {
         let mut app = in_lab();
         press(&mut app, keys);
@@ -180,7 +187,7 @@ fn every_key_in_the_table_does_what_is_written() {
     let mut table = String::new();
     for row in KEYS {
         let does = |key: KeyEvent| {
-            let outcomes = states(row.place).into_iter().map(|mut app| {
+            let outcomes = states(row.place).iter().cloned().map(|mut app| {
                 let active = app.places().contains(&row.place);
                 assert!(active, "{:?} is not active in its own state", row.place);
                 outcome(&mut app, |app| app.update(Event::Key(key)))
@@ -224,7 +231,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
             if app.overlay.is_some() || place == Place::Search {
                 continue;
             }
-            let (open, menu) = palette(&app);
+            let (open, menu) = palette(app);
             let places = app.places();
             for row in KEYS {
                 let line = menu.items.iter().position(|item| {

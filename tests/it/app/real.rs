@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
 use phaselab::app::{App, Effect, Event, Lab, Loaded, ValueId};
-use phaselab::experiment::{Experiment, Prepared, Setup, Snapshot, Status};
+use phaselab::experiment::{Experiment, Setup, Snapshot, Status};
 use phaselab::view::draw;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::hand::{catalog, key};
+use crate::cases;
+use crate::hand::{catalog, key, loaded};
 
 /// A frame, in seconds.
 const FRAME: f64 = 1.0 / 60.0;
@@ -23,22 +24,7 @@ pub(crate) struct Real {
 
 impl Real {
     pub(crate) fn of(name: &str) -> Self {
-        let ready = Prepared::of(&catalog().find(name).unwrap()).unwrap();
-        let Prepared { document, model, equations, system, mut experiment } = ready;
-        experiment.set_epoch(1);
-        let (mut app, _) = App::new(catalog(), Some(name));
-        let name = name.to_owned();
-        app.update(Event::Loaded(Ok(Loaded {
-            name,
-            epoch: 1,
-            document,
-            model,
-            equations,
-            system,
-        })));
-        let mut real = Self { app, experiment };
-        real.look();
-        real
+        Self::with(loaded(name, 1))
     }
 
     /// The lab of a system with an experiment on it.
@@ -282,7 +268,7 @@ const EDITS: [&str; 24] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(cases(12))]
 
     #[test]
     fn a_hundred_edits_taken_back_are_the_beginning_to_the_bit(

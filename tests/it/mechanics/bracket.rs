@@ -213,7 +213,7 @@ fn function() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(crate::cases(48))]
 
     /// Antisymmetry, Leibniz's rule and Jacobi's identity, of the canonical bracket and of the
     /// bracket of a body's angular momentum.

@@ -84,7 +84,7 @@ fn everything(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(crate::cases(400))]
 
     #[test]
     fn anything_can_be_drawn_anywhere(

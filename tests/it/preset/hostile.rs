@@ -1,14 +1,16 @@
 //! A stranger's file can do no harm: whatever the bytes, an answer comes soon and without a panic.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 use phaselab::diagnostic::TEXT_LIMIT;
 use phaselab::diagnostic::{Diagnostic, Document, report};
-use phaselab::preset::{Catalog, read};
+use phaselab::preset::read;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
 use super::GOOD;
+use crate::hand::catalog;
 
 /// Reads bytes and draws whatever is wrong with them; all places lie in the text.
 fn survive(bytes: &[u8]) {
@@ -29,9 +31,10 @@ fn survive(bytes: &[u8]) {
     document.report(&mistakes, true);
 }
 
-fn shipped() -> Vec<String> {
-    let catalog = Catalog::with_folder(None);
-    catalog.entries().iter().map(|e| e.document().unwrap().text).collect()
+fn shipped() -> &'static [String] {
+    static TEXTS: LazyLock<Vec<String>> =
+        LazyLock::new(|| catalog().entries().iter().map(|e| e.document().unwrap().text).collect());
+    &TEXTS
 }
 
 /// One change of a text.
@@ -77,7 +80,7 @@ fn apply(bytes: &mut Vec<u8>, change: &Change) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+    #![proptest_config(crate::cases(400))]
 
     #[test]
     fn a_damaged_preset_gives_an_answer(

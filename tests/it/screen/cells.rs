@@ -1,35 +1,30 @@
 //! One character in a cell: no terminal, multiplexer or player can then lose a row.
 
-use std::sync::Arc;
-
-use phaselab::app::{App, Event};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::theme::{PALETTES, Theme};
+use phaselab::view::theme::Theme;
 use unicode_width::UnicodeWidthStr;
 
 use super::screen;
-use crate::hand::{catalog, loaded, press, snapshot};
+use crate::hand::{catalog, lab, press};
 
 /// Pages and pop-ups, and how they are reached from a lab that was just opened.
 const PAGES: [&str; 8] = ["", "2", "3", "4", "9", "?", ":", "Enter"];
 
 /// What is wrong with the cells of every page of a system.
-fn wrong(name: &str, look: &RenderStyle) -> Vec<String> {
-    let loaded = loaded(name, 1);
-    let seen = Arc::new(snapshot(&loaded, 1.0));
+fn wrong(name: &str, looks: &[RenderStyle]) -> Vec<String> {
+    let opened = lab(name, 1.0);
     let mut wrong = Vec::new();
     for page in PAGES {
-        let (mut app, _) = App::new(catalog(), Some(name));
-        app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-        app.update(Event::Loaded(Ok(loaded.clone())));
-        app.update(Event::Snapshot(seen.clone()));
+        let mut app = opened.clone();
         press(&mut app, page);
-        let buffer = screen(&app, look, (150, 60));
-        let odd = buffer.content.iter().map(ratatui::buffer::Cell::symbol);
-        let odd = odd.filter(|symbol| symbol.chars().count() != 1 || symbol.width() != 1);
-        wrong.extend(odd.map(|symbol| format!("{name}, {page:?}: {symbol:?}")));
+        for look in looks {
+            let buffer = screen(&app, look, (150, 60));
+            let odd = buffer.content.iter().map(ratatui::buffer::Cell::symbol);
+            let odd = odd.filter(|symbol| symbol.chars().count() != 1 || symbol.width() != 1);
+            wrong.extend(odd.map(|symbol| format!("{name}, {page:?}: {symbol:?}")));
+        }
     }
     wrong
 }
@@ -37,13 +32,12 @@ fn wrong(name: &str, look: &RenderStyle) -> Vec<String> {
 #[test]
 fn every_cell_of_every_preset_holds_one_character_of_one_column() {
     let theme = Theme::dark(ColourDepth::True);
-    for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
-        let look = RenderStyle { theme: theme.clone(), glyphs };
-        let names = catalog().entries();
-        assert!(names.len() > 50);
-        let wrong: Vec<String> = names.iter().flat_map(|entry| wrong(&entry.name, &look)).collect();
-        assert!(wrong.is_empty(), "{wrong:#?}");
-    }
+    let looks =
+        [Glyphs::Braille, Glyphs::Ascii].map(|glyphs| RenderStyle { theme: theme.clone(), glyphs });
+    let names = catalog().entries();
+    assert!(names.len() > 50);
+    let wrong: Vec<String> = names.iter().flat_map(|entry| wrong(&entry.name, &looks)).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]

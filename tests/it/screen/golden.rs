@@ -1,15 +1,18 @@
 //! Whole screens as they are meant to look, in `tests/screens`: first the text, then the style of every cell as a
-//! letter. `PHASELAB_BLESS=1 cargo test screen::golden` writes them anew; look at what changed before you commit it.
+//! letter; of large ones also what is left without colour, and the text in ASCII. `PHASELAB_BLESS=1 cargo test screen::golden` writes them anew; look at what changed before you commit it.
 
 use std::fs;
 use std::path::Path;
 
 use phaselab::view::RenderStyle;
-use phaselab::view::theme::Role;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::{Role, Theme};
 use ratatui::buffer::{Buffer, Cell};
+use ratatui::style::{Color, Modifier};
 
 use super::{rich, rows, screen};
-use crate::hand::{at_picker, in_lab, press};
+use crate::hand::{at_picker, in_lab, lab, press};
 
 /// The letter of each role; a dot is plain text, a hash any other style (of a curve or a trail).
 const LETTERS: [(Role, char); 10] = [
@@ -26,7 +29,7 @@ const LETTERS: [(Role, char); 10] = [
 ];
 
 fn letter(cell: &Cell, look: &RenderStyle) -> char {
-    if cell.modifier.contains(ratatui::style::Modifier::REVERSED) {
+    if cell.modifier.contains(Modifier::REVERSED) {
         return 'S';
     }
     if cell.symbol() == " " || cell.style() == Cell::default().style().patch(look.theme[Role::Text])
@@ -49,13 +52,56 @@ fn written(buffer: &Buffer, look: &RenderStyle) -> String {
 }
 
 fn check(name: &str, buffer: &Buffer, look: &RenderStyle) {
+    check_text(name, &written(buffer, look));
+}
+
+fn check_text(name: &str, now: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/screens").join(name);
-    let now = written(buffer, look);
     if std::env::var_os("PHASELAB_BLESS").is_some() {
-        fs::write(&path, &now).unwrap();
+        fs::write(&path, now).unwrap();
     }
     let meant = fs::read_to_string(&path).unwrap_or_default();
     assert!(meant == now, "{name} has changed; it is now\n{now}");
+}
+
+/// What sets a cell apart where there is no colour: the first letter of it; a dot where nothing does.
+fn weights(buffer: &Buffer) -> String {
+    let messages = [
+        (Modifier::REVERSED, 'r'),
+        (Modifier::BOLD, 'b'),
+        (Modifier::UNDERLINED, 'u'),
+        (Modifier::DIM, 'd'),
+    ];
+    let letter = |cell: &Cell| {
+        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+        let found = messages.into_iter().find(|(weight, _)| cell.modifier.contains(*weight));
+        found.map_or('.', |(_, letter)| letter)
+    };
+    let row = |y| (0..buffer.area.width).map(|x| letter(&buffer[(x, y)])).collect::<String>();
+    let rows = (0..buffer.area.height).map(|y| row(y).trim_end_matches('.').to_owned() + "\n");
+    rows.collect()
+}
+
+/// Systems of different kinds on a large screen: in colour, without, and in ASCII.
+#[test]
+fn laboratories_on_a_large_screen() {
+    for name in
+        ["double-pendulum", "merry-go-round", "heavy-top-body", "rolling-race", "kicked-rotor"]
+    {
+        let (app, size) = (lab(name, 2.0), (120, 40));
+        let look = |depth, glyphs| RenderStyle { theme: Theme::dark(depth), glyphs };
+        let colourful = screen(&app, &rich(), size);
+        let plain = screen(&app, &look(ColourDepth::None, Glyphs::Braille), size);
+        let ascii = screen(&app, &look(ColourDepth::Ansi16, Glyphs::Ascii), size);
+        let now = format!(
+            "{}\nwithout colour\n{}\n{}\nin ASCII\n{}\n",
+            written(&colourful, &rich()),
+            rows(&plain).join("\n"),
+            weights(&plain),
+            rows(&ascii).join("\n")
+        );
+        check_text(&format!("{name}-120x40.txt"), &now);
+    }
 }
 
 #[test]

@@ -12,7 +12,8 @@ use proptest::prelude::*;
 use ratatui::style::Color;
 
 use super::screen;
-use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
+use crate::cases;
+use crate::hand::{at_picker, catalog, gauge, in_lab, lab, pendulum, press, snapshot};
 
 /// Keys that lead from the lab to every page, pop-up and pane.
 const WAYS: [&str; 21] = [
@@ -95,11 +96,7 @@ fn crowded() -> App {
 #[test]
 fn all_presets_are_drawn() {
     for entry in catalog().entries() {
-        let (mut app, _) = App::new(catalog(), Some(&entry.name));
-        let system = loaded(&entry.name, 1);
-        let seen = snapshot(&system, 1.0);
-        app.update(Event::Loaded(Ok(system)));
-        app.update(Event::Snapshot(Arc::new(seen)));
+        let mut app = lab(&entry.name, 1.0);
         for keys in ["", "2", "3", "4", "9"] {
             press(&mut app, keys);
             for size in [(80, 24), (200, 60)] {
@@ -137,11 +134,7 @@ fn ascii_screens_hold_nothing_else() {
 fn ascii_screens_know_every_letter() {
     let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
     for entry in catalog().entries() {
-        let (mut app, _) = App::new(catalog(), Some(&entry.name));
-        let system = loaded(&entry.name, 1);
-        let seen = snapshot(&system, 1.0);
-        app.update(Event::Loaded(Ok(system)));
-        app.update(Event::Snapshot(Arc::new(seen)));
+        let mut app = lab(&entry.name, 1.0);
         for keys in ["1", "2", "3", "4", "9"] {
             press(&mut app, keys);
             let text = super::rows(&screen(&app, &look, (160, 250))).join("\n");
@@ -181,14 +174,28 @@ fn screens_of_few_colours_have_no_others() {
     }
 }
 
+/// What once was too narrow for a list beside a plot.
+#[test]
+fn a_size_between_two_layouts_is_no_panic() {
+    for app in everything() {
+        let (buffer, _) = super::drawn(app, &super::rich(), (64, 19));
+        assert!(buffer.content.iter().any(|cell| cell.symbol() != " "));
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(cases(48))]
 
     #[test]
-    fn no_size_is_a_panic(width in 0..250_u16, height in 0..250_u16, glyphs in 0..Glyphs::ALL.len()) {
+    fn no_size_is_a_panic(
+        width in 0..250_u16,
+        height in 0..250_u16,
+        glyphs in 0..Glyphs::ALL.len(),
+        first in 0..4_usize,
+    ) {
         let glyphs = Glyphs::ALL[glyphs];
         let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs };
-        for app in everything() {
+        for app in everything().iter().skip(first).step_by(4) {
             let mut app = app.clone();
             let (_, drawn) = super::drawn(&app, &look, (width, height));
             app.update(Event::Drawn(drawn));

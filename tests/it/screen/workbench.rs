@@ -41,6 +41,8 @@ const KEYS: [&str; 12] = [
 ];
 
 proptest! {
+    #![proptest_config(crate::cases(64))]
+
     /// One cell is reversed, and it is the character at the cursor.
     #[test]
     fn the_cursor_is_in_sight_wherever_it_goes(
@@ -125,6 +127,8 @@ fn spelt(c: char) -> String {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(64))]
+
     /// Where a character takes several cells the cursor stands on all of them.
     #[test]
     fn the_cursor_is_in_sight_where_letters_are_spelt_out(

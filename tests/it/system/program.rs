@@ -26,7 +26,7 @@ fn program(pool: &mut Pool, outputs: &[Expr]) -> (Arc<Program>, Vec<Symbol>, Vec
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::cases(400))]
 
     #[test]
     fn values_agree_with_the_nodes(source in sources(), seed in 0..1000_u64) {

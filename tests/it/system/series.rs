@@ -479,7 +479,7 @@ fn power_derivative(x: f64, n: f64, k: usize) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::cases(200))]
 
     #[test]
     fn series_agree_with_the_oracle(source in sources(), seed in 0..1000_u64) {

@@ -1,0 +1,93 @@
+//! What strangers send: presets, expressions, bytes of a terminal, casts, sessions, configurations and scripts, changed at
+//! random. No input makes the program panic or hang; mistakes have their places; what is read and written is read the same.
+//!
+//! `tests/corpus/<target>` holds the inputs that are changed, each of which is looked at as it is first: what once failed
+//! stands there too. In every run the changes are the same. `PHASELAB_FUZZ_SECONDS=600 cargo test fuzz` looks at each
+//! target for so long; `PHASELAB_FUZZ_SEED` gives other changes.
+
+mod cast;
+mod configuration;
+mod expression;
+mod hunt;
+mod mutation;
+mod preset;
+mod script;
+mod session;
+mod target;
+mod terminal;
+
+use std::fmt::Debug;
+use std::str::FromStr;
+use std::time::Duration;
+
+use crate::property::dice;
+use hunt::{Length, hunt};
+use target::TARGETS;
+
+const SEED: u64 = 1;
+
+/// A number in the environment.
+fn number<T: FromStr<Err: Debug>>(variable: &str) -> Option<T> {
+    let word = std::env::var(variable).ok()?;
+    Some(word.parse().unwrap_or_else(|why| panic!("{variable}={word}: {why:?}")))
+}
+
+#[track_caller]
+#[expect(clippy::print_stdout, reason = "who looks for long wants to know how much was looked at")]
+fn check(name: &str) {
+    let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
+    let seed = number("PHASELAB_FUZZ_SEED").unwrap_or(SEED);
+    let seconds = number("PHASELAB_FUZZ_SECONDS").map(|s| Length::Time(Duration::from_secs(s)));
+    let length = seconds.unwrap_or(Length::Cases(target.cases));
+    let cases = hunt(target, seed, length).unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(cases > 0);
+    println!("{name}: {cases} cases of seed {seed}");
+}
+
+#[test]
+fn presets() {
+    check("presets");
+}
+
+#[test]
+fn expressions() {
+    check("expressions");
+}
+
+#[test]
+fn input() {
+    check("input");
+}
+
+#[test]
+fn casts() {
+    check("casts");
+}
+
+#[test]
+fn sessions() {
+    check("sessions");
+}
+
+#[test]
+fn configuration() {
+    check("configuration");
+}
+
+#[test]
+fn scripts() {
+    check("scripts");
+}
+
+/// A hunt finds what is wrong and makes it short: else all of the above would say nothing.
+#[test]
+fn a_failure_is_found_and_made_short() {
+    let fails = |bytes: &[u8]| bytes.windows(2).any(|pair| pair == b"}{");
+    let inputs = [b"{a} {b} {c}".to_vec(), b"[d] {e}".to_vec()];
+    let found = (0..1000).find_map(|case| {
+        let bytes = mutation::mutant(&mut dice::Dice::of(SEED, case), &inputs, &["x"]);
+        fails(&bytes).then_some(bytes)
+    });
+    let short = mutation::shrunk(found.expect("such a change is made"), 400, &fails);
+    assert_eq!(short, b"}{");
+}

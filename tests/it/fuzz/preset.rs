@@ -1,0 +1,80 @@
+//! Presets: mistakes lie in the text; what can be run runs or says why not, and is a right file again when it is written.
+
+use phaselab::diagnostic::{Diagnostic, Document};
+use phaselab::experiment::{Export, Prepared};
+
+pub(crate) const WORDS: &[&str] = &[
+    "[coordinates]\n",
+    "[parameters]\n",
+    "[lagrangian]\n",
+    "[[views]]\n",
+    "[[events]]\n",
+    "[[impulses]]\n",
+    "[run]\n",
+    "initial = ",
+    "velocity = ",
+    "until = ",
+    "= ",
+    "\"",
+    "'",
+    "{",
+    "}",
+    "[",
+    "]",
+    ",",
+    "\n",
+    "sin(",
+    "sqrt(",
+    ")",
+    "^2",
+    "/",
+    "theta'",
+    "t",
+    "-",
+    "1/2*",
+    "true",
+    "'''",
+    "\"\"\"",
+    "#",
+    "\\",
+];
+
+/// One of so many is also run, if it is right and short.
+const RUN: u64 = 4;
+const SHORT: usize = 3000;
+
+/// Mistakes are some, each in the text, and each is shown.
+pub(super) fn are_placed(document: &Document, mistakes: &[Diagnostic]) {
+    assert!(!mistakes.is_empty());
+    for mistake in mistakes {
+        assert!(document.text.get(mistake.place.clone()).is_some(), "{mistake:?}");
+    }
+    let drawn = document.report(mistakes, false);
+    assert_eq!(drawn.matches(&format!("{}:", document.path)).count(), mistakes.len(), "{drawn}");
+}
+
+pub(crate) fn check(bytes: &[u8]) {
+    let document = Document::from_bytes("stranger.toml", bytes);
+    match document.read() {
+        Err(mistakes) => return are_placed(&document, &mistakes),
+        Ok(checked) if checked.warnings.is_empty() => {}
+        Ok(checked) => are_placed(&document, &checked.warnings),
+    }
+    let sum =
+        bytes.iter().fold(0_u64, |sum, byte| sum.wrapping_mul(31).wrapping_add((*byte).into()));
+    if bytes.len() > SHORT || sum % RUN != 0 {
+        return;
+    }
+    let mut experiment = match Prepared::of(&document) {
+        Ok(ready) => ready.experiment,
+        Err(why) => return assert!(!why.report.is_empty() && !why.mistakes.is_empty()),
+    };
+    let frame = experiment.time() + 0.02 * experiment.speed().min(1e3);
+    experiment.advance(frame, 20);
+    let parts = (&**experiment.model(), experiment.system());
+    if let Ok(export) = Export::of(&document, parts, &experiment.snapshot()) {
+        let written = Document::new("written.toml", export.text.as_str());
+        let mistakes = written.read().err().unwrap_or_default();
+        assert!(mistakes.is_empty(), "{}", written.report(&mistakes, false));
+    }
+}

@@ -1,0 +1,110 @@
+//! What takes inputs of strangers: one row each, with what must hold of every input.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use phaselab::shell::config;
+
+use super::{cast, configuration, expression, preset, script, session, terminal};
+
+/// One kind of input.
+pub(crate) struct Target {
+    /// Its name, and that of its folder in `tests/corpus`.
+    pub(crate) name: &'static str,
+    /// Folders whose files are inputs too, from the root of the package.
+    folders: &'static [&'static str],
+    /// Inputs that the program writes itself.
+    own: fn() -> Vec<String>,
+    /// What its inputs are made of.
+    pub(crate) words: &'static [&'static str],
+    /// How many changed inputs are looked at in every run of the tests.
+    pub(crate) cases: u64,
+    /// Takes an input; panics where something does not hold.
+    pub(crate) check: fn(&[u8]),
+}
+
+pub(crate) const TARGETS: [Target; 7] = [
+    Target {
+        name: "presets",
+        folders: &["presets", "tests/bad"],
+        own: Vec::new,
+        words: preset::WORDS,
+        cases: 200,
+        check: preset::check,
+    },
+    Target {
+        name: "expressions",
+        folders: &[],
+        own: Vec::new,
+        words: expression::WORDS,
+        cases: 2000,
+        check: expression::check,
+    },
+    Target {
+        name: "input",
+        folders: &[],
+        own: Vec::new,
+        words: terminal::WORDS,
+        cases: 200,
+        check: terminal::check,
+    },
+    Target {
+        name: "casts",
+        folders: &[],
+        own: Vec::new,
+        words: cast::WORDS,
+        cases: 300,
+        check: cast::check,
+    },
+    Target {
+        name: "sessions",
+        folders: &[],
+        own: session::own,
+        words: session::WORDS,
+        cases: 200,
+        check: session::check,
+    },
+    Target {
+        name: "configuration",
+        folders: &["tests/bad-config"],
+        own: || vec![config::default_text()],
+        words: configuration::WORDS,
+        cases: 2000,
+        check: configuration::check,
+    },
+    Target {
+        name: "scripts",
+        folders: &["presets/demos"],
+        own: Vec::new,
+        words: script::WORDS,
+        cases: 1000,
+        check: script::check,
+    },
+];
+
+impl Target {
+    /// Its inputs, each with the place of its file.
+    pub(crate) fn corpus(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let own = format!("tests/corpus/{}", self.name);
+        let mut places = Vec::new();
+        for folder in [own.as_str()].iter().chain(self.folders) {
+            files(&root.join(folder), &mut places);
+        }
+        places.sort();
+        let kept = places.into_iter().map(|place| (place.clone(), fs::read(place).unwrap()));
+        let own = (self.own)().into_iter().map(|text| ("what it writes".into(), text.into_bytes()));
+        kept.chain(own).collect()
+    }
+}
+
+fn files(folder: &Path, places: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display())) {
+        let place = entry.unwrap().path();
+        if place.is_dir() {
+            files(&place, places);
+        } else {
+            places.push(place);
+        }
+    }
+}

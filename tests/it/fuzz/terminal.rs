@@ -1,0 +1,82 @@
+//! Bytes of a terminal: the same in whatever pieces they come, and the laboratory can be drawn after whatever they say.
+
+use std::sync::OnceLock;
+
+use crossterm::event::Event as Input;
+use phaselab::app::{App, Event};
+use phaselab::shell::decode;
+use phaselab::view::{draw, hit_targets};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::hand::in_lab;
+use crate::screen::rich;
+
+pub(crate) const WORDS: &[&str] = &[
+    "\x1b",
+    "\x1b[",
+    "\x1b[A",
+    "\x1b[1;5C",
+    "\x1bOP",
+    "\x1b[15~",
+    "\x1b[200~",
+    "\x1b[201~",
+    "\x1b[<0;40;12M",
+    "\x1b[<32;41;13M",
+    "\x1b[<0;41;13m",
+    "\x1b[<64;9;9M",
+    "\x1b[I",
+    "\x1b[O",
+    "\x1b]11;",
+    "\x07",
+    "\x1bP",
+    "\x1b\\",
+    "\x18",
+    "q",
+    "\r",
+    "\t",
+    "\x7f",
+    ":",
+    "/",
+    "?",
+    "m",
+    "v",
+    "E",
+    "2",
+    "9",
+    "l",
+    "+",
+    " ",
+    "é",
+    "θ",
+];
+
+/// The screen.
+const AREA: Rect = Rect::new(0, 0, 80, 24);
+
+fn lab() -> App {
+    static LAB: OnceLock<App> = OnceLock::new();
+    LAB.get_or_init(in_lab).clone()
+}
+
+pub(crate) fn check(bytes: &[u8]) {
+    let inputs = decode([bytes]);
+    let size = 1 + bytes.len() % 7;
+    assert_eq!(decode(bytes.chunks(size)), inputs, "in pieces of {size}");
+    assert!(inputs.len() <= bytes.len(), "more inputs than bytes");
+    let mut app = lab();
+    for input in inputs.into_iter().take(200) {
+        let event = match input {
+            Input::Key(key) => Event::Key(key),
+            Input::Paste(text) => Event::Paste(text),
+            Input::Mouse(mouse) => {
+                let targets = hit_targets(&app, &rich(), AREA);
+                let Some(target) = targets.at(mouse.column, mouse.row) else { continue };
+                Event::Mouse(mouse.kind, target)
+            }
+            Input::FocusGained | Input::FocusLost | Input::Resize(..) => continue,
+        };
+        app.update(event);
+    }
+    draw(&app, &rich(), AREA, &mut Buffer::empty(AREA));
+}
