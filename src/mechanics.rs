@@ -9,6 +9,7 @@ mod class;
 mod comparison;
 mod constrain;
 mod dimension;
+mod domain;
 mod equations;
 mod frames;
 mod hamilton;
@@ -30,6 +31,7 @@ use crate::model::{Mechanics, Model};
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use class::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
+pub use domain::widened;
 pub use equations::{
     Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
     Reason, Separable, Twin, WhyNot,

@@ -9,6 +9,7 @@
 
 mod attitude;
 mod beginning;
+mod branch;
 mod channel;
 mod compiled;
 mod conditions;
@@ -34,6 +35,7 @@ mod terms;
 mod value;
 mod watch;
 
+pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
 pub use constrained::{Directions, Keeper};

@@ -14,6 +14,8 @@ pub(super) struct Motion {
     observer: Observer,
     values: Vec<f64>,
     residuals: Vec<[f64; 2]>,
+    /// Of the motion, when the observer was made.
+    holdings: u64,
     watch: Watch,
 }
 
@@ -63,6 +65,7 @@ impl Motion {
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
             residuals: Vec::new(),
+            holdings: 0,
             watch: Watch::of(system, parameters),
         })
     }
@@ -183,10 +186,15 @@ impl Motion {
 
     fn take_in(&mut self, happening: &Happening) -> Result<(), Fault> {
         if matches!(happening.kind, Kind::Release(_)) {
-            let parameters = self.observer.parameters().to_vec();
-            self.observer = self.inner.system().observer(&parameters);
+            self.take_observer();
         }
         self.look()
+    }
+
+    /// Looks with the constraints that are held now.
+    fn take_observer(&mut self) {
+        let parameters = self.observer.parameters().to_vec();
+        self.observer = self.inner.system().observer(&parameters);
     }
 
     /// Moves the present to the end of what was computed before a fault.
@@ -197,7 +205,12 @@ impl Motion {
 
     fn look(&mut self) -> Result<(), Fault> {
         self.residuals = self.inner.residuals();
-        self.observer.observe(self.inner.state(), &mut self.values)
+        if self.holdings != self.inner.holdings() {
+            self.holdings = self.inner.holdings();
+            self.take_observer();
+        }
+        let outcome = self.observer.observe(self.inner.state(), &mut self.values);
+        outcome.map_err(|fault| self.inner.explained(fault))
     }
 
     /// Every channel's value just before the last blow.

@@ -12,7 +12,7 @@ use super::crossing::{Crossings, Found};
 use super::haste::Haste;
 use super::{Method, Refusal, Settings, Stepper, Unstable};
 use crate::expr::Double;
-use crate::system::{Fault, FaultKind, Form, Keeper, State, System};
+use crate::system::{Branch, Fault, FaultKind, Form, Keeper, State, System};
 pub use happening::{Happening, Kind};
 use watch::Watch;
 
@@ -59,6 +59,10 @@ pub struct Motion {
     /// Of each event.
     haste: Vec<Haste>,
     watch: Watch,
+    /// Where velocities are one of several that belong to the momenta: what tells their branch.
+    branch: Option<Branch>,
+    /// How often other constraints were held of those that repeat each other.
+    holdings: u64,
     ended: bool,
     steps: u64,
 }
@@ -95,6 +99,8 @@ impl Motion {
             stalled: 0,
             haste: vec![Haste::NONE; system.occasions().events.len()],
             watch: Watch::default(),
+            branch: None,
+            holdings: 0,
             ended: false,
             steps: 0,
         };
@@ -208,7 +214,28 @@ impl Motion {
             crossings.turn();
         }
         self.watch_from_here();
+        self.branch = self.system.branch(&self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)
+    }
+
+    /// A fault where a step has led to velocities on another branch: p = ∂L/∂q̇ turns back between.
+    fn check_branch(&mut self) -> Result<(), Fault> {
+        let Some(branch) = &mut self.branch else { return Ok(()) };
+        if branch.holds(self.stepper.state()) {
+            return Ok(());
+        }
+        let (begin, _) = self.stepper.interval();
+        let state = self.stepper.state();
+        Err(self.system.fault(FaultKind::BranchLeft, begin, &state.values))
+    }
+
+    /// Where constraints repeat each other, those are held that depend on each other least.
+    fn hold_anew(&mut self) -> Result<(), Fault> {
+        let state = self.stepper.state();
+        let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
+        let state = state.clone();
+        self.holdings += 1;
+        self.take_holding(system, &state)
     }
 
     /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
@@ -218,6 +245,10 @@ impl Motion {
     /// # Errors
     /// Where the motion cannot go on.
     pub fn reach(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, Fault> {
+        self.go_to(time, limit, budget).map_err(|fault| self.explained(fault))
+    }
+
+    fn go_to(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, Fault> {
         loop {
             if self.ended {
                 return Ok(Reached::Ended);
@@ -252,7 +283,7 @@ impl Motion {
                 && let Err(fault) = self.step(limit)
             {
                 self.note_passages(self.clear);
-                return Err(self.explained(fault));
+                return Err(fault);
             }
             self.scan()?;
         }
@@ -264,6 +295,8 @@ impl Motion {
         if self.calendar.stands_still(before.high) {
             return Err(stands_still(before.high));
         }
+        self.note_regular();
+        self.hold_anew()?;
         self.stepper.step(limit)?;
         let moved = (self.stepper.state().exact_time() - before).high > 0.0;
         self.stalled = if moved { 0 } else { self.stalled + 1 };
@@ -271,6 +304,7 @@ impl Motion {
             return Err(stands_still(before.high));
         }
         self.steps += 1;
+        self.check_branch()?;
         if self.keeper.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
             if let Some(keeper) = &mut self.keeper {
@@ -358,6 +392,12 @@ impl Motion {
     /// The system, without the constraints that were let go.
     pub fn system(&self) -> &System {
         &self.system
+    }
+
+    /// How often the [system](Motion::system) has come to hold others of constraints that repeat
+    /// each other: who looks at its states looks anew then.
+    pub fn holdings(&self) -> u64 {
+        self.holdings
     }
 
     /// The method.

@@ -15,18 +15,27 @@ pub struct Fault {
     pub place: Vec<(String, f64)>,
 }
 
-/// A method of fixed step that was seen to lead past a place where another one stops.
+/// A method that was seen to lead past a place where another one stops.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Passage {
     /// The method's name.
     pub method: &'static str,
-    /// The step it was tried with.
-    pub step: f64,
+    /// The step it was tried with, where its step is fixed.
+    pub step: Option<f64>,
+}
+
+impl fmt::Display for Passage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "--method {}", self.method)?;
+        self.step.map_or(Ok(()), |step| write!(f, " --step {}", short(step)))
+    }
 }
 
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FaultKind {
+    /// This, at a place that another method passes.
+    Passable(Box<FaultKind>, Passage),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
     /// The constraints are dependent there, or together with the mass matrix singular; how it is
@@ -49,6 +58,8 @@ pub enum FaultKind {
     NotFinite(String),
     /// The velocities that belong to given momenta (or the reverse) were not found.
     NoVelocities,
+    /// A step led to velocities on another branch of those that belong to the momenta.
+    BranchLeft,
     /// The equations of an implicit step were not solved; the step's size.
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
@@ -72,7 +83,13 @@ pub enum FaultKind {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let time = printable::number(self.time);
+        if let FaultKind::Passable(kind, passage) = &self.kind {
+            let Fault { time, place, .. } = self.clone();
+            let plain = Fault { time, kind: (**kind).clone(), place };
+            return write!(f, "{plain}; {passage} passes it");
+        }
         match &self.kind {
+            FaultKind::Passable(..) => {}
             FaultKind::SingularMass => write!(f, "the mass matrix is singular at t = {time}")?,
             FaultKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
@@ -105,6 +122,9 @@ impl fmt::Display for Fault {
             FaultKind::NotFinite(name) => write!(f, "{name} is no longer finite at t = {time}")?,
             FaultKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
+            }
+            FaultKind::BranchLeft => {
+                write!(f, "the branch of the velocities ends after t = {time}")?;
             }
             FaultKind::NoConvergence(step) => {
                 write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
@@ -143,12 +163,8 @@ impl fmt::Display for Fault {
             FaultKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
             FaultKind::SingularConstraints(passage) => {
                 f.write_str(": their directions depend on each other there, or one has none")?;
-                let Some(Passage { method, step }) = passage else { return Ok(()) };
-                return write!(
-                    f,
-                    "; --method {method} --step {} passes it, on the smooth one of its branches",
-                    short(*step)
-                );
+                let Some(passage) = passage else { return Ok(()) };
+                return write!(f, "; {passage} passes it, on the smooth one of its branches");
             }
             FaultKind::ConstraintParted(_) => {
                 ": the motion began at a singular configuration of the constraints"
@@ -157,19 +173,21 @@ impl fmt::Display for Fault {
             FaultKind::ConstraintMissed(..)
             | FaultKind::FreeVelocities(_)
             | FaultKind::SeveralStarts(_)
+            | FaultKind::Passable(..)
             | FaultKind::Cancelled => "",
             FaultKind::Contradiction => ": give fewer of them",
             FaultKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             FaultKind::NoVelocities => ": the momenta may lie outside their range",
+            FaultKind::BranchLeft => {
+                ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
+            }
             FaultKind::NoConvergence(_) => ": try a smaller step",
             FaultKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             FaultKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             FaultKind::NoInterval(..) => ": its interval must be above zero",
             FaultKind::TooManySteps(..) => ": try a larger step",
             FaultKind::PilesUp(_) => ": give the file an event that stops it before",
-            FaultKind::Rough => {
-                ": the rates of change have no limit there; --method dop853 may pass it"
-            }
+            FaultKind::Rough => ": the rates of change have no limit there",
             FaultKind::Sticks => ": both sides of a kink push towards it",
         })
     }

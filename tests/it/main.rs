@@ -14,6 +14,7 @@ mod expr;
 mod expr_parse;
 mod hand;
 mod happenings;
+mod impasse;
 mod layers;
 mod mechanics;
 mod methods;

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::body::Numbers;
 use crate::expr::Expr;
-use crate::mechanics::{Classed, Equations, Flow, casimir_rate, with_reactions};
+use crate::mechanics::{Classed, Equations, Flow, casimir_rate, widened, with_reactions};
 use crate::model::{Action, Direction, Event, Impulse, Mechanics, Model};
 
 pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -> String {
@@ -66,6 +66,7 @@ pub(super) fn write(model: &Model, equations: &Equations, classes: &[Classed]) -
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": model.info.title,
         "coordinates": names.collect::<Vec<_>>(),
+        "not_below_zero": list(&widened(model, equations)),
         "momenta": momenta,
         "equations": solved,
         "mass_matrix": mass_matrix,

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 use super::super::script::Script;
 use super::body::Numbers;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Equations, Flow, Reason, WhyNot};
+use crate::mechanics::{Class, Classed, Equations, Flow, Reason, WhyNot, widened};
 use crate::model::{Mechanics, Model};
 
 pub(super) fn write(
@@ -97,6 +97,15 @@ impl Page<'_> {
             }
         }
         self.section(title, &rows);
+        let widened = widened(model, self.equations);
+        if !widened.is_empty() {
+            self.line("");
+            self.line("Holds where");
+            for e in widened {
+                let e = self.math(e);
+                self.line(&format!("  {e} ≥ 0   (its root is squared away)"));
+            }
+        }
         self.structure(model);
     }
 

@@ -5,7 +5,7 @@
 use super::Motion;
 use crate::integrate::crossing::Found;
 use crate::model::Action;
-use crate::system::{Fault, FaultKind, State};
+use crate::system::{Fault, FaultKind, State, System};
 
 /// Something that happened.
 #[derive(Clone, PartialEq, Debug)]
@@ -97,7 +97,13 @@ impl Motion {
 
     /// Lets a constraint go at the present, which is `state` in the system's own form.
     pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), Fault> {
-        self.system = self.system.release(constraint, state, &self.parameters);
+        let system = self.system.release(constraint, state, &self.parameters);
+        self.take_holding(system, state)
+    }
+
+    /// Goes on at a state with other constraints held.
+    pub(super) fn take_holding(&mut self, system: System, state: &State) -> Result<(), Fault> {
+        self.system = system;
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
         }
