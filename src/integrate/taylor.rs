@@ -101,6 +101,14 @@ const SMALLEST: f64 = 1e-17;
 /// in double-double. What is nearer is reached.
 const NEAREST: f64 = 1e-30;
 
+/// The last terms of all series may have this part of their largest at a surface that is reached
+/// beyond the step, …
+const LAST_DIGIT: f64 = 1e-17;
+
+/// … and this one where it cannot be approached any farther; where they have more, as at a pole, it
+/// cannot be reached.
+const NEARLY: f64 = 1e-6;
+
 /// Steps that lead away from a place do not become shorter than by this.
 const SHRINKING: f64 = 0.1;
 
@@ -468,12 +476,14 @@ impl Stepper for Taylor {
         // steps away from a place that was passed become longer by themselves
         let leaving = self.leaving && step > SHRINKING * self.last;
         self.leaving &= step <= SMALLEST * time.high.abs();
-        if step <= SMALLEST * time.high.abs() && !approaching && !leaving {
+        let known = if nearest { NEARLY } else { LAST_DIGIT };
+        if vanishing {
+            crossing = crossing.filter(|crossing| crossing.is_known(&self.series, known));
+        }
+        let short = step <= SMALLEST * time.high.abs() && !approaching && !leaving;
+        if short || (nearest && crossing.is_none()) {
             let kind = FaultKind::StepUnderflow(step);
             return Err(self.system.fault(kind, time.high, &self.state.values));
-        }
-        if vanishing && !nearest {
-            crossing = crossing.filter(|crossing| crossing.is_known(&self.series));
         }
         if let Some(crossing) = &crossing {
             (last, after) = (false, crossing.after * scale);

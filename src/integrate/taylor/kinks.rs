@@ -43,13 +43,10 @@ pub(super) struct Crossing {
 /// something of its function.
 const LAST: f64 = 0.1;
 
-/// The last term of a number's series may have this part of its largest.
-const NOTHING: f64 = 1e-17;
-
 impl Crossing {
     /// Whether the series still say something there, beyond the step they allow: of the switches,
-    /// and to the last digit of every number.
-    pub(super) fn is_known(&self, series: &Series) -> bool {
+    /// and to this part of every number.
+    pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
         let last_of = |c: &[f64]| {
             let term = |k: usize| (c[k] * portable::powi(self.after.high, k as i32)).abs();
             let last = c.len() - 1;
@@ -59,7 +56,7 @@ impl Crossing {
         switches.map(|c| (last_of(c).0, c[0].abs())).all(|(last, first)| last <= LAST * first)
             && (0..series.inputs())
                 .map(|i| last_of(series.coefficients(i)))
-                .all(|(last, size)| last <= NOTHING * size)
+                .all(|(last, size)| last <= part * size)
     }
 }
 
