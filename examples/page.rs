@@ -1,4 +1,4 @@
-//! A page of one's own in phaselab's shell: a clock that runs until it is told otherwise.
+//! A page of one's own in phaselab's shell: a clock that runs until it is reported otherwise.
 //!
 //! `cargo run --example page`, then: Space holds it, `f` fills the screen with its digits, `i` opens a line of text, `M` has the mouse reported, `z` suspends, `p` panics, `t` panics on
 //! another thread, `q` quits. The tests of the shell run it on a pseudo-terminal.
@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use color_eyre::eyre::Result;
 use phaselab::app::{Code, Key, Mouse};
-use phaselab::shell::{Ending, Input, Pace, Page, Refusal, Wish, perform, report_panics};
+use phaselab::shell::{
+    Ending, Input, LabError, Pace, Screen, ScreenRequest, perform, report_panics,
+};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -36,14 +38,14 @@ impl Clock {
     }
 }
 
-impl Page for Clock {
-    fn input(&mut self, input: Input) -> Wish {
+impl Screen for Clock {
+    fn input(&mut self, input: Input) -> ScreenRequest {
         self.inputs += 1;
         match input {
             Input::Key(key) if self.typing.is_some() => self.typed(key),
-            Input::Key(key) if key == Key::char('q') => return Wish::Quit,
-            Input::Key(key) if key == Key::char('z') => return Wish::Suspend,
-            Input::Key(key) if key == Key::char('l') => return Wish::Repaint,
+            Input::Key(key) if key == Key::char('q') => return ScreenRequest::Quit,
+            Input::Key(key) if key == Key::char('z') => return ScreenRequest::Suspend,
+            Input::Key(key) if key == Key::char('l') => return ScreenRequest::Repaint,
             Input::Key(key) if key == Key::char(' ') => self.held = !self.held,
             Input::Key(key) if key == Key::char('f') => self.full = !self.full,
             Input::Key(key) if key == Key::char('i') => self.typing = Some(String::new()),
@@ -55,7 +57,7 @@ impl Page for Clock {
             Input::Paste(text) => self.typing = Some(text),
             Input::Key(key) if key == Key::char('M') => {
                 self.mouse = !self.mouse;
-                return Wish::Mouse(self.mouse);
+                return ScreenRequest::Mouse(self.mouse);
             }
             Input::Mouse(Mouse { column, row, act }) => {
                 self.typing = Some(format!("{act:?} {column} {row}"));
@@ -63,7 +65,7 @@ impl Page for Clock {
             Input::Resize(columns, rows) => self.size = (columns, rows),
             Input::Key(_) | Input::Focus(_) => {}
         }
-        Wish::Nothing
+        ScreenRequest::Nothing
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
@@ -120,7 +122,7 @@ fn main() -> Result<ExitCode> {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),
         Ok(Ending::Signal(number)) => Ok(ExitCode::from(128 + number as u8)),
-        Err(Refusal::NoTerminal(why)) => {
+        Err(LabError::TerminalError(why)) => {
             writeln!(stderr(), "{why}")?;
             Ok(ExitCode::from(2))
         }

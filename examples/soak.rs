@@ -10,13 +10,13 @@ use std::time::Duration;
 
 use color_eyre::eyre::{Result, eyre};
 use phaselab::app::{App, Event, Loaded};
-use phaselab::experiment::Ready;
+use phaselab::experiment::Prepared;
 use phaselab::preset::Catalog;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
-use phaselab::view::{self, Look};
+use phaselab::view::{self, RenderStyle};
 use ratatui::layout::Size;
 
 /// Pages of memory in use, as Linux counts them.
@@ -32,11 +32,11 @@ fn main() -> Result<ExitCode> {
     let count: u32 = words.next().map_or(Ok(1_000_000), |word| word.parse())?;
     let catalog = Catalog::with_folder(None);
     let document = catalog.find(&name)?;
-    let Ready { document, model, equations, system, mut experiment } = Ready::of(&document)?;
+    let Prepared { document, model, equations, system, mut experiment } = Prepared::of(&document)?;
     experiment.set_epoch(1);
     let (mut app, _) = App::new(&catalog, Some(&name));
     app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
-    let look = Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
     let mut frames = Frames::new(true);
     let (start, mut bytes, mut first) = (experiment.time(), 0, 0);
     for frame in 0..count {

@@ -6,6 +6,7 @@
 //! A key goes through [`keymap::KEYS`] to an [`Action`]; `perform` carries it out.
 
 mod action;
+mod buffer;
 mod change;
 mod choose;
 mod edit;
@@ -14,53 +15,52 @@ mod event;
 mod field;
 mod fuzzy;
 mod history;
+mod hit_target;
+mod impulse;
 mod key;
 pub mod keymap;
 mod lab;
 mod landscape;
 mod menu;
-mod meter;
 mod mouse;
-mod notice;
+mod notification;
 mod palette;
 mod perform;
 mod picker;
 mod plot;
-mod point;
+mod pointer;
 mod potential;
 mod prompt;
+mod rate;
 mod reading;
 mod saved;
-mod sheet;
 mod speed;
-mod spot;
-mod strike;
 mod update;
 mod value;
 mod workbench;
 
-pub use action::{Action, Axes, Way};
-pub use edit::{Checked, NotSaved, Work};
+pub use action::{Action, Axes, Direction};
+pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
+pub use edit::{Checked, EditCommand, SaveError};
 pub use editor::{Caret, Editor};
-pub use event::{Drawn, Effect, Event, LoadFailure, Loaded};
+pub use event::{Drawn, Effect, Event, LoadError, Loaded};
 pub use field::{Field, Purpose};
 pub use fuzzy::Fit;
+pub use hit_target::{Drag, HitTarget};
 pub use key::{Code, Key};
 pub use lab::{Lab, Pane, Selection};
 pub use menu::{Choice, Choosing, Item, Menu};
-pub use meter::Meter;
 pub use mouse::{Act, Mouse};
-pub use notice::Notice;
+pub use notification::Notification;
 pub use picker::Picker;
-pub use plot::{Eye, Lens, Plot};
+pub use plot::{CameraPose, Plot, Viewport};
 pub use potential::Potential;
 pub use prompt::Prompt;
+pub use rate::RateMeter;
 pub use reading::Reading;
 pub use saved::{Quantity, Saved, SavedPlot};
-pub use sheet::{Asking, Flaw, Sheet, State as SheetState, Unsaved};
-pub use spot::{Hold, Spot};
 pub use update::LONGEST_PASTE;
-pub use value::{Facts, Target};
+pub use value::{ValueId, ValueInfo};
 pub use workbench::Workbench;
 
 use serde::{Deserialize, Serialize};
@@ -75,15 +75,15 @@ pub struct App {
     /// What is shown.
     pub page: Page,
     /// What lies over it.
-    pub over: Option<Over>,
+    pub overlay: Option<Overlay>,
     /// The systems to choose from.
     pub picker: Picker,
     /// The loaded system, shown as a preview beside the picker.
     pub lab: Option<Lab>,
-    /// What is told in passing.
-    pub notice: Option<Notice>,
+    /// What is reported in passing.
+    pub notice: Option<Notification>,
     /// How fast things go.
-    pub meter: Meter,
+    pub meter: RateMeter,
     /// Whether the terminal is to report the mouse; its own selection of text does not work meanwhile.
     pub mouse: bool,
     /// Whether time is held from outside, as that of a demo is.
@@ -100,10 +100,10 @@ pub struct App {
     pub theme: Option<&'static str>,
     /// What is read on the page of plain reading.
     pub reading: Reading,
-    /// What is to be told after that.
-    news: notice::Queue,
+    /// What is to be reported after that.
+    notifications: notification::NotificationQueue,
     /// What the mouse holds on to.
-    pub hold: Option<Hold>,
+    pub hold: Option<Drag>,
     drawn: Drawn,
     /// The name last asked for, and whether the lab is to open once it is there.
     asked: Option<(String, bool)>,
@@ -124,7 +124,7 @@ pub enum Page {
     /// What follows from L or H.
     Equations,
     /// What the file says about itself.
-    Notes,
+    PendingSignals,
     /// Every channel as a number.
     Numbers,
     /// All that is on the screen as lines of plain text, which keep still.
@@ -133,7 +133,7 @@ pub enum Page {
 
 /// Something that lies over a page and takes its keys.
 #[derive(Clone, Debug)]
-pub enum Over {
+pub enum Overlay {
     /// The keys.
     Help {
         /// How far the page below was scrolled.
@@ -142,7 +142,7 @@ pub enum Over {
         editing: bool,
     },
     /// A text that must be read: what is wrong with a file.
-    Message(LoadFailure),
+    Message(LoadError),
     /// A pop-up list.
     Menu(Menu),
     /// A field.
@@ -158,11 +158,11 @@ impl App {
     pub fn new(catalog: &Catalog, open: Option<&str>) -> (Self, Vec<Effect>) {
         let mut app = Self {
             page: Page::Picker,
-            over: None,
+            overlay: None,
             picker: Picker::new(catalog.entries().to_vec()),
             lab: None,
             notice: None,
-            meter: Meter::default(),
+            meter: RateMeter::default(),
             mouse: false,
             held: false,
             recording: false,
@@ -171,7 +171,7 @@ impl App {
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),
-            news: notice::Queue::default(),
+            notifications: notification::NotificationQueue::default(),
             hold: None,
             drawn: Drawn::default(),
             asked: None,
@@ -206,8 +206,8 @@ impl App {
 
     /// The theme to be shown: the one selected while they are chosen from, else the one chosen.
     pub fn theme_shown(&self) -> Option<&'static str> {
-        let previewed = match &self.over {
-            Some(Over::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
+        let previewed = match &self.overlay {
+            Some(Overlay::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
                 Choice::Theme(index) => self.themes.get(index).map(|(name, _)| *name),
                 _ => None,
             }),
@@ -223,13 +223,15 @@ impl App {
 
     /// Where keys hold now, the innermost place first.
     pub fn places(&self) -> &'static [Place] {
-        match &self.over {
-            Some(Over::Help { .. } | Over::Message(_)) => chain([Place::Text, Place::Anywhere]),
-            Some(Over::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
-            Some(Over::Menu(_)) => chain([Place::Menu, Place::Typing]),
-            Some(Over::Field(_) | Over::Prompt(_)) => chain([Place::Field, Place::Typing]),
-            Some(Over::Workbench) => {
-                let asks = self.workbench.top().is_some_and(|sheet| sheet.asking.is_some());
+        match &self.overlay {
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => {
+                chain([Place::Text, Place::Anywhere])
+            }
+            Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
+            Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
+            Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),
+            Some(Overlay::Workbench) => {
+                let asks = self.workbench.top().is_some_and(|buffer| buffer.asking.is_some());
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
             }
@@ -239,8 +241,8 @@ impl App {
 
     /// Where keys hold on the page, or in the editor, under the help that lies over it.
     pub fn places_below(&self) -> &'static [Place] {
-        match self.over {
-            Some(Over::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
+        match self.overlay {
+            Some(Overlay::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
             _ => chain(self.places_of_page()),
         }
     }
@@ -257,7 +259,7 @@ impl App {
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
                 (Pane::Gauges, _) => [Place::Gauges, Place::Lab],
             },
-            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => {
+            (Page::Equations | Page::PendingSignals | Page::Numbers, Some(_)) => {
                 [Place::Text, Place::Experiment]
             }
             (Page::Plain, Some(_)) => [Place::Plain, Place::Experiment],

@@ -39,11 +39,11 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::expr::nearest;
+use crate::diagnostic::nearest;
 use crate::preset::{Catalog, is_path};
 use crate::printable;
 
-use failure::Failure;
+use failure::CommandError;
 use interrupt::Interrupt;
 
 pub use exit::{EXITS, Exit};
@@ -108,7 +108,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             // help that is asked for is no mistake
             if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
                 stderr::tell(&message);
-                return Failure::WrongUse(message).code();
+                return CommandError::WrongUse(message).code();
             }
             return refused(&words, &error);
         }
@@ -126,7 +126,7 @@ fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&command().try_get_matches_from(words)?)
 }
 
-fn perform(arguments: Arguments) -> Result<(), Failure> {
+fn perform(arguments: Arguments) -> Result<(), CommandError> {
     let Some(command) = arguments.command else { return lab::perform(&arguments.lab) };
     let interrupt = Interrupt::watch();
     match command {
@@ -151,8 +151,8 @@ fn perform(arguments: Arguments) -> Result<(), Failure> {
 fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         let printed = error.print().and_then(|()| io::stdout().flush());
-        return match printed.map_err(|why| Failure::writing("standard output", &why)) {
-            Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
+        return match printed.map_err(|why| CommandError::writing("standard output", &why)) {
+            Ok(()) | Err(CommandError::NobodyReads) => ExitCode::SUCCESS,
             Err(failure) => {
                 stderr::tell(failure.message());
                 failure.code()
@@ -203,7 +203,7 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     if let Some(near) = nearest(first, names.iter().copied()) {
         return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
     }
-    // an option behind a preset's name is the lab's, and what is wrong with it is told
+    // an option behind a preset's name is the lab's, and what is wrong with it is reported
     if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
         return None;
     }

@@ -4,16 +4,16 @@
 //! Never here: threads, clocks, terminals.
 
 mod attitude;
-mod chronicle;
+mod checkpoint;
 mod command;
 mod deviation;
+mod event_log;
+mod execute;
 mod export;
 mod gauges;
 mod law;
-mod moment;
-mod motion;
-mod obey;
-mod ready;
+mod observed_motion;
+mod prepared;
 mod recorder;
 mod residual;
 mod setup;
@@ -23,26 +23,26 @@ mod trail;
 use std::sync::Arc;
 
 use crate::cancel::Cancel;
-use crate::expr::portable;
 use crate::integrate::Stepping;
 use crate::mechanics::Equations;
 use crate::model::Model;
+use crate::num::math;
 use crate::system::{self, State, System};
 
 pub use crate::analysis::{Growth, Verdict};
-pub use chronicle::{Chronicle, Tally};
+pub use checkpoint::{Changed, Checkpoint, MotionState, Named, Past, Reference};
 pub use command::Command;
+pub use event_log::{EventCount, EventLog};
 pub use export::Export;
-pub use moment::{Changed, Moment, Named, Past, Reference, Whereabouts};
-pub use ready::{Ready, Unready};
-pub use setup::{NoMethod, Setup, choose_method, with_given};
-pub use snapshot::{Fault, Gauge, MethodFact, Snapshot, Status};
+pub use prepared::{PrepareError, Prepared};
+pub use setup::{MethodNotFound, Setup, choose_method, with_override};
+pub use snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
 pub use trail::Trail;
 
-use crate::integrate::{Happening, Kind, Reached};
+use crate::integrate::{Occurrence, OccurrenceKind, Reached};
+use execute::short;
 use gauges::{Gauges, Present};
-use motion::Motion;
-use obey::short;
+use observed_motion::ObservedMotion;
 use recorder::Recorder;
 
 /// A system in motion, with its gauges and its recorded past.
@@ -52,16 +52,16 @@ pub struct Experiment {
     setup: Setup,
     /// The same as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
-    motion: Motion,
+    motion: ObservedMotion,
     recorder: Recorder,
     gauges: Gauges,
     running: bool,
-    fault: Option<Fault>,
+    fault: Option<Failure>,
     epoch: u64,
     notices: Vec<String>,
     /// What happened since the last restart.
-    happenings: Chronicle,
-    /// The names of those that were told of.
+    occurrences: EventLog,
+    /// The names of those that were reported of.
     told: Vec<String>,
     /// The event that ended the motion.
     ended: Option<String>,
@@ -93,9 +93,9 @@ impl Experiment {
         equations: &Arc<Equations>,
         system: &System,
         setup: Setup,
-    ) -> Result<Experiment, NoMethod> {
+    ) -> Result<Experiment, MethodNotFound> {
         let method = choose_method(system, &setup.method)?;
-        let motion = Motion::new(system, method, setup.settings, &setup.parameters)?;
+        let motion = ObservedMotion::new(system, method, setup.settings, &setup.parameters)?;
         let mut experiment = Experiment {
             model: Arc::clone(model),
             initial: Arc::default(),
@@ -106,7 +106,7 @@ impl Experiment {
             fault: None,
             epoch: 0,
             notices: Vec::new(),
-            happenings: Chronicle::default(),
+            occurrences: EventLog::default(),
             told: Vec::new(),
             ended: None,
             taken_up: false,
@@ -149,7 +149,7 @@ impl Experiment {
     /// Whether time runs, is held, or cannot go on.
     pub fn status(&self) -> Status {
         match (&self.fault, self.running) {
-            (Some(fault), _) => Status::Faulted(fault.clone()),
+            (Some(fault), _) => Status::Failed(fault.clone()),
             _ if self.ended.is_some() => Status::Ended(self.ended.clone().unwrap_or_default()),
             (None, true) => Status::Running,
             (None, false) => Status::Paused,
@@ -193,13 +193,13 @@ impl Experiment {
     }
 
     /// What happened since the last restart, in time.
-    pub fn happenings(&self) -> &Chronicle {
-        &self.happenings
+    pub fn occurrences(&self) -> &EventLog {
+        &self.occurrences
     }
 
     /// From now on what happens is counted only, and not kept: for who does not list it.
-    pub fn only_count_happenings(&mut self) {
-        self.happenings.only_count();
+    pub fn only_count_occurrences(&mut self) {
+        self.occurrences.only_count();
     }
 
     /// A sentence on the singular configurations of the constraints that the motion has passed.
@@ -242,7 +242,7 @@ impl Experiment {
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
-            happenings: self.happenings.clone(),
+            occurrences: self.occurrences.clone(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -257,7 +257,7 @@ impl Experiment {
     fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
-        self.happenings.clear();
+        self.occurrences.clear();
         self.told.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -274,7 +274,7 @@ impl Experiment {
         }
     }
 
-    fn initial_state(&self) -> Result<State, system::Fault> {
+    fn initial_state(&self) -> Result<State, system::MotionError> {
         let Setup { start, parameters, given, .. } = &self.setup;
         self.motion.whole().initial(*start, parameters, given)
     }
@@ -296,10 +296,10 @@ impl Experiment {
         let reached = loop {
             let gauges = (&mut self.gauges, self.recorder.spacing());
             match self.motion.reach(time, limit, budget, gauges) {
-                Ok(Reached::Happened(happening)) => {
-                    let name = happening.name.clone();
-                    match self.note(happening) {
-                        Ok(sentence) => self.tell_once(name, sentence),
+                Ok(Reached::Happened(occurrence)) => {
+                    let name = occurrence.name.clone();
+                    match self.note(occurrence) {
+                        Ok(sentence) => self.report_once(name, sentence),
                         Err(fault) => break Err(fault),
                     }
                 }
@@ -307,10 +307,10 @@ impl Experiment {
             }
         };
         if let Some(sentence) = self.singular_passages() {
-            self.tell_once("singular configuration".to_owned(), sentence);
+            self.report_once("singular configuration".to_owned(), sentence);
         }
         if let Some(sentence) = self.unstable() {
-            self.tell_once(sentence.clone(), sentence);
+            self.report_once(sentence.clone(), sentence);
         }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
@@ -326,22 +326,22 @@ impl Experiment {
     }
 
     /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
-    /// from what a blow left. Returns a sentence on it.
-    fn note(&mut self, happening: Happening) -> Result<String, system::Fault> {
-        let lead = format!("{} at t = {}", happening.name, short(happening.time));
-        let sentence = match &happening.kind {
-            Kind::Mark => lead,
-            Kind::Stop => {
-                self.ended = Some(happening.name.clone());
+    /// from what an impulse left. Returns a sentence on it.
+    fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
+        let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
+        let sentence = match &occurrence.kind {
+            OccurrenceKind::Mark => lead,
+            OccurrenceKind::Stop => {
+                self.ended = Some(occurrence.name.clone());
                 format!("{lead}: the motion ends")
             }
-            Kind::Release(constraint) => {
+            OccurrenceKind::Release(constraint) => {
                 let name = &self.model.constraints[*constraint].name;
                 format!("{lead}: the constraint {name} holds no longer")
             }
-            Kind::Blow { .. } => {
+            OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;
-                self.recorder.insert(happening.time, &before);
+                self.recorder.insert(occurrence.time, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
                 let given = self.energy_of(after) - self.energy_of(&before);
@@ -349,13 +349,13 @@ impl Experiment {
                 format!("{lead}: energy {sign}{}", short(given.abs()))
             }
         };
-        self.recorder.insert(happening.time, self.motion.values());
-        self.happenings.push(happening);
+        self.recorder.insert(occurrence.time, self.motion.values());
+        self.occurrences.push(occurrence);
         Ok(sentence)
     }
 
     /// Tells of what happens by itself: of what happens again and again only the first time.
-    fn tell_once(&mut self, name: String, sentence: String) {
+    fn report_once(&mut self, name: String, sentence: String) {
         if !self.told.contains(&name) {
             self.told.push(name);
             self.tell(sentence);
@@ -385,7 +385,7 @@ impl Experiment {
             return least;
         }
         // in powers of two, so that it does not change with every step
-        (least * portable::exp2(portable::log2(smooth / least).floor())).min(most)
+        (least * math::exp2(math::log2(smooth / least).floor())).min(most)
     }
 
     /// Has the gauges look at the present.

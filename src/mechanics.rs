@@ -5,8 +5,7 @@
 
 mod attitude;
 mod bracket;
-mod class;
-mod comparison;
+mod conservation;
 mod constrain;
 mod dimension;
 mod domain;
@@ -18,32 +17,33 @@ mod lagrange;
 mod legendre;
 mod linear;
 mod modulo;
-mod nearby;
 mod observe;
 mod poisson;
+mod poisson_structure;
 mod rigid_body;
-mod structure;
+mod sampling;
 mod symmetry;
+mod vakonomic;
 
 use crate::expr::NODE_LIMIT;
 use crate::model::{Mechanics, Model};
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use class::{Class, Classed, class_of, classes};
+pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use domain::widened;
 pub use equations::{
-    Beside, Carried, CarriedRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
-    Reason, Separable, Twin, WhyNot,
+    Auxiliary, AuxiliaryRates, Conserved, ConstraintRow, CoordinateSymbols, Equations, Flow,
+    NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use frames::Apparent;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
-pub use nearby::{POINTS, Point, TRIES};
+pub use poisson_structure::{StructureError, flaws};
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
-pub use structure::{Flaw, flaws};
+pub use sampling::{POINTS, Point, TRIES};
 
 /// The most pieces a solved or transformed expression may have and still be worth writing down.
 pub const CLOSED_FORM_LIMIT: u64 = 10_000;
@@ -52,7 +52,7 @@ pub const CLOSED_FORM_LIMIT: u64 = 10_000;
 ///
 /// # Errors
 /// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
-pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
+pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut pool = model.pool.clone();
     let constraints = model.constraints.iter().map(|c| c.expression);
     let given = [model.mechanics.function().1, model.mechanics.dissipation()];
@@ -72,16 +72,18 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
             poisson::equations(&mut pool, model, *hamiltonian, brackets, forces)
         }
     };
-    equations.beside.body = model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
+    equations.supplements.body =
+        model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
     attitude::find(&mut equations, model);
-    equations.beside.frames = frames::find(model, &mut equations);
+    equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
-        equations.beside.twin = Some(comparison::twin(&mut equations, model, comparison));
+        equations.supplements.vakonomic =
+            Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    if !equations.beside.carried.is_empty() {
+    if !equations.supplements.auxiliary.is_empty() {
         let why = "numbers are carried along that do not follow from H";
-        equations.separable = Err(WhyNot(why.to_owned()));
+        equations.separable = Err(NoClosedForm(why.to_owned()));
     }
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
@@ -90,8 +92,8 @@ pub fn derive(model: &Model) -> Result<Equations, WhyNot> {
     Ok(equations)
 }
 
-fn too_large() -> WhyNot {
-    WhyNot(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
+fn too_large() -> NoClosedForm {
+    NoClosedForm(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
 }
 
 /// The pieces of the longest expression derived, written out.

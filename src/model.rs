@@ -17,7 +17,7 @@ use crate::expr::{Expr, Pool, Symbol};
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
 pub use claim::{
-    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, Place,
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable, SourceRange,
 };
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
@@ -45,7 +45,7 @@ pub struct Model {
     pub mechanics: Mechanics,
     /// What the motion is held to; beside a Lagrangian only.
     pub constraints: Vec<Constraint>,
-    /// Blows.
+    /// Impulses.
     pub impulses: Vec<Impulse>,
     /// Crossings to be located.
     pub events: Vec<Event>,
@@ -58,7 +58,7 @@ pub struct Model {
     /// Frames a picture may be seen from.
     pub frames: Vec<Frame>,
     /// Where its law, L or H, stands in the file.
-    pub law_place: Place,
+    pub law_place: SourceRange,
     /// What the file wants to be watched.
     pub observables: Vec<Observable>,
     /// What the file claims of itself.
@@ -125,11 +125,11 @@ pub enum Mechanics {
         /// {x_i, x_j}, antisymmetric, of (x, t).
         brackets: Vec<Vec<Expr>>,
         /// Name, expression and place of each Casimir.
-        casimirs: Vec<(String, Expr, Place)>,
+        casimirs: Vec<(String, Expr, SourceRange)>,
         /// What is added to each ẋ; zero where there is none.
         forces: Vec<Expr>,
         /// Where the brackets stand in the file.
-        place: Place,
+        place: SourceRange,
     },
 }
 
@@ -177,7 +177,7 @@ pub struct RunSettings {
     /// The method's name, or `auto`.
     pub method: String,
     /// Where the file names it, for whoever knows the methods.
-    pub method_place: Option<Place>,
+    pub method_place: Option<SourceRange>,
     /// Simulated seconds per second of the wall clock.
     pub speed: f64,
     /// The time of the initial values.
@@ -189,7 +189,7 @@ pub struct RunSettings {
     /// The relative tolerance of an adaptive method.
     pub tolerance: Option<f64>,
     /// Where the file gives the tolerance or the step, for whoever knows what a method takes.
-    pub settings_place: Option<Place>,
+    pub settings_place: Option<SourceRange>,
 }
 
 impl Default for RunSettings {

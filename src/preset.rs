@@ -9,23 +9,23 @@ mod catalog;
 mod check;
 mod document;
 mod draft;
-mod edition;
-mod grammar;
 mod mistake;
 mod report;
+mod rewrite;
 mod settings;
+mod toml_errors;
 
 use crate::cancel::Cancel;
 use crate::model::Model;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, is_path};
 pub use document::Document;
-pub use edition::{Beginning, Edition};
-pub use mistake::{Mistake, Severity};
+pub use mistake::{Diagnostic, Severity};
 pub use report::report;
+pub use rewrite::{Beginning, Rewrite};
 pub use settings::{Entry as Setting, Plain};
 
-use mistake::Mistakes;
+use mistake::Diagnostics;
 
 /// The most bytes a file may have.
 pub const TEXT_LIMIT: usize = 1 << 20;
@@ -36,14 +36,14 @@ pub struct Checked {
     /// The system it describes.
     pub model: Model,
     /// What is allowed but probably not meant.
-    pub warnings: Vec<Mistake>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// Reads a preset.
 ///
 /// # Errors
 /// All mistakes of the file (warnings among them), in the order of their places; never empty.
-pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
+pub fn read(text: &str) -> Result<Checked, Vec<Diagnostic>> {
     read_with(text, &Cancel::new())
 }
 
@@ -51,12 +51,12 @@ pub fn read(text: &str) -> Result<Checked, Vec<Mistake>> {
 ///
 /// # Errors
 /// Those of [`read`].
-pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Mistake>> {
+pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
     if text.len() > TEXT_LIMIT {
         return Err(vec![document::too_long(text.len() as u64)]);
     }
-    let mut mistakes = Mistakes::default();
-    let table = grammar::parse(text, &mut mistakes);
+    let mut mistakes = Diagnostics::default();
+    let table = toml_errors::parse(text, &mut mistakes);
     if mistakes.lost_track() {
         return mistakes.conclude(None);
     }

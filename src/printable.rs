@@ -12,7 +12,7 @@ use std::path::Path;
 /// The most characters of a piece of text quoted in a sentence.
 pub const QUOTED: usize = 80;
 
-/// Beyond these magnitudes a number is told with an exponent; it would have too many digits.
+/// Beyond these magnitudes a number is reported with an exponent; it would have too many digits.
 const LARGE: f64 = 1e15;
 const SMALL: f64 = 1e-5;
 

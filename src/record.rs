@@ -1,26 +1,26 @@
 //! The record room: a script of keys, waits and captions played on a virtual clock, and what comes of it.
 //!
-//! In: a [`Script`] and the system it is about. Out: a [`Recording`], written as a cast for asciinema ([`cast`]) or as a
-//! textual account ([`account`]); the same as someone watches ([`Performance`]); casts read back ([`Tape`]). Time is counted in whole microseconds and passes only
+//! In: a [`Script`] and the system it is about. Out: a [`Recording`], written as a cast for asciinema ([`cast_writer`]) or as a
+//! textual account ([`transcript`]); the same as someone watches ([`ScriptRunner`]); casts read back ([`RecordedCast`]). Time is counted in whole microseconds and passes only
 //! by frames, so the same script gives the same bytes on every machine. Never here: a clock, a terminal, a thread,
 //! a file, the environment.
 
-pub mod account;
-pub mod cast;
+pub mod cast_writer;
 pub mod data;
+pub mod screenshot;
 pub mod script;
-pub mod still;
+pub mod transcript;
 
 mod assertion;
+mod cast_reader;
 mod clock;
-mod laboratory;
-mod performance;
+mod headless_lab;
 mod plain;
 mod recording;
-mod tape;
+mod script_runner;
 
-pub use performance::Performance;
+pub use cast_reader::{CastError, CastEvent, RecordedCast};
 pub use plain::plain;
 pub use recording::{Entry, Event, Marker, Recording, play};
 pub use script::Script;
-pub use tape::{Tape, TapeError, Turn};
+pub use script_runner::ScriptRunner;

@@ -1,7 +1,7 @@
 //! The shell: the only doer. Terminal in and out, signals, the frame loop, and what the application asks for.
 //!
 //! In: what to open and how to show it. Out: how it ended; the terminal as it was. Never here: what a key means, what
-//! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Page`] that takes inputs and
+//! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Screen`] that takes inputs and
 //! can be drawn.
 //!
 //! It is at home on Unix terminals, and speaks to them itself: crossterm's reader panics on a malformed mouse report,
@@ -10,11 +10,14 @@
 //! environment says what there is to know.
 
 mod bandwidth;
+mod cast_player;
 mod checker;
 pub mod config;
 mod demo;
 mod diagnosis;
+mod file_writer;
 mod files;
+mod frame_loop;
 mod fresh;
 mod governor;
 mod input;
@@ -25,36 +28,34 @@ pub mod options;
 mod panic;
 mod partial;
 mod product;
-mod projector;
 mod queue;
 mod recorder;
 mod regular;
 mod request;
-mod scribe;
 mod session;
 mod signals;
-mod stage;
 mod store;
 mod terminal;
 pub(crate) mod whole;
 
-pub use bandwidth::{Bandwidth, NotBandwidth};
+pub use bandwidth::{Bandwidth, BandwidthError};
+pub use cast_player::CastPlayer;
 pub use diagnosis::{Finding, diagnosis};
+pub use frame_loop::{Ending, Pace, Screen, ScreenRequest, perform};
 pub use input::{Input, PASTE_LIMIT};
-pub use log::{LogFile, NoLog};
+pub use log::{LogError, LogFile};
 pub use options::Options;
 pub use panic::report_panics;
-pub use projector::Projector;
-pub use request::{MOST_FRAMES, Refusal, Request};
-pub use stage::{Ending, Pace, Page, Wish, perform};
-pub use store::NoSession;
-pub use terminal::NoTerminal;
+pub use request::{LabError, MOST_FRAMES, Request};
+pub use store::SessionError;
+pub use terminal::TerminalError;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-use crate::preset::{Catalog, Mistake};
-use crate::record::{Performance, Tape, still};
+use crate::diagnostic::Diagnostic;
+use crate::preset::Catalog;
+use crate::record::{RecordedCast, ScriptRunner, screenshot};
 use demo::Demo;
 use log::Log;
 pub(crate) use partial::remove_all as remove_partial_files;
@@ -66,8 +67,8 @@ use store::Store;
 /// # Errors
 /// Where there is no terminal, no session or nothing of that name, before the screen is touched; and where the session
 /// could not be saved, after it was left.
-pub fn run(request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
+pub fn run(request: &Request) -> Result<Ending, LabError> {
+    TerminalError::check()?;
     let catalog = Catalog::load();
     let mut request = request.clone();
     let saved = if request.resume { Some(store::read()?) } else { None };
@@ -103,7 +104,7 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
     session.log.close();
     drop(session);
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
-    let lost = kept.map_err(Refusal::Unsaved).and(recorded.map_err(Refusal::Unrecorded));
+    let lost = kept.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
     match (lost, ending) {
         (Err(why), Ending::Quit) => Err(why),
         (Err(why), Ending::Signal(_) | Ending::Gone) => {
@@ -119,10 +120,10 @@ pub fn run(request: &Request) -> Result<Ending, Refusal> {
 ///
 /// # Errors
 /// Where there is no terminal, before the screen is touched.
-pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
-    NoTerminal::check()?;
+pub fn show(tape: RecordedCast, request: &Request) -> Result<Ending, LabError> {
+    TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    perform(&mut Projector::new(tape, request.look(&variable)), request.pace(&variable))
+    perform(&mut CastPlayer::new(tape, request.look(&variable)), request.pace(&variable))
 }
 
 /// Performs a demo on the terminal until it ends or is left. What it ends with: its last picture as text with colours, where
@@ -131,10 +132,10 @@ pub fn show(tape: Tape, request: &Request) -> Result<Ending, Refusal> {
 /// # Errors
 /// Where there is no terminal, before the screen is touched.
 pub fn perform_demo(
-    performance: Performance,
+    performance: ScriptRunner,
     request: &Request,
-) -> Result<(Ending, Result<Option<String>, Mistake>), Refusal> {
-    NoTerminal::check()?;
+) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
+    TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     let look = request.look(&variable);
     let palette = look.theme.palette();

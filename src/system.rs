@@ -8,45 +8,47 @@
 //! symbols after compiling.
 
 mod attitude;
-mod beginning;
 mod branch;
 mod channel;
 mod compiled;
 mod conditions;
+mod consistent_initial;
 mod constrained;
+mod discontinuities;
+mod error;
 mod exact;
-mod fault;
-mod hold;
+mod inertia;
 mod jet;
-mod kept;
+mod kkt;
 mod legendre;
 mod lower;
-mod moments;
-mod motion;
+mod observables;
 mod observe;
-mod occasions;
 mod program;
+mod projection;
 mod rates;
 mod resolution;
+mod rhs;
 mod series;
 mod solve;
 mod state;
 mod terms;
 mod value;
-mod watch;
 
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
-pub use constrained::{Directions, Keeper};
+pub use constrained::{ConstraintProjector, Directions};
+pub use discontinuities::{
+    CompiledEvent, CompiledImpulse, Discontinuities, EventFunctions, ImpulseOutcome, Schedule,
+};
+pub use error::{MotionError, MotionErrorKind, Passage};
 pub use exact::ExactRates;
-pub use fault::{Fault, FaultKind, Passage};
 pub use jet::{Jet, Side};
 pub use observe::Observer;
-pub use occasions::{Blow, Occasions, Schedule, Struck, Trigger, Triggers};
 pub use program::{Program, Singular};
 pub use rates::Rates;
 pub use series::Series;
-pub use state::{Form, Given, State};
+pub use state::{Form, InitialOverride, State};
 pub use terms::TermWatch;
-pub use value::Values;
+pub use value::Evaluator;

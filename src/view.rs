@@ -4,7 +4,7 @@
 //! or a change of anything that is drawn.
 //!
 //! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
-//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`strip`], [`plot`] and [`frame`].
+//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`sparkline`], [`plot`] and [`frame`].
 
 pub mod caption;
 pub mod card;
@@ -14,19 +14,19 @@ pub mod glyphs;
 pub mod number;
 pub mod plot;
 pub mod sgr;
-pub mod strip;
+pub mod sparkline;
 pub mod theme;
 
-mod bars;
 mod canvas;
 mod cursor;
-mod desk;
 mod detail;
-mod document;
 mod equations;
-mod found;
 mod gauges;
+mod header_footer;
 mod help;
+mod highlight;
+mod hit_test;
+mod lab_page;
 mod layout;
 mod marks;
 mod menu;
@@ -40,7 +40,7 @@ mod prompt;
 mod quantity;
 mod series;
 mod space;
-mod spot;
+mod text_page;
 mod values;
 mod workbench;
 mod wrap;
@@ -48,19 +48,19 @@ mod wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::app::{App, Drawn, Lab, Over, Page, Spot};
+use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 use canvas::{Canvas, row};
 pub use detail::Detail;
-use document::Document;
 use glyphs::Glyphs;
+pub use hit_test::{HitTest, spot, spots};
 use layout::{LEAST, Screen};
 use quantity::Quantities;
-pub use spot::{Spots, spot, spots};
+use text_page::TextPage;
 use theme::{Role, Theme};
 
 /// How the screen looks: what the terminal can show, and in which colours.
 #[derive(Clone, Debug)]
-pub struct Look {
+pub struct RenderStyle {
     /// The colours.
     pub theme: Theme,
     /// The characters.
@@ -68,7 +68,7 @@ pub struct Look {
 }
 
 /// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
-pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
+pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
     let themed = look.chosen_by(app);
     let look = themed.as_ref().unwrap_or(look);
     let mut canvas = Canvas::over(buffer, look);
@@ -76,7 +76,7 @@ pub fn draw(app: &App, look: &Look, area: Rect, buffer: &mut Buffer) -> Drawn {
     Drawn { cursor: canvas.cursor.map(|at| (at.x, at.y)), ..drawn }
 }
 
-impl Look {
+impl RenderStyle {
     /// The look in the theme that a person chose, if it is another than this one's.
     fn chosen_by(&self, app: &App) -> Option<Self> {
         let name = app.theme_shown().filter(|name| *name != self.theme.palette().name)?;
@@ -93,30 +93,30 @@ fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     // What is read keeps still, and says the status itself.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     let screen = Screen::of(area, status);
-    bars::header(canvas, screen.header, app);
+    header_footer::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
-    bars::notice(canvas, screen.body, app);
-    bars::status(canvas, screen.status, app);
-    bars::footer(canvas, screen.footer, app);
+    header_footer::notice(canvas, screen.body, app);
+    header_footer::status(canvas, screen.status, app);
+    header_footer::footer(canvas, screen.footer, app);
     drawn
 }
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let look = canvas.look;
     let over = app.over.as_ref();
-    if let Some(Over::Help { .. }) = over {
+    if let Some(Overlay::Help { .. }) = over {
         let page = help::document(look, app.places_below());
         return text(canvas, area, "Keys", page, app.scroll);
     }
-    if let Some(Over::Message(failure)) = over {
-        let mut page = Document::default();
+    if let Some(Overlay::Message(failure)) = over {
+        let mut page = TextPage::default();
         for line in failure.message.lines() {
             page.row(vec![(Role::Text, line.to_owned())]);
         }
         let title = format!("{} has mistakes", failure.name);
         return text(canvas, area, &title, page, app.scroll);
     }
-    if let (Some(sheet), Some(lab)) = (app.open_sheet(), &app.lab) {
+    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
         return workbench::draw(canvas, area, (app, lab), sheet);
     }
     let drawn = match (app.page, &app.lab) {
@@ -125,14 +125,14 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             Drawn::default()
         }
         (Page::Lab, Some(lab)) => {
-            desk::draw(canvas, area, app, lab);
+            lab_page::draw(canvas, area, app, lab);
             Drawn::default()
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };
     match (over, &app.lab) {
-        (Some(Over::Menu(menu)), _) => menu::draw(canvas, area, menu),
-        (Some(Over::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
+        (Some(Overlay::Menu(menu)), _) => menu::draw(canvas, area, menu),
+        (Some(Overlay::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
         _ => {}
     }
     drawn
@@ -141,7 +141,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
     let look = canvas.look;
     if page == Page::Plain {
-        canvas.spot(area, Spot::Text);
+        canvas.spot(area, HitTarget::Text);
         let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
         let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
         let document = read.map(|q| plain::document(&q)).unwrap_or_default();
@@ -149,7 +149,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
     }
     let (title, document) = match page {
         Page::Equations => ("Equations", equations::document(lab, look)),
-        Page::Notes => ("Notes", notes::document(lab, look)),
+        Page::PendingSignals => ("Notes", notes::document(lab, look)),
         _ => {
             let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q));
             ("Numbers", numbers.unwrap_or_default())
@@ -158,10 +158,10 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
     text(canvas, area, title, document, app.scroll)
 }
 
-fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: Document, scroll: u16) -> Drawn {
+fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, Spot::Text);
+    canvas.spot(area, HitTarget::Text);
     page.draw(canvas, inner, scroll)
 }
 

@@ -7,8 +7,8 @@
 //! stopped within its step, by its token. Never here: terminals, physics, drawing.
 
 mod pace;
+mod runnable;
 mod slice;
-mod subject;
 mod thread;
 
 use std::io;
@@ -22,9 +22,9 @@ use arc_swap::ArcSwapOption;
 use crate::cancel::Cancel;
 use crate::experiment::{Command, Snapshot};
 
-pub use subject::Subject;
+pub use runnable::Runnable;
 
-use thread::Letter;
+use thread::Message;
 
 /// The name of the worker's thread, for a panic hook to tell it from the one that owns the
 /// terminal.
@@ -37,7 +37,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// A thread and the two ways to and from it. Dropping it ends the thread.
 #[derive(Debug)]
 pub struct Worker {
-    mailbox: Sender<Letter>,
+    mailbox: Sender<Message>,
     slot: Arc<ArcSwapOption<Snapshot>>,
     seen: Option<Arc<Snapshot>>,
     epoch: u64,
@@ -53,13 +53,13 @@ impl Worker {
     /// # Errors
     /// Where the system has no thread to give.
     pub fn idle() -> io::Result<Worker> {
-        let (mailbox, letters) = mpsc::channel();
+        let (mailbox, messages) = mpsc::channel();
         let slot = Arc::new(ArcSwapOption::empty());
         let theirs = Arc::clone(&slot);
         let (ended, end) = mpsc::channel();
         Builder::new().name(THREAD_NAME.to_owned()).spawn(move || {
             let _ended: Sender<()> = ended;
-            thread::run(&letters, &theirs);
+            thread::run(&messages, &theirs);
         })?;
         Ok(Worker { mailbox, slot, seen: None, epoch: 0, cancel: Cancel::new(), end })
     }
@@ -68,7 +68,7 @@ impl Worker {
     ///
     /// # Errors
     /// Where the system has no thread to give.
-    pub fn spawn(subject: impl Subject + 'static) -> io::Result<Worker> {
+    pub fn spawn(subject: impl Runnable + 'static) -> io::Result<Worker> {
         let mut worker = Worker::idle()?;
         worker.load(subject);
         Ok(worker)
@@ -76,12 +76,12 @@ impl Worker {
 
     /// Puts another experiment in the place of the present one; its snapshots are of the epoch
     /// returned, and none of another epoch follows them.
-    pub fn load(&mut self, mut subject: impl Subject + 'static) -> u64 {
+    pub fn load(&mut self, mut subject: impl Runnable + 'static) -> u64 {
         self.epoch += 1;
         self.cancel.cancel();
         self.cancel = subject.cancel();
         subject.set_epoch(self.epoch);
-        self.send(Letter::Load(self.epoch, Box::new(subject)));
+        self.send(Message::Load(self.epoch, Box::new(subject)));
         self.epoch
     }
 
@@ -92,7 +92,7 @@ impl Worker {
 
     /// Hands over a command. It is obeyed before the next slice, and a snapshot follows at once.
     pub fn tell(&self, command: Command) {
-        self.send(Letter::Obey(command));
+        self.send(Message::Execute(command));
     }
 
     /// The newest snapshot of the present epoch, if it was not returned before.
@@ -105,8 +105,8 @@ impl Worker {
         Some(newest)
     }
 
-    fn send(&self, letter: Letter) {
-        // a thread that is gone cannot be told anything; there is nothing to be done about it
+    fn send(&self, letter: Message) {
+        // a thread that is gone cannot be reported anything; there is nothing to be done about it
         let _ = self.mailbox.send(letter);
     }
 }
@@ -114,7 +114,7 @@ impl Worker {
 impl Drop for Worker {
     fn drop(&mut self) {
         self.cancel.cancel();
-        self.send(Letter::Stop);
+        self.send(Message::Stop);
         // its panics were caught where they happened; nothing is ever sent
         if let Err(RecvTimeoutError::Timeout) = self.end.recv_timeout(PATIENCE) {
             // a step that does not look at its token ends with the program

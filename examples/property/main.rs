@@ -73,7 +73,7 @@ fn main() -> Result<ExitCode> {
     let Options { seconds, seed, first, count, files } = options()?;
     let mut out = stdout();
     writeln!(out, "seed {seed}")?;
-    // a panic is told as a failure of its case
+    // a panic is reported as a failure of its case
     std::panic::set_hook(Box::new(|_| ()));
     let begun = Instant::now();
     let mut tally: BTreeMap<String, u64> = BTreeMap::new();

@@ -3,16 +3,16 @@
 //! In: a model and what follows from it. Out: a mistake for each claim that is neither proved nor
 //! holds to 1e-10 at twenty points near the start. Never here: how claims are written.
 
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{self, ChainRule, Equations, POINTS, Point, TRIES};
 use crate::model::{ExpectedBracket, Model};
-use crate::preset::Mistake;
 
 /// How far a bracket may be from what it is said to be, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
 /// The claims on brackets that are false.
-pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Mistake> {
+pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     if model.expect.brackets.is_empty() {
         return Vec::new();
     }
@@ -20,7 +20,7 @@ pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Mistak
     model.expect.brackets.iter().filter_map(|claim| check(model, &mut equations, claim)).collect()
 }
 
-fn check(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Mistake> {
+fn check(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Diagnostic> {
     match mechanics::bracket(model, equations, claim.f, claim.g) {
         Ok(bracket) => match mechanics::in_phase_space(equations, claim.is) {
             Ok(is) => compare(model, equations, claim, bracket, is),
@@ -38,7 +38,7 @@ fn compare(
     claim: &ExpectedBracket,
     bracket: Expr,
     is: Expr,
-) -> Option<Mistake> {
+) -> Option<Diagnostic> {
     let difference = equations.pool.sub(bracket, is);
     if equations.pool.is_zero(difference) == Zero::Proved {
         return None;
@@ -49,11 +49,15 @@ fn compare(
     judge(model, equations, claim, found.as_deref(), &value)
 }
 
-/// A bracket longer than this is not told in a message.
+/// A bracket longer than this is not reported in a message.
 const LONGEST: u64 = 60;
 
 /// The left side by the chain rule, where velocities are not known in terms of momenta.
-fn at_points(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> Option<Mistake> {
+fn at_points(
+    model: &Model,
+    equations: &mut Equations,
+    claim: &ExpectedBracket,
+) -> Option<Diagnostic> {
     let rule = match ChainRule::of(equations, claim.f, claim.g) {
         Ok(rule) => rule,
         Err(why) => return Some(unchecked(claim, &why)),
@@ -77,7 +81,7 @@ fn judge(
     claim: &ExpectedBracket,
     found: Option<&str>,
     value: &dyn Fn(&Point) -> (f64, f64),
-) -> Option<Mistake> {
+) -> Option<Diagnostic> {
     let mut seen = 0;
     for n in 0..TRIES {
         let (off, size) = value(&Point::near_start(model, equations, n));
@@ -93,7 +97,7 @@ fn judge(
                     format!("near the start it is off by {off:.1e}, its terms being {size:.1e}")
                 }
             };
-            return Some(Mistake::error(claim.place.clone(), message).with_help(help));
+            return Some(Diagnostic::error(claim.place.clone(), message).with_help(help));
         }
         if seen == POINTS {
             return None;
@@ -102,7 +106,7 @@ fn judge(
     Some(unchecked(claim, &"it has no value near the start"))
 }
 
-fn unchecked(claim: &ExpectedBracket, why: &dyn std::fmt::Display) -> Mistake {
+fn unchecked(claim: &ExpectedBracket, why: &dyn std::fmt::Display) -> Diagnostic {
     let message = format!("{} cannot be checked: {why}", claim.written);
-    Mistake::error(claim.place.clone(), message)
+    Diagnostic::error(claim.place.clone(), message)
 }

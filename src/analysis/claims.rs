@@ -6,17 +6,18 @@
 
 use super::brackets::false_brackets;
 use super::start;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol};
-use crate::integrate::{self, Happening, Reached, Settings, method_named};
+use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
-use crate::model::{ExpectedValue, Model, Place};
-use crate::preset::Mistake;
-use crate::system::{ChannelKind, Fault, FaultKind, Observer, State, System};
+use crate::model::{ExpectedValue, Model};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
 /// How far a conserved quantity may drift, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
-/// A rate longer than this is not told.
+/// A rate longer than this is not reported.
 const LONGEST: u64 = 60;
 
 /// How far the values of a motion may be off, relative to themselves, where a rate is evaluated.
@@ -54,7 +55,7 @@ fn steps_for(equations: &Equations) -> u64 {
 }
 
 /// The claims of a model that are false, as mistakes at their places.
-pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
+pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let mut mistakes = flaws(model, equations);
     if !mistakes.is_empty() {
         // the motion of what is no Poisson structure says nothing
@@ -68,11 +69,11 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
         Err(why) => {
-            mistakes.push(Mistake::error(0..0, why.to_string()));
+            mistakes.push(Diagnostic::error(0..0, why.to_string()));
             return mistakes;
         }
     };
-    match Motion::begin(model, equations, &system) {
+    match ClaimRun::begin(model, equations, &system) {
         Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
         Err(mistake) => mistakes.push(mistake),
     }
@@ -82,12 +83,12 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
              zero",
             equations.pool.text(e)
         );
-        mistakes.push(Mistake::warning(model.law_place.clone(), message));
+        mistakes.push(Diagnostic::warning(model.law_place.clone(), message));
     }
     for name in system.redundant() {
         let constraint = model.constraints.iter().find(|c| c.name == name);
         let message = format!("the constraint `{name}` repeats what those before it say");
-        let warning = Mistake::warning(
+        let warning = Diagnostic::warning(
             constraint.map_or_else(|| model.law_place.clone(), |c| c.place.clone()),
             message,
         );
@@ -97,17 +98,17 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Mistake> {
 }
 
 /// What is false in the brackets and Casimirs of a file: with such a mistake it has no motion.
-pub fn flaws(model: &Model, equations: &Equations) -> Vec<Mistake> {
+pub fn flaws(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let flaws = mechanics::flaws(model, equations).into_iter();
-    flaws.map(|flaw| Mistake::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
+    flaws.map(|flaw| Diagnostic::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
 }
 
 /// Observables said not to be conserved that are.
-fn denied(model: &Model, equations: &Equations) -> Vec<Mistake> {
-    let wrong = |name: &str, place: &Place| {
+fn denied(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
+    let wrong = |name: &str, place: &SourceRange| {
         let reason = &known(equations, name)?.reason;
         let message = format!("`{name}` is said not to be conserved, but it is");
-        Some(Mistake::error(place.clone(), message).with_help(format!("why: {reason}")))
+        Some(Diagnostic::error(place.clone(), message).with_help(format!("why: {reason}")))
     };
     let denied = model.observables.iter().filter(|o| o.conserved == Some(false));
     denied.filter_map(|o| wrong(&o.name, &o.place)).collect()
@@ -121,7 +122,7 @@ fn known<'a>(equations: &'a Equations, name: &str) -> Option<&'a Conserved> {
 /// A quantity said to be conserved, of which that is not proved.
 struct Claim {
     name: String,
-    place: Place,
+    place: SourceRange,
     expression: Expr,
     /// Its rate of change, where that is known not to vanish and may yet be too small to be seen.
     rate: Option<Expr>,
@@ -136,9 +137,9 @@ fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
     let observed = model.observables.iter().filter(|o| o.conserved == Some(true));
     let observed = observed.map(|o| (&o.name, o.expression, &o.place));
     let expected = model.expect.conserves.iter().map(|(name, e, place)| (name, *e, place));
-    let all: Vec<(&String, Expr, &Place)> =
+    let all: Vec<(&String, Expr, &SourceRange)> =
         observed.chain(expected).filter(|(name, ..)| known(equations, name).is_none()).collect();
-    let claim = |(name, expression, place): (&String, Expr, &Place)| {
+    let claim = |(name, expression, place): (&String, Expr, &SourceRange)| {
         let classed = class_of(model, equations, name, expression);
         let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
         Claim {
@@ -162,7 +163,7 @@ fn own_method_starts(model: &Model, system: &System, state: &State, parameters: 
         return false;
     };
     let settings = Settings { step: run.step, tolerance: run.tolerance };
-    let Ok(mut course) = integrate::Motion::new(system, method, settings, parameters) else {
+    let Ok(mut course) = integrate::Propagator::new(system, method, settings, parameters) else {
         return false;
     };
     let end = run.until.unwrap_or(run.start + LENGTH);
@@ -171,22 +172,22 @@ fn own_method_starts(model: &Model, system: &System, state: &State, parameters: 
 }
 
 /// The motion that claims are held against.
-struct Motion<'a> {
+struct ClaimRun<'a> {
     system: &'a System,
-    course: integrate::Motion,
+    course: integrate::Propagator,
     observer: Observer,
     values: Vec<f64>,
     /// The steps it may take in all, and those that are left.
     allowed: u64,
     budget: u64,
-    happenings: Vec<Happening>,
+    occurrences: Vec<Occurrence>,
     /// Of the course, when the observer was made.
     holdings: u64,
 }
 
 /// Why a motion did not come as far as a claim.
 enum Short {
-    Fault(Fault),
+    MotionError(MotionError),
     Long(u64, f64),
     Ended(f64),
 }
@@ -194,7 +195,7 @@ enum Short {
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Short::Fault(fault) => fault.fmt(f),
+            Short::MotionError(fault) => fault.fmt(f),
             Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
             Short::Long(steps, time) => {
                 write!(f, "the {steps} steps that a check may take led only to t = {time}")
@@ -207,51 +208,53 @@ impl Short {
     /// How far it came.
     fn time(&self) -> f64 {
         match self {
-            Short::Fault(fault) => fault.time,
+            Short::MotionError(fault) => fault.time,
             Short::Long(_, time) | Short::Ended(time) => *time,
         }
     }
 }
 
 /// Where in the file to look for the reason of a start that is none.
-fn place_of(model: &Model, fault: &Fault) -> Place {
+fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
-        FaultKind::ConstraintMissed(name, _) => model.constraints.iter().find(|c| c.name == *name),
-        FaultKind::FreeVelocities(_) => model.constraints.first(),
+        MotionErrorKind::ConstraintMissed(name, _) => {
+            model.constraints.iter().find(|c| c.name == *name)
+        }
+        MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
         _ => None,
     };
     constraint.map_or(0..0, |c| c.place.clone())
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ClaimRun<'a> {
     /// The motion at its start, of which the first step is known to succeed.
     fn begin(
         model: &Model,
         equations: &Equations,
         system: &'a System,
-    ) -> Result<Motion<'a>, Mistake> {
-        let refused = |place: Place, why: String| {
-            Mistake::error(place, format!("the motion cannot begin: {why}"))
+    ) -> Result<ClaimRun<'a>, Diagnostic> {
+        let refused = |place: SourceRange, why: String| {
+            Diagnostic::error(place, format!("the motion cannot begin: {why}"))
         };
         let parameters = model.parameter_values();
         let method =
             method_named("auto").ok_or_else(|| refused(0..0, "there is no method".into()))?;
-        let course = integrate::Motion::new(system, method, Settings::default(), &parameters);
+        let course = integrate::Propagator::new(system, method, Settings::default(), &parameters);
         let course = course.map_err(|refusal| refused(0..0, refusal.to_string()))?;
         let allowed = steps_for(equations);
-        let mut motion = Motion {
+        let mut motion = ClaimRun {
             system,
             course,
             observer: system.observer(&parameters),
             values: vec![f64::NAN; system.channels().len()],
             allowed,
             budget: allowed,
-            happenings: Vec::new(),
+            occurrences: Vec::new(),
             holdings: 0,
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|fault| match &fault.kind {
-            FaultKind::ConstraintMissed(..) | FaultKind::FreeVelocities(_) => {
+            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::FreeVelocities(_) => {
                 refused(place_of(model, &fault), fault.to_string())
             }
             _ => motion
@@ -286,8 +289,8 @@ impl<'a> Motion<'a> {
         &self,
         model: &Model,
         equations: &Equations,
-        fault: Option<&Fault>,
-    ) -> Option<Mistake> {
+        fault: Option<&MotionError>,
+    ) -> Option<Diagnostic> {
         let energy = self.seen(ChannelKind::Energy);
         let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
         start::mistake(model, equations, fault, energy, &at)
@@ -329,7 +332,7 @@ impl<'a> Motion<'a> {
         model: &Model,
         equations: &Equations,
         mut claims: Vec<Claim>,
-        mistakes: &mut Vec<Mistake>,
+        mistakes: &mut Vec<Diagnostic>,
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
@@ -345,7 +348,7 @@ impl<'a> Motion<'a> {
         for (k, &(time, value)) in schedule.iter().enumerate() {
             if let (true, Some(value)) = (time < start, value) {
                 let message = format!("the motion begins at {start}; {time} is before it");
-                mistakes.push(Mistake::error(value.place.clone(), message));
+                mistakes.push(Diagnostic::error(value.place.clone(), message));
                 continue;
             }
             if let Err(short) = self.reach(time, last) {
@@ -354,7 +357,7 @@ impl<'a> Motion<'a> {
                 let left = values.chain(claims.iter().map(|claim| (&claim.name, &claim.place)));
                 return mistakes.extend(left.map(|(name, place)| {
                     let message = format!("`{name}` cannot be checked: {short}");
-                    Mistake::error(place.clone(), message)
+                    Diagnostic::error(place.clone(), message)
                 }));
             }
             match value {
@@ -367,14 +370,14 @@ impl<'a> Motion<'a> {
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
-            mistakes.extend(self.false_happenings(model, short.as_ref()));
+            mistakes.extend(self.false_occurrences(model, short.as_ref()));
         }
     }
 
     /// Events that did not happen when, or as often as, the file says.
-    fn false_happenings(&self, model: &Model, short: Option<&Short>) -> Vec<Mistake> {
+    fn false_occurrences(&self, model: &Model, short: Option<&Short>) -> Vec<Diagnostic> {
         let times = |name: &str| -> Vec<f64> {
-            self.happenings.iter().filter(|h| h.name == name).map(|h| h.time).collect()
+            self.occurrences.iter().filter(|h| h.name == name).map(|h| h.time).collect()
         };
         let until = short.map_or(String::new(), |why| format!("; {why}"));
         let mut mistakes = Vec::new();
@@ -388,7 +391,7 @@ impl<'a> Motion<'a> {
                 ),
                 None => format!("`{name}` does not happen {nth} times{until}"),
             };
-            mistakes.push(Mistake::error(expected.place.clone(), message));
+            mistakes.push(Diagnostic::error(expected.place.clone(), message));
         }
         for expected in &model.expect.counts {
             let (name, is) = (&expected.name, expected.is);
@@ -406,29 +409,29 @@ impl<'a> Motion<'a> {
                     format!("`{name}` happens {found} times until t = {}, not {is}", expected.until)
                 }
             };
-            mistakes.push(Mistake::error(expected.place.clone(), message));
+            mistakes.push(Diagnostic::error(expected.place.clone(), message));
         }
         mistakes
     }
 
     fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
         loop {
-            match self.course.reach(time, limit, &mut self.budget).map_err(Short::Fault)? {
+            match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
                 Reached::There => break,
                 Reached::Underway => {
                     return Err(Short::Long(self.allowed, self.course.state().time));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
-                Reached::Happened(happening) => {
+                Reached::Happened(occurrence) => {
                     if self.budget < EVENT {
-                        return Err(Short::Long(self.allowed, happening.time));
+                        return Err(Short::Long(self.allowed, occurrence.time));
                     }
                     self.budget -= EVENT;
-                    if matches!(happening.kind, integrate::Kind::Release(_)) {
+                    if matches!(occurrence.kind, integrate::OccurrenceKind::Release(_)) {
                         let parameters = self.observer.parameters().to_vec();
                         self.observer = self.course.system().observer(&parameters);
                     }
-                    self.happenings.push(happening);
+                    self.occurrences.push(occurrence);
                 }
             }
         }
@@ -437,10 +440,10 @@ impl<'a> Motion<'a> {
             let parameters = self.observer.parameters().to_vec();
             self.observer = self.course.system().observer(&parameters);
         }
-        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::Fault)
+        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::MotionError)
     }
 
-    fn compare(&self, expected: &ExpectedValue) -> Option<Mistake> {
+    fn compare(&self, expected: &ExpectedValue) -> Option<Diagnostic> {
         let ExpectedValue { name, at, is, within, .. } = expected;
         let channel = self.system.channel_of(expected.expression)?;
         let value = self.values[channel];
@@ -451,7 +454,7 @@ impl<'a> Motion<'a> {
         }
         let message = format!("{name}: this is {value} at t = {at}, not {is}");
         let help = format!("it is off by {error:.1e}; up to {within:e} would be right");
-        Some(Mistake::error(expected.place.clone(), message).with_help(help))
+        Some(Diagnostic::error(expected.place.clone(), message).with_help(help))
     }
 
     fn look(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
@@ -481,7 +484,7 @@ impl Claim {
     }
 
     /// What changes by less than can be seen, as a force far away makes it, is not conserved.
-    fn unseen(&self, equations: &Equations, end: f64) -> Option<Mistake> {
+    fn unseen(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
             return None;
         };
@@ -491,14 +494,14 @@ impl Claim {
             help.push_str(&format!("; its rate of change is {rate}"));
         }
         let message = format!("`{name}` is said to be conserved, but it is not");
-        Some(Mistake::error(self.place.clone(), message).with_help(help))
+        Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }
 
-    fn mistake(&self, equations: &Equations, end: f64) -> Option<Mistake> {
+    fn mistake(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let Claim { name, .. } = self;
         if self.first.is_nan() {
             let message = format!("`{name}` is said to be conserved, but it is not a number");
-            return Some(Mistake::error(self.place.clone(), message));
+            return Some(Diagnostic::error(self.place.clone(), message));
         }
         if self.farthest <= TOLERANCE * self.size {
             return None;
@@ -510,7 +513,7 @@ impl Claim {
             let rate = equations.pool.unicode(equations.energy_rate);
             help = format!("{help}; dE/dt = {rate}");
         }
-        Some(Mistake::error(self.place.clone(), message).with_help(help))
+        Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }
 }
 

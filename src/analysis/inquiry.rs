@@ -3,9 +3,10 @@
 //! In: a typed text, a model and what follows from it. Out: an [`Inquiry`] with its answer, or a mistake at its place.
 //! Never here: where it is typed or shown; the motion, but for the values one hands in.
 
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol, SyntaxError, Zero};
-use crate::mechanics::{self, ChainRule, Class, Equations, Recognised, WhyNot};
-use crate::model::{Allowed, Model, Observable, Place, Scope};
+use crate::mechanics::{self, ChainRule, Class, Equations, NoClosedForm, Recognised};
+use crate::model::{Allowed, Model, Observable, Scope};
 
 /// A question that was understood, and its answer.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ pub enum Answer {
         /// The one and the other.
         sides: [Expr; 2],
         /// \[f, g\] of (q, p, t), or why it is not known in closed form.
-        bracket: Result<Expr, WhyNot>,
+        bracket: Result<Expr, NoClosedForm>,
         /// What it is by names of the file; zero where it vanishes.
         recognised: Option<Recognised>,
         /// Its values, where there is no closed form.
@@ -37,7 +38,7 @@ pub enum Answer {
         /// Whether it is, and how that is known.
         class: Class,
         /// Its rate of change along the motion.
-        rate: Result<Expr, WhyNot>,
+        rate: Result<Expr, NoClosedForm>,
     },
 }
 
@@ -164,7 +165,8 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Answer
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
     // asked as if the file declared it
     let name = "what is asked".to_owned();
-    let observable = Observable { name, expression: of, conserved: None, place: Place::default() };
+    let observable =
+        Observable { name, expression: of, conserved: None, place: SourceRange::default() };
     let mut asked = model.clone();
     asked.observables = vec![observable];
     let classed = mechanics::classes(&asked, equations).pop();
@@ -173,7 +175,7 @@ fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
         None => Answer::Conservation {
             of,
             class: Class::Unknown,
-            rate: Err(WhyNot("it could not be derived".to_owned())),
+            rate: Err(NoClosedForm("it could not be derived".to_owned())),
         },
     }
 }

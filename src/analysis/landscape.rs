@@ -7,7 +7,7 @@
 mod level;
 mod saddle;
 
-use crate::expr::portable;
+use crate::num::math;
 use crate::system::{Form, Observer, System};
 
 pub use level::Grid;
@@ -207,6 +207,6 @@ fn levels(values: &[f64]) -> Option<Vec<f64>> {
     let low = *sorted.first()?;
     // A wall of a few points must not take all levels.
     let high = sorted[(sorted.len() - 1) * 19 / 20];
-    let level = |k: usize| low + (high - low) * portable::powi((k as f64 + 0.7) / LEVELS as f64, 2);
+    let level = |k: usize| low + (high - low) * math::powi((k as f64 + 0.7) / LEVELS as f64, 2);
     (high > low).then(|| (0..LEVELS).map(level).collect())
 }

@@ -3,51 +3,52 @@
 //! In: what stopped it, and the values at the start. Out: a mistake at its place, with the
 //! coordinate and the reason. Never here: constraints at the start, which `system` judges.
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::{Coordinate, Model, Place};
-use crate::preset::Mistake;
-use crate::system::{Fault, FaultKind};
+use crate::model::{Coordinate, Model};
+use crate::system::{MotionError, MotionErrorKind};
 
-/// A part of the law longer than this is not told.
+/// A part of the law longer than this is not reported.
 const LONGEST: u64 = 60;
 
 /// Why nothing can start with this energy, or with the fault of the first step; `None` where it can.
 pub(super) fn mistake(
     model: &Model,
     equations: &Equations,
-    fault: Option<&Fault>,
+    fault: Option<&MotionError>,
     energy: f64,
     at: &dyn Fn(Symbol) -> f64,
-) -> Option<Mistake> {
+) -> Option<Diagnostic> {
     let law = model.law_place.clone();
     if fault.is_none() && energy.is_finite() {
         return None;
     }
-    if let Some(Fault { kind: FaultKind::SingularMass, .. }) = fault
+    if let Some(MotionError { kind: MotionErrorKind::SingularMass, .. }) = fault
         && let Some((place, message, help)) = without_inertia(model, equations)
     {
-        return Some(Mistake::error(place, message).with_help(help));
+        return Some(Diagnostic::error(place, message).with_help(help));
     }
     let culprit = undefined(equations, at);
     let told = culprit.and_then(|e| tell(model, &equations.pool, e, at));
     match (told, fault) {
         (Some((coordinate, cause)), _) => {
             let place = coordinate.map_or(law, |i| model.coordinates[i].place.clone());
-            Some(Mistake::error(place, format!("the motion cannot start: {cause}")))
+            Some(Diagnostic::error(place, format!("the motion cannot start: {cause}")))
         }
         (None, Some(fault)) => {
-            Some(Mistake::error(law, format!("the motion cannot start: {fault}")))
+            Some(Diagnostic::error(law, format!("the motion cannot start: {fault}")))
         }
         (None, None) => {
             let message = "the motion cannot start: its energy is not a finite number there";
-            Some(Mistake::error(law, message))
+            Some(Diagnostic::error(law, message))
         }
     }
 }
 
 /// Coordinates whose velocities L does not hold so that they have a mass.
-fn without_inertia(model: &Model, equations: &Equations) -> Option<(Place, String, String)> {
+fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange, String, String)> {
     let Flow::Lagrange { mass, .. } = &equations.flow else { return None };
     let light: Vec<usize> =
         (0..mass.len()).filter(|&i| mass[i].iter().all(|&m| m == Expr::ZERO)).collect();

@@ -5,7 +5,7 @@
 //! come from, or the law of a quantity that the physics itself changes.
 
 use super::history::{History, Stretch};
-use crate::expr::portable;
+use crate::num::math;
 
 /// What to think of a drift.
 #[derive(Clone, PartialEq, Debug)]
@@ -177,10 +177,10 @@ fn line(stretches: &[Stretch]) -> (f64, f64) {
     let (mut across, mut along) = (0.0, 0.0);
     for s in stretches {
         across += (s.middle() - time) * (s.mean - mean);
-        along += portable::powi(s.middle() - time, 2);
+        along += math::powi(s.middle() - time, 2);
     }
     let slope = if along > 0.0 { across / along } else { 0.0 };
-    let rest = |s: &Stretch| portable::powi(s.mean - mean - slope * (s.middle() - time), 2);
+    let rest = |s: &Stretch| math::powi(s.mean - mean - slope * (s.middle() - time), 2);
     (slope, (stretches.iter().map(rest).sum::<f64>() / n).sqrt())
 }
 
@@ -189,7 +189,7 @@ fn line(stretches: &[Stretch]) -> (f64, f64) {
 fn growth(stretches: &[Stretch]) -> Growth {
     let spread = |lag: usize| {
         let pairs = stretches.iter().zip(&stretches[lag..]);
-        let squares: f64 = pairs.map(|(a, b)| portable::powi(b.mean - a.mean, 2)).sum();
+        let squares: f64 = pairs.map(|(a, b)| math::powi(b.mean - a.mean, 2)).sum();
         squares / (stretches.len() - lag) as f64
     };
     let (short, long) = (stretches.len().div_ceil(64), stretches.len() / 8);
@@ -197,7 +197,7 @@ fn growth(stretches: &[Stretch]) -> Growth {
     if near == 0.0 {
         return if far == 0.0 { Growth::Level } else { Growth::Faster };
     }
-    let power = portable::ln(far / near) / portable::ln(long as f64 / short as f64);
+    let power = math::ln(far / near) / math::ln(long as f64 / short as f64);
     match power {
         ..0.5 => Growth::Level,
         0.5..1.5 => Growth::Root,

@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Action`]. Never here: which key it is, or how it is done.
 
-use super::{Page, Work};
+use super::{EditCommand, Page};
 
 /// Something a person wants done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,7 +56,7 @@ pub enum Action {
     /// Edit the system's file.
     Edit,
     /// Do something to the text being edited.
-    Work(Work),
+    EditCommand(EditCommand),
     /// Write a still of the screen.
     Still,
     /// Write the recorded motion as a table.
@@ -65,8 +65,8 @@ pub enum Action {
     Record,
     /// Look from the next frame of the file.
     NextFrame,
-    /// Strike a blow that waits for a key.
-    Strike,
+    /// Strike an impulse that waits for a key.
+    ApplyImpulse,
     /// Choose a method of integration.
     ChooseMethod,
     /// Type the step of a method of fixed step.
@@ -82,7 +82,7 @@ pub enum Action {
     /// Choose what the focused pane shows.
     ChooseAxes,
     /// Move within the focused thing.
-    Move(Way),
+    Move(Direction),
     /// To its first line.
     First,
     /// To its last line.
@@ -129,7 +129,7 @@ pub enum Action {
 /// A direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the four directions")]
-pub enum Way {
+pub enum Direction {
     Up,
     Down,
     Left,

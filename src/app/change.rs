@@ -4,20 +4,20 @@
 //! them. Never here: which key asks for it, or how the history keeps it.
 
 use super::history::Change;
-use super::{App, Effect, Lab, Pane, Plot, Target};
-use crate::experiment::{Command, Snapshot, with_given};
+use super::{App, Effect, Lab, Pane, Plot, ValueId};
+use crate::experiment::{Command, Snapshot, with_override};
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// What was asked of the experiment and not yet seen, beside single values.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Wishes {
+pub(super) struct PendingChanges {
     method: Option<&'static str>,
     settings: Option<Settings>,
-    given: Option<Vec<Given>>,
+    given: Option<Vec<InitialOverride>>,
 }
 
-impl Wishes {
+impl PendingChanges {
     /// Forgets what a snapshot shows.
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
         self.method.take_if(|wish| *wish == snapshot.method.name);
@@ -36,26 +36,26 @@ enum Side {
 impl App {
     /// Gives a value to something, as a person would: it is selected in its list and can be taken back. The same value
     /// again begins the motion anew where it is an initial one.
-    pub fn give(&mut self, target: Target, value: f64) -> Vec<Effect> {
+    pub fn give(&mut self, target: ValueId, value: f64) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         match target {
-            Target::Parameter(index) => lab.selection.parameter = index,
-            Target::Initial(index) => lab.selection.initial = index,
+            ValueId::Parameter(index) => lab.selection.parameter = index,
+            ValueId::Initial(index) => lab.selection.initial = index,
         }
         let effects = lab.change(target, value);
         if !effects.is_empty() {
             return effects;
         }
         vec![Effect::Tell(match target {
-            Target::Parameter(index) => Command::Parameter { index, value },
-            Target::Initial(index) => Command::Initial { index, value },
+            ValueId::Parameter(index) => Command::Parameter { index, value },
+            ValueId::Initial(index) => Command::Initial { index, value },
         })]
     }
 
     /// What is changed from now on until [`App::drop_hold`] is one change.
     pub fn hold_on(&mut self) {
         if let Some(lab) = &mut self.lab {
-            lab.history.grip();
+            lab.history.begin_group();
         }
     }
 }
@@ -70,24 +70,24 @@ impl Lab {
         self.asked.settings.or(self.snapshot.as_ref().map(|s| s.setup.settings))
     }
 
-    fn given(&self) -> Vec<Given> {
+    fn given(&self) -> Vec<InitialOverride> {
         let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.given.clone());
         self.asked.given.clone().unwrap_or_else(fact)
     }
 
     /// Changes a value.
-    pub(super) fn change(&mut self, target: Target, to: f64) -> Vec<Effect> {
+    pub(super) fn change(&mut self, target: ValueId, to: f64) -> Vec<Effect> {
         let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
         let numbers = [from, to];
         self.wish(target, to);
         match target {
-            Target::Parameter(index) => {
+            ValueId::Parameter(index) => {
                 self.history.note(Change::Parameter { index, numbers });
                 vec![Effect::Tell(Command::Parameter { index, value: to })]
             }
-            Target::Initial(index) => {
+            ValueId::Initial(index) => {
                 let before = self.given();
-                let after = with_given(&self.loaded.system, &before, index, to);
+                let after = with_override(&self.loaded.system, &before, index, to);
                 self.asked.given = Some(after.clone());
                 self.history.note(Change::Initial { index, numbers, given: [before, after] });
                 vec![Effect::Tell(Command::Initial { index, value: to })]
@@ -96,18 +96,18 @@ impl Lab {
     }
 
     /// Begins the motion with several initial values at once.
-    pub(super) fn start(&mut self, values: &[Given]) -> Vec<Effect> {
+    pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
-        let replaced = |old: &&Given| values.iter().any(|new| place(new) == place(old));
+        let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
         let kept = before.iter().filter(|old| !replaced(old)).copied();
-        let after: Vec<Given> = kept.chain(values.iter().copied()).collect();
+        let after: Vec<InitialOverride> = kept.chain(values.iter().copied()).collect();
         self.history.note(Change::Start([before, after.clone()]));
         vec![self.begin_with(after)]
     }
 
     /// All values back to the file's.
     pub(super) fn full_reset(&mut self) -> Vec<Effect> {
-        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
+        let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let parameters = parameters.filter_map(|target| self.value(target)).collect();
         self.history.note(Change::FullReset { parameters, given: self.given() });
         vec![self.give_back()]
@@ -176,14 +176,16 @@ impl Lab {
 
     /// What goes where when one side of a change is made so: `g 9.81 → 3.2`.
     fn words(&self, change: &Change, side: Side) -> String {
-        let named = |target| self.facts(target).map_or_else(String::new, |facts| facts.shown);
+        let named = |target| {
+            self.value_info(target).map_or_else(String::new, |value_info| value_info.shown)
+        };
         let went = |what: &str, [from, to]: [String; 2]| format!("{what} {from} → {to}");
         match change {
             Change::Parameter { index, numbers } => {
-                went(&named(Target::Parameter(*index)), side.way(*numbers).map(short))
+                went(&named(ValueId::Parameter(*index)), side.way(*numbers).map(short))
             }
             Change::Initial { index, numbers, .. } => {
-                let name = format!("initial {}", named(Target::Initial(*index)));
+                let name = format!("initial {}", named(ValueId::Initial(*index)));
                 went(&name, side.way(*numbers).map(short))
             }
             Change::Start(_) => "the initial values".to_owned(),
@@ -212,13 +214,13 @@ impl Lab {
     fn carry_out(&mut self, change: Change, side: Side) -> Vec<Effect> {
         match change {
             Change::Parameter { index, numbers } => {
-                self.choose(Target::Parameter(index));
+                self.choose(ValueId::Parameter(index));
                 vec![self.set_parameter(index, side.of(numbers))]
             }
             Change::Initial { index, numbers, given } => {
-                self.choose(Target::Initial(index));
+                self.choose(ValueId::Initial(index));
                 let effect = self.begin_with(side.of(given));
-                self.wish(Target::Initial(index), side.of(numbers));
+                self.wish(ValueId::Initial(index), side.of(numbers));
                 vec![effect]
             }
             Change::Start(given) => vec![self.begin_with(side.of(given))],
@@ -227,7 +229,7 @@ impl Lab {
                 Side::Before => {
                     let mut effects = Vec::new();
                     for (index, value) in parameters.into_iter().enumerate() {
-                        if self.value(Target::Parameter(index)) != Some(value) {
+                        if self.value(ValueId::Parameter(index)) != Some(value) {
                             effects.push(self.set_parameter(index, value));
                         }
                     }
@@ -263,38 +265,38 @@ impl Lab {
     }
 
     fn set_parameter(&mut self, index: usize, value: f64) -> Effect {
-        self.wish(Target::Parameter(index), value);
+        self.wish(ValueId::Parameter(index), value);
         Effect::Tell(Command::Parameter { index, value })
     }
 
     /// The motion begins with these in place of the file's values.
-    fn begin_with(&mut self, given: Vec<Given>) -> Effect {
+    fn begin_with(&mut self, given: Vec<InitialOverride>) -> Effect {
         // What the others then are, the experiment tells.
-        self.wishes.retain(|(target, _)| matches!(target, Target::Parameter(_)));
+        self.pending.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.asked.given = Some(given.clone());
         Effect::Tell(Command::Start(given))
     }
 
     /// All values are the file's.
     fn give_back(&mut self) -> Effect {
-        self.wishes.clear();
+        self.pending.clear();
         let parameters = self.loaded.model.parameter_values().into_iter().enumerate();
-        self.wishes.extend(parameters.map(|(index, value)| (Target::Parameter(index), value)));
+        self.pending.extend(parameters.map(|(index, value)| (ValueId::Parameter(index), value)));
         self.asked.given = Some(Vec::new());
         Effect::Tell(Command::FullReset)
     }
 
-    fn wish(&mut self, target: Target, value: f64) {
-        self.wishes.retain(|(t, _)| *t != target);
-        self.wishes.push((target, value));
+    fn wish(&mut self, target: ValueId, value: f64) {
+        self.pending.retain(|(t, _)| *t != target);
+        self.pending.push((target, value));
     }
 }
 
 /// Which value is given: of which coordinate, and whether it is its rate or momentum.
-pub(super) fn place(given: &Given) -> (usize, bool) {
+pub(super) fn place(given: &InitialOverride) -> (usize, bool) {
     match given {
-        Given::Position(i, _) => (*i, false),
-        Given::Velocity(i, _) | Given::Momentum(i, _) => (*i, true),
+        InitialOverride::Position(i, _) => (*i, false),
+        InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => (*i, true),
     }
 }
 

@@ -3,9 +3,9 @@
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
 //! Never here: how a list is moved in.
 
-use super::plot::Lens;
+use super::plot::Viewport;
 use super::{
-    App, Choice, Choosing, Effect, Eye, Field, Item, Lab, Menu, Over, Pane, Plot, Purpose,
+    App, CameraPose, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Plot, Purpose,
 };
 use crate::integrate::METHODS;
 use crate::model::ViewKind;
@@ -26,7 +26,7 @@ impl App {
             METHODS.iter().map(item).collect(),
         );
         let now = lab.method().map(Choice::Method);
-        self.over = Some(Over::Menu(match now {
+        self.overlay = Some(Overlay::Menu(match now {
             Some(now) => menu.on(now),
             None => menu,
         }));
@@ -39,11 +39,11 @@ impl App {
         };
         let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
         if items.is_empty() {
-            return self.say("There is only one theme here.");
+            return self.notify("There is only one theme here.");
         }
         let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
         let menu = Menu::new("Theme", Choosing::Theme, items);
-        self.over = Some(Over::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
+        self.overlay = Some(Overlay::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
         Vec::new()
     }
 
@@ -71,7 +71,7 @@ impl App {
         items.push(line("t", "time, with one or several quantities upwards", Choice::Time));
         items.extend(channels(lab));
         let menu = Menu::new("Along the axis", Choosing::Across { plot }, items).on(now);
-        self.over = Some(Over::Menu(menu));
+        self.overlay = Some(Overlay::Menu(menu));
         Vec::new()
     }
 
@@ -89,7 +89,7 @@ impl App {
             Choosing::Upwards { plot, x },
             channels(lab),
         );
-        self.over = Some(Over::Menu(match now {
+        self.overlay = Some(Overlay::Menu(match now {
             Some(now) => menu.on(Choice::Channel(now)),
             None => menu,
         }));
@@ -98,16 +98,16 @@ impl App {
 
     /// Enter, in a list or a field.
     pub(super) fn accept(&mut self) -> Vec<Effect> {
-        match self.over.take() {
-            Some(Over::Menu(menu)) => self.accept_line(menu),
-            Some(Over::Field(field)) => self.accept_value(field),
-            Some(Over::Prompt(prompt)) => self.answer(prompt),
-            Some(Over::Workbench) => {
-                self.over = Some(Over::Workbench);
-                self.accept_on_sheet()
+        match self.overlay.take() {
+            Some(Overlay::Menu(menu)) => self.accept_line(menu),
+            Some(Overlay::Field(field)) => self.accept_value(field),
+            Some(Overlay::Prompt(prompt)) => self.answer(prompt),
+            Some(Overlay::Workbench) => {
+                self.overlay = Some(Overlay::Workbench);
+                self.accept_in_buffer()
             }
             other => {
-                self.over = other;
+                self.overlay = other;
                 Vec::new()
             }
         }
@@ -115,19 +115,19 @@ impl App {
 
     fn accept_line(&mut self, menu: Menu) -> Vec<Effect> {
         let Some((_, item)) = menu.current() else {
-            self.over = Some(Over::Menu(menu));
-            return self.say("Nothing fits what is typed.");
+            self.overlay = Some(Overlay::Menu(menu));
+            return self.notify("Nothing fits what is typed.");
         };
         if let Some(reason) = &item.refusal {
             let sentence = format!("{} cannot be used here: {reason}", item.label);
-            self.over = Some(Over::Menu(menu));
-            return self.say(sentence);
+            self.overlay = Some(Overlay::Menu(menu));
+            return self.notify(sentence);
         }
         match (menu.purpose, item.choice) {
             (_, Choice::Method(name)) => {
                 self.lab.as_mut().map_or(Vec::new(), |lab| lab.integrate_by(name))
             }
-            (_, Choice::Blow(index)) => self.strike_by(index),
+            (_, Choice::Impulse(index)) => self.apply_impulse(index),
             (_, Choice::Theme(index)) => {
                 self.theme = self.themes.get(index).map(|(name, _)| *name);
                 Vec::new()
@@ -137,18 +137,18 @@ impl App {
             (_, Choice::Value(target)) => self.type_into(target),
             (_, Choice::Pane(pane)) => self.look_at(pane),
             (Choosing::Across { plot }, Choice::Space) => {
-                self.put(plot, |lab| Plot::Space(Eye::for_shapes(&lab.loaded)))
+                self.put(plot, |lab| Plot::Space(CameraPose::for_shapes(&lab.loaded)))
             }
             (Choosing::Across { plot }, Choice::View(view)) => {
-                self.put(plot, |_| Plot::Potential { view, lens: Lens::WHOLE })
+                self.put(plot, |_| Plot::Potential { view, viewport: Viewport::WHOLE })
             }
             (Choosing::Across { plot }, Choice::Time) => self.open_upwards(plot, None),
             (Choosing::Across { plot }, Choice::Channel(x)) => self.open_upwards(plot, Some(x)),
             (Choosing::Upwards { plot, x: Some(x) }, Choice::Channel(y)) => {
-                self.put(plot, |_| Plot::Phase { x, y, lens: Lens::WHOLE })
+                self.put(plot, |_| Plot::Phase { x, y, viewport: Viewport::WHOLE })
             }
             (Choosing::Upwards { plot, x: None }, Choice::Channel(_)) => {
-                self.put(plot, |_| Plot::Time { y: menu.channels(), lens: Lens::WHOLE })
+                self.put(plot, |_| Plot::Time { y: menu.channels(), viewport: Viewport::WHOLE })
             }
             _ => Vec::new(),
         }
@@ -170,22 +170,25 @@ impl App {
             Ok(value) => value,
             Err(sentence) => {
                 field.mistake = Some(sentence);
-                self.over = Some(Over::Field(field));
+                self.overlay = Some(Overlay::Field(field));
                 return Vec::new();
             }
         };
         match field.purpose {
             Purpose::Value(target) => {
-                let beyond = lab.facts(target).and_then(|facts| {
-                    let (min, max, _) = facts.range?;
+                let beyond = lab.value_info(target).and_then(|value_info| {
+                    let (min, max, _) = value_info.range?;
                     let outside = !(min..=max).contains(&value);
                     outside.then(|| {
-                        format!("{} is now beyond its usual range, {min} to {max}.", facts.shown)
+                        format!(
+                            "{} is now beyond its usual range, {min} to {max}.",
+                            value_info.shown
+                        )
                     })
                 });
                 let effects = lab.change(target, value);
                 if let Some(sentence) = beyond {
-                    self.say(sentence);
+                    self.notify(sentence);
                 }
                 effects
             }

@@ -11,10 +11,11 @@ use std::time::Duration;
 
 use tui_input::Input;
 
+use super::buffer::{Asking, Found, SourceBuffer, State, Unsaved};
 use super::field::paste;
-use super::sheet::{Asking, Found, Sheet, State, Unsaved};
-use super::{App, Effect, Key, Lab, Loaded, Notice, Over, Page};
-use crate::preset::{Mistake, Origin, is_path};
+use super::{App, Effect, Key, Lab, Loaded, Notification, Overlay, Page};
+use crate::diagnostic::Diagnostic;
+use crate::preset::{Origin, is_path};
 
 /// A text that was asked to be checked: what became of it.
 #[derive(Clone, Debug)]
@@ -22,14 +23,14 @@ pub struct Checked {
     /// Which check it was.
     pub ticket: u64,
     /// The system it makes, running already, or its mistakes.
-    pub outcome: Result<Loaded, Vec<Mistake>>,
+    pub outcome: Result<Loaded, Vec<Diagnostic>>,
     /// How long that took.
     pub took: Duration,
 }
 
 /// Why a text was not saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotSaved {
+pub enum SaveError {
     /// The file is not what it was when it was read.
     Changed,
     /// There is a file of that name already.
@@ -40,16 +41,16 @@ pub enum NotSaved {
 
 impl App {
     /// The sheet being edited, while its editor is open.
-    pub fn open_sheet(&self) -> Option<&Sheet> {
-        self.workbench.top().filter(|_| matches!(self.over, Some(Over::Workbench)))
+    pub fn open_buffer(&self) -> Option<&SourceBuffer> {
+        self.workbench.top().filter(|_| matches!(self.overlay, Some(Overlay::Workbench)))
     }
 
-    fn sheet(&mut self) -> Option<&mut Sheet> {
+    fn buffer(&mut self) -> Option<&mut SourceBuffer> {
         self.workbench.top_mut()
     }
 
     /// The sheet of the system in the lab, if it has one.
-    pub(super) fn own_sheet(&self) -> Option<&Sheet> {
+    pub(super) fn own_buffer(&self) -> Option<&SourceBuffer> {
         let lab = self.lab.as_ref()?;
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
     }
@@ -69,15 +70,15 @@ impl App {
 
     /// A line on what is wrong with the file while its editor is closed.
     pub fn banner(&self) -> Option<String> {
-        let sheet = self.own_sheet().filter(|_| self.over.is_none())?;
-        let flaw = sheet.flaws.first().filter(|_| sheet.state == State::Wrong)?;
+        let buffer = self.own_buffer().filter(|_| self.overlay.is_none())?;
+        let flaw = buffer.flaws.first().filter(|_| buffer.state == State::Wrong)?;
         let (row, column) = (flaw.from.row + 1, flaw.from.column + 1);
-        Some(format!("{}:{row}:{column}: {}; what was right goes on", sheet.title, flaw.message))
+        Some(format!("{}:{row}:{column}: {}; what was right goes on", buffer.title, flaw.message))
     }
 
     /// Whether the answer to a check is still wanted.
     pub fn awaits(&self, ticket: u64) -> bool {
-        self.own_sheet().is_some_and(|sheet| sheet.awaits(ticket))
+        self.own_buffer().is_some_and(|buffer| buffer.awaits(ticket))
     }
 
     /// The texts of all systems that are not saved.
@@ -87,14 +88,14 @@ impl App {
 
     /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
-        if self.ready_sheet().is_some() {
-            self.over = Some(Over::Workbench);
+        if self.ready_buffer().is_some() {
+            self.overlay = Some(Overlay::Workbench);
         }
         Vec::new()
     }
 
     /// The sheet of the system in the lab, as it was left.
-    fn ready_sheet(&mut self) -> Option<&mut Sheet> {
+    fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
         let place = self.file();
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
@@ -107,13 +108,13 @@ impl App {
         if self.notice.as_ref().is_some_and(|notice| notice.text == told) {
             return vec![Effect::Quit];
         }
-        self.say(told)
+        self.notify(told)
     }
 
     /// The program was about to end, and a text could not be kept.
     pub fn stay(&mut self) {
         self.workbench.keeps = false;
-        self.notice = self.loss().map(Notice::error);
+        self.notice = self.loss().map(Notification::error);
     }
 
     /// A sentence on what would be lost.
@@ -124,218 +125,221 @@ impl App {
 
     /// The text that was not saved is the one that ran: it is checked at once. Whether there is such a text.
     pub(super) fn wake(&mut self) -> bool {
-        let modified = self.own_sheet().is_some_and(Sheet::is_modified);
-        modified && self.ready_sheet().is_some()
+        let modified = self.own_buffer().is_some_and(SourceBuffer::is_modified);
+        modified && self.ready_buffer().is_some()
     }
 
     /// Tells of a text of the system in the lab that was not saved.
     pub(super) fn remind(&mut self) {
-        if let Some(sheet) = self.own_sheet().filter(|sheet| sheet.is_modified()) {
-            let told = format!("{} has changes that are not saved; E goes to them.", sheet.title);
-            self.notice = Some(Notice::info(told));
+        if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
+            let told = format!("{} has changes that are not saved; E goes to them.", buffer.title);
+            self.notice = Some(Notification::info(told));
         }
     }
 
     /// A key that stands for itself.
-    pub(super) fn type_on_sheet(&mut self, key: Key) {
+    pub(super) fn type_into_buffer(&mut self, key: Key) {
         let page = usize::from(self.drawn.rows).saturating_sub(1);
-        if let Some(sheet) = self.sheet() {
-            sheet.press(key, page);
+        if let Some(buffer) = self.buffer() {
+            buffer.press(key, page);
         }
     }
 
     /// Pasted text; whether all of it found room.
-    pub(super) fn paste_on_sheet(&mut self, text: &str) -> bool {
-        let Some(sheet) = self.sheet() else { return true };
-        match &mut sheet.asking {
+    pub(super) fn paste_into_buffer(&mut self, text: &str) -> bool {
+        let Some(buffer) = self.buffer() else { return true };
+        match &mut buffer.asking {
             Some(Asking::Words(input) | Asking::Name(input)) => paste(input, text),
             None => {
-                let whole = sheet.editor.paste(text);
-                sheet.touch();
+                let whole = buffer.editor.paste(text);
+                buffer.touch();
                 whole
             }
         }
     }
 
     /// Something done to the text as a whole.
-    pub(super) fn work(&mut self, work: Work) -> Vec<Effect> {
-        let Some(sheet) = self.sheet() else { return Vec::new() };
+    pub(super) fn work(&mut self, work: EditCommand) -> Vec<Effect> {
+        let Some(buffer) = self.buffer() else { return Vec::new() };
         let changed = match work {
-            Work::Save => return self.save_file(),
-            Work::Find => {
-                sheet.asking = Some(Asking::Words(Input::new(sheet.sought.clone())));
+            EditCommand::Save => return self.save_file(),
+            EditCommand::Find => {
+                buffer.asking = Some(Asking::Words(Input::new(buffer.sought.clone())));
                 false
             }
-            Work::FindNext => return self.find(),
-            Work::Mistake(sign) => {
-                if !sheet.step(sign) {
-                    return self.say("There is no mistake.");
+            EditCommand::FindNext => return self.find(),
+            EditCommand::Diagnostic(sign) => {
+                if !buffer.step(sign) {
+                    return self.notify("There is no mistake.");
                 }
                 false
             }
-            Work::Cut => sheet.editor.cut(),
-            Work::Copy => {
-                sheet.editor.copy();
-                self.notice = Some(Notice::info("Copied; Ctrl-v puts it in."));
+            EditCommand::Cut => buffer.editor.cut(),
+            EditCommand::Copy => {
+                buffer.editor.copy();
+                self.notice = Some(Notification::info("Copied; Ctrl-v puts it in."));
                 return Vec::new();
             }
-            Work::PutBack => sheet.editor.put_back(),
-            Work::Undo => {
-                if !sheet.editor.undo() {
-                    return self.say("There is nothing to take back.");
+            EditCommand::PutBack => buffer.editor.put_back(),
+            EditCommand::Undo => {
+                if !buffer.editor.undo() {
+                    return self.notify("There is nothing to take back.");
                 }
                 true
             }
-            Work::Redo => {
-                if !sheet.editor.redo() {
-                    return self.say("There is nothing to do again.");
+            EditCommand::Redo => {
+                if !buffer.editor.redo() {
+                    return self.notify("There is nothing to do again.");
                 }
                 true
             }
-            Work::Reread => {
-                let Some(place) = &sheet.place else {
+            EditCommand::Reread => {
+                let Some(place) = &buffer.place else {
                     // what is shipped has not changed
-                    let text = sheet.on_disk.clone();
+                    let text = buffer.on_disk.clone();
                     self.changed_on_disk(&text, true);
                     return Vec::new();
                 };
                 return vec![Effect::Reread(place.clone())];
             }
         };
-        if changed && let Some(sheet) = self.sheet() {
-            sheet.touch();
+        if changed && let Some(buffer) = self.buffer() {
+            buffer.touch();
         }
         Vec::new()
     }
 
     /// Esc: leaves what is asked for, else the workbench; the text stays. A check that takes long is stopped.
-    pub(super) fn leave_sheet(&mut self) -> Vec<Effect> {
-        let Some(sheet) = self.workbench.top_mut() else {
-            self.over = None;
+    pub(super) fn leave_buffer(&mut self) -> Vec<Effect> {
+        let Some(buffer) = self.workbench.top_mut() else {
+            self.overlay = None;
             return Vec::new();
         };
-        if sheet.asking.take().is_some() {
+        if buffer.asking.take().is_some() {
             return Vec::new();
         }
-        self.over = None;
-        let stopped = sheet.is_long_checked();
+        self.overlay = None;
+        let stopped = buffer.is_long_checked();
         if stopped {
-            sheet.leave();
+            buffer.leave();
         }
-        let told = match (stopped, sheet.is_modified()) {
-            (true, _) => format!("{} is no longer being checked; E goes on with it.", sheet.title),
-            (false, true) => format!("{} is not saved; E goes back to it.", sheet.title),
+        let told = match (stopped, buffer.is_modified()) {
+            (true, _) => format!("{} is no longer being checked; E goes on with it.", buffer.title),
+            (false, true) => format!("{} is not saved; E goes back to it.", buffer.title),
             (false, false) => return Vec::new(),
         };
-        self.notice = Some(Notice::info(told));
+        self.notice = Some(Notification::info(told));
         if stopped { vec![Effect::StopCheck] } else { Vec::new() }
     }
 
     /// Enter, where something is asked for.
-    pub(super) fn accept_on_sheet(&mut self) -> Vec<Effect> {
-        let Some(sheet) = self.sheet() else { return Vec::new() };
-        match sheet.asking.take() {
+    pub(super) fn accept_in_buffer(&mut self) -> Vec<Effect> {
+        let Some(buffer) = self.buffer() else { return Vec::new() };
+        match buffer.asking.take() {
             None => Vec::new(),
             Some(Asking::Words(input)) => {
-                input.value().clone_into(&mut sheet.sought);
-                if sheet.sought.is_empty() { Vec::new() } else { self.find() }
+                input.value().clone_into(&mut buffer.sought);
+                if buffer.sought.is_empty() { Vec::new() } else { self.find() }
             }
             Some(Asking::Name(input)) => {
                 let name = input.value().trim().to_owned();
                 if name.is_empty() || name.ends_with('/') {
-                    sheet.asking = Some(Asking::Name(input));
-                    return self.say("Give the copy a name, as my-pendulum or ./pendulum.toml.");
+                    buffer.asking = Some(Asking::Name(input));
+                    return self.notify("Give the copy a name, as my-pendulum or ./pendulum.toml.");
                 }
-                let text = sheet.editor.text();
+                let text = buffer.editor.text();
                 vec![Effect::SaveCopy { name, text }]
             }
         }
     }
 
     fn find(&mut self) -> Vec<Effect> {
-        let Some(sheet) = self.sheet() else { return Vec::new() };
-        let sought = sheet.sought.clone();
+        let Some(buffer) = self.buffer() else { return Vec::new() };
+        let sought = buffer.sought.clone();
         if sought.is_empty() {
-            sheet.asking = Some(Asking::Words(Input::default()));
+            buffer.asking = Some(Asking::Words(Input::default()));
             return Vec::new();
         }
-        if sheet.editor.find(&sought) {
+        if buffer.editor.find(&sought) {
             return Vec::new();
         }
-        self.say(format!("`{sought}` stands nowhere."))
+        self.notify(format!("`{sought}` stands nowhere."))
     }
 
     fn save_file(&mut self) -> Vec<Effect> {
-        let Some(sheet) = self.sheet() else { return Vec::new() };
-        let text = sheet.editor.text();
-        match &sheet.place {
+        let Some(buffer) = self.buffer() else { return Vec::new() };
+        let text = buffer.editor.text();
+        match &buffer.place {
             Some(place) => {
-                let known = (!sheet.overrule).then(|| sheet.on_disk.clone());
+                let known = (!buffer.overrule).then(|| buffer.on_disk.clone());
                 vec![Effect::Save { place: place.clone(), text, known }]
             }
             None => {
-                let copy = format!("my-{}", sheet.name);
-                sheet.asking = Some(Asking::Name(Input::new(copy)));
+                let copy = format!("my-{}", buffer.name);
+                buffer.asking = Some(Asking::Name(Input::new(copy)));
                 Vec::new()
             }
         }
     }
 
     /// A text was saved, or was not.
-    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), NotSaved>) {
-        let Some(sheet) = self.workbench.top_mut() else { return };
-        sheet.overrule = outcome == Err(NotSaved::Changed);
+    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
+        let Some(buffer) = self.workbench.top_mut() else { return };
+        buffer.overrule = outcome == Err(SaveError::Changed);
         self.notice = Some(match outcome {
             Ok((place, text)) => {
                 let shown = place.display().to_string();
-                sheet.on_disk = text;
-                if sheet.place.as_ref() != Some(&place) {
+                buffer.on_disk = text;
+                if buffer.place.as_ref() != Some(&place) {
                     // from now on the copy is what is open
-                    let here = |lab: &&mut Lab| lab.loaded.name == sheet.name;
+                    let here = |lab: &&mut Lab| lab.loaded.name == buffer.name;
                     let name = if is_path(&shown) { shown.clone() } else { format!("./{shown}") };
                     if let Some(lab) = self.lab.as_mut().filter(here) {
                         lab.loaded.name.clone_from(&name);
                     }
-                    (sheet.name, sheet.title) = (name, shown.clone());
-                    sheet.place = Some(place);
+                    (buffer.name, buffer.title) = (name, shown.clone());
+                    buffer.place = Some(place);
                 }
-                sheet.unlooked = sheet.state == State::Changed;
-                match (sheet.saved_as(), sheet.state) {
-                    (Some(told), State::Wrong) => Notice::error(told),
-                    (told, _) => Notice::info(told.unwrap_or_default()),
+                buffer.unlooked = buffer.state == State::Changed;
+                match (buffer.saved_as(), buffer.state) {
+                    (Some(told), State::Wrong) => Notification::error(told),
+                    (told, _) => Notification::info(told.unwrap_or_default()),
                 }
             }
-            Err(NotSaved::Changed) => Notice::error(format!(
+            Err(SaveError::Changed) => Notification::error(format!(
                 "{} was changed by another program: Ctrl-s again writes over it, Ctrl-o reads it.",
-                sheet.title
+                buffer.title
             )),
-            Err(NotSaved::Exists(place)) => {
-                sheet.asking = Some(Asking::Name(Input::new(place.display().to_string())));
-                Notice::error(format!("{} exists already; give another name.", place.display()))
+            Err(SaveError::Exists(place)) => {
+                buffer.asking = Some(Asking::Name(Input::new(place.display().to_string())));
+                Notification::error(format!(
+                    "{} exists already; give another name.",
+                    place.display()
+                ))
             }
-            Err(NotSaved::Refused(why)) => Notice::error(why),
+            Err(SaveError::Refused(why)) => Notification::error(why),
         });
     }
 
     /// The file holds this text now; `asked` says that it was read because the user wanted it.
     pub(super) fn changed_on_disk(&mut self, text: &str, asked: bool) {
-        if let Some(sheet) = self.own_sheet().filter(|sheet| !asked && sheet.is_modified()) {
-            if sheet.on_disk != text {
+        if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
+            if buffer.on_disk != text {
                 let told = format!(
                     "{} was changed by another program; what stands here is not saved.",
-                    sheet.title
+                    buffer.title
                 );
-                self.notice = Some(Notice::error(told));
+                self.notice = Some(Notification::error(told));
             }
             return;
         }
-        let Some(sheet) = self.ready_sheet() else { return };
-        text.clone_into(&mut sheet.on_disk);
-        if sheet.editor.text() != text {
-            sheet.editor.become_text(text);
-            sheet.touch_at_once(!asked);
+        let Some(buffer) = self.ready_buffer() else { return };
+        text.clone_into(&mut buffer.on_disk);
+        if buffer.editor.text() != text {
+            buffer.editor.become_text(text);
+            buffer.touch_at_once(!asked);
         }
-        sheet.overrule = false;
+        buffer.overrule = false;
     }
 
     /// The watched file has gone, or is there again.
@@ -343,14 +347,14 @@ impl App {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
         self.notice = Some(if there {
-            Notice::info(format!("{title} is there again."))
+            Notification::info(format!("{title} is there again."))
         } else {
-            Notice::error(format!("{title} is no longer there; what it held goes on."))
+            Notification::error(format!("{title} is no longer there; what it held goes on."))
         });
     }
 
     /// Time has passed.
-    pub(super) fn tick_sheet(&mut self, elapsed: Duration) -> Option<Effect> {
+    pub(super) fn tick_buffer(&mut self, elapsed: Duration) -> Option<Effect> {
         if self.page == Page::Picker {
             return self.workbench.put_off().then_some(Effect::StopCheck);
         }
@@ -360,44 +364,44 @@ impl App {
     /// The screen was drawn: the cursor is kept on it.
     pub(super) fn follow_cursor(&mut self) {
         let (rows, columns) = (self.drawn.rows.into(), self.drawn.columns.into());
-        if matches!(self.over, Some(Over::Workbench))
-            && let Some(sheet) = self.sheet()
+        if matches!(self.overlay, Some(Overlay::Workbench))
+            && let Some(buffer) = self.buffer()
         {
-            sheet.scroll = sheet.follow(rows, columns);
+            buffer.scroll = buffer.follow(rows, columns);
         }
     }
 
     /// A text was checked, and where it was right its system runs already.
     pub(super) fn checked(&mut self, checked: Checked) -> Vec<Effect> {
         let Checked { ticket, outcome, took } = checked;
-        let Some(sheet) = self.sheet().filter(|sheet| sheet.awaits(ticket)) else {
+        let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
         };
-        let found = sheet.end_check();
+        let found = buffer.end_check();
         match (outcome, found) {
             (Ok(loaded), found) => {
                 if let Found::Newest = found {
-                    sheet.flaws.clear();
-                    sheet.state = State::Runs(Some(took));
+                    buffer.flaws.clear();
+                    buffer.state = State::Runs(Some(took));
                 }
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
-                if !resumes && !matches!(self.over, Some(Over::Workbench)) {
+                if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
                     let told = format!("{title}: built anew in {time:.0} ms; the motion goes on.");
-                    self.notice = Some(Notice::info(told));
+                    self.notice = Some(Notification::info(told));
                 }
                 self.rebuilt(loaded)
             }
             // what was wrong with a text that has changed since is no longer so
             (Err(_), Found::Older) => Vec::new(),
             (Err(mistakes), Found::Newest) => {
-                sheet.is_wrong(&mistakes);
-                let saved = sheet.saved_as().filter(|_| sheet.unlooked);
-                sheet.unlooked = false;
+                buffer.is_wrong(&mistakes);
+                let saved = buffer.saved_as().filter(|_| buffer.unlooked);
+                buffer.unlooked = false;
                 if let Some(told) = saved {
-                    self.notice = Some(Notice::error(told));
+                    self.notice = Some(Notification::error(told));
                 }
-                self.take_up()
+                self.restore()
             }
         }
     }
@@ -405,7 +409,7 @@ impl App {
 
 /// What can be done to the text beside typing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Work {
+pub enum EditCommand {
     /// Save it.
     Save,
     /// Look for words.
@@ -413,7 +417,7 @@ pub enum Work {
     /// Look for them again.
     FindNext,
     /// To the next mistake (+1) or the one before (−1).
-    Mistake(i8),
+    Diagnostic(i8),
     /// Cut what is selected, or the line.
     Cut,
     /// Keep it without cutting it.

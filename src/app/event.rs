@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Act, Checked, Key, NotSaved, Spot};
+use super::{Act, Checked, HitTarget, Key, SaveError};
+use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::preset::Document;
 use crate::system::System;
 
 /// Something that happened.
@@ -24,13 +24,13 @@ pub enum Event {
     /// The screen has another size: columns, rows.
     Resize(u16, u16),
     /// The mouse did something at a spot that `view` has found.
-    Mouse(Act, Spot),
+    Mouse(Act, HitTarget),
     /// The window of the terminal has got the keyboard, or lost it.
     Focus(bool),
     /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
     Snapshot(Arc<Snapshot>),
     /// A system asked for by [`Effect::Load`] is there, or is not.
-    Loaded(Result<Loaded, LoadFailure>),
+    Loaded(Result<Loaded, LoadError>),
     /// A file that was asked for is written, or why it is not: a sentence.
     Written(Result<String, String>),
     /// The system in the lab was built anew from its changed file.
@@ -40,7 +40,7 @@ pub enum Event {
     /// A text that [`Effect::Check`] asked about is right and runs already, or is wrong.
     Checked(Box<Checked>),
     /// A text was saved to this file, or was not.
-    FileSaved(Result<(PathBuf, String), NotSaved>),
+    FileSaved(Result<(PathBuf, String), SaveError>),
     /// The file of the system holds this text now.
     FileRead {
         /// Its text.
@@ -86,7 +86,7 @@ pub struct Loaded {
 
 /// Why a system could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LoadFailure {
+pub struct LoadError {
     /// What was asked for.
     pub name: String,
     /// What is wrong, as it would be printed, in one or many lines.

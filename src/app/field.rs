@@ -5,7 +5,7 @@
 
 use tui_input::{Input, InputRequest};
 
-use super::{Code, Key, Target};
+use super::{Code, Key, ValueId};
 use crate::expr::Pool;
 use crate::model::{Allowed, Model, Scope};
 
@@ -16,7 +16,7 @@ const MOST: usize = 4096;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A parameter or an initial value.
-    Value(Target),
+    Value(ValueId),
     /// The step of a method of fixed step.
     Step,
     /// The tolerance of an adaptive method.

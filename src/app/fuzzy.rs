@@ -53,7 +53,7 @@ pub struct Fit {
     /// The greater, the better.
     pub score: u32,
     /// The places of the letters of the label that were found, in rising order.
-    pub letters: Vec<usize>,
+    pub messages: Vec<usize>,
 }
 
 impl Query {
@@ -65,9 +65,9 @@ impl Query {
     pub(super) fn fit(&self, texts: Texts<'_>) -> Option<Fit> {
         let mut fit = Fit::default();
         for word in &self.0 {
-            let (score, letters) = word.fit(texts)?;
+            let (score, messages) = word.fit(texts)?;
             fit.score += score;
-            fit.letters.extend(letters);
+            fit.messages.extend(messages);
         }
         if self.0.len() > 1 {
             let spaced: Vec<&[char]> = self.0.iter().map(|word| word.0.as_slice()).collect();
@@ -76,8 +76,8 @@ impl Query {
             let at = all.whole(&label).find_map(|place| all.worth(&label, place));
             fit.score += at.map_or(0, |_| TOGETHER);
         }
-        fit.letters.sort_unstable();
-        fit.letters.dedup();
+        fit.messages.sort_unstable();
+        fit.messages.dedup();
         Some(fit)
     }
 }
@@ -99,55 +99,56 @@ impl Word {
 
     /// What it is worth in a name, and where its letters stand.
     fn named(&self, text: &str) -> Option<(u32, Vec<usize>)> {
-        let letters = folded(text);
+        let messages = folded(text);
         let inside = (self.0.len() >= 2).then_some(INSIDE);
-        let whole = self.whole(&letters).max_by_key(|place| self.worth(&letters, *place));
+        let whole = self.whole(&messages).max_by_key(|place| self.worth(&messages, *place));
         let whole = whole.and_then(|place| {
-            let score = self.worth(&letters, place).or(inside)?;
+            let score = self.worth(&messages, place).or(inside)?;
             Some((score, (place..place + self.0.len()).collect()))
         });
-        whole.or_else(|| self.initials(&letters)).or_else(|| self.with_gaps(&letters))
+        whole.or_else(|| self.initials(&messages)).or_else(|| self.with_gaps(&messages))
     }
 
     /// What it is worth in what is said about a line.
     fn said(&self, text: &str) -> Option<u32> {
-        let letters = folded(text);
+        let messages = folded(text);
         let inside = (self.0.len() >= LEAST).then_some(SAID_INSIDE);
-        let worth = |place| if self.worth(&letters, place).is_some() { Some(SAID) } else { inside };
-        self.whole(&letters).filter(|_| self.0.len() >= 2).filter_map(worth).max()
+        let worth =
+            |place| if self.worth(&messages, place).is_some() { Some(SAID) } else { inside };
+        self.whole(&messages).filter(|_| self.0.len() >= 2).filter_map(worth).max()
     }
 
     /// Where it stands without gaps.
-    fn whole<'a>(&'a self, letters: &'a [char]) -> impl Iterator<Item = usize> {
-        let windows = letters.windows(self.0.len()).enumerate();
+    fn whole<'a>(&'a self, messages: &'a [char]) -> impl Iterator<Item = usize> {
+        let windows = messages.windows(self.0.len()).enumerate();
         windows.filter(|(_, window)| *window == self.0).map(|(place, _)| place)
     }
 
     /// What it is worth at the beginning of a word; nothing elsewhere.
-    fn worth(&self, letters: &[char], place: usize) -> Option<u32> {
-        let begins = place == 0 || !letters[place - 1].is_alphanumeric();
-        let next = letters.get(place + self.0.len());
+    fn worth(&self, messages: &[char], place: usize) -> Option<u32> {
+        let begins = place == 0 || !messages[place - 1].is_alphanumeric();
+        let next = messages.get(place + self.0.len());
         let whole = next.is_none_or(|next| !next.is_alphanumeric());
-        let all = self.0.len() == letters.len();
+        let all = self.0.len() == messages.len();
         let place = if place == 0 { BEGINS } else { STARTS_A_WORD };
         let extra = u32::from(whole) * WHOLE + u32::from(all) * ALL;
         begins.then_some(place + extra)
     }
 
     /// Its letters as the first ones of words that follow each other.
-    fn initials(&self, letters: &[char]) -> Option<(u32, Vec<usize>)> {
-        let starts: Vec<usize> = words(letters).map(|(start, _)| start).collect();
-        let firsts: Vec<char> = starts.iter().map(|start| letters[*start]).collect();
+    fn initials(&self, messages: &[char]) -> Option<(u32, Vec<usize>)> {
+        let starts: Vec<usize> = words(messages).map(|(start, _)| start).collect();
+        let firsts: Vec<char> = starts.iter().map(|start| messages[*start]).collect();
         let place = self.whole(&firsts).next().filter(|_| self.0.len() >= 2)?;
         Some((INITIALS, starts[place..place + self.0.len()].to_vec()))
     }
 
     /// Its letters within one word, from the first on.
-    fn with_gaps(&self, letters: &[char]) -> Option<(u32, Vec<usize>)> {
-        words(letters).filter(|_| self.0.len() >= LEAST).find_map(|(start, end)| {
+    fn with_gaps(&self, messages: &[char]) -> Option<(u32, Vec<usize>)> {
+        words(messages).filter(|_| self.0.len() >= LEAST).find_map(|(start, end)| {
             let end = end.min(start + 2 * self.0.len());
             let mut places = start..end;
-            let place = |letter: &char| places.find(|place| letters[*place] == *letter);
+            let place = |letter: &char| places.find(|place| messages[*place] == *letter);
             let found: Option<Vec<usize>> = self.0.iter().map(place).collect();
             found.filter(|found| found[0] == start).map(|found| (WITH_GAPS, found))
         })
@@ -160,10 +161,10 @@ fn folded(text: &str) -> Vec<char> {
 }
 
 /// Where each word begins and ends.
-fn words(letters: &[char]) -> impl Iterator<Item = (usize, usize)> {
-    let within = |place: usize| letters.get(place).is_some_and(|c| c.is_alphanumeric());
-    let starts = (0..letters.len()).filter(move |p| within(*p) && !(*p > 0 && within(p - 1)));
-    let end = move |start| (start..letters.len()).find(|p| !within(*p)).unwrap_or(letters.len());
+fn words(messages: &[char]) -> impl Iterator<Item = (usize, usize)> {
+    let within = |place: usize| messages.get(place).is_some_and(|c| c.is_alphanumeric());
+    let starts = (0..messages.len()).filter(move |p| within(*p) && !(*p > 0 && within(p - 1)));
+    let end = move |start| (start..messages.len()).find(|p| !within(*p)).unwrap_or(messages.len());
     starts.map(move |start| (start, end(start)))
 }
 
@@ -177,18 +178,18 @@ mod tests {
 
     #[test]
     fn letters_are_found_together_as_initials_or_within_a_word() {
-        let letters = |query, label| fit(query, label).map(|f| f.letters);
-        assert_eq!(letters("zom", "zoom"), Some(vec![0, 1, 3]));
-        assert_eq!(letters("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
-        assert_eq!(letters("heiles", "Hénon–Heiles"), Some((6..12).collect()));
-        assert_eq!(letters("dp", "Driven damped pendulum"), Some(vec![7, 14]));
-        assert_eq!(letters("rp", "reset, then play"), None, "a word stands between");
-        assert_eq!(letters("ene", "let time run slower"), None, "chance is not meant");
-        assert_eq!(letters("ene", "everyone"), None, "nor in one long word");
-        assert_eq!(letters("m", "Sum"), None, "one letter begins a word");
-        assert_eq!(letters("abo", "zoom"), Some(vec![]), "told of, not named");
-        assert_eq!(letters("sec", "zoom"), Some(vec![]), "its second name");
-        assert_eq!(letters("zoom xyz", "zoom"), None);
+        let messages = |query, label| fit(query, label).map(|f| f.messages);
+        assert_eq!(messages("zom", "zoom"), Some(vec![0, 1, 3]));
+        assert_eq!(messages("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(messages("heiles", "Hénon–Heiles"), Some((6..12).collect()));
+        assert_eq!(messages("dp", "Driven damped pendulum"), Some(vec![7, 14]));
+        assert_eq!(messages("rp", "reset, then play"), None, "a word stands between");
+        assert_eq!(messages("ene", "let time run slower"), None, "chance is not meant");
+        assert_eq!(messages("ene", "everyone"), None, "nor in one long word");
+        assert_eq!(messages("m", "Sum"), None, "one letter begins a word");
+        assert_eq!(messages("abo", "zoom"), Some(vec![]), "told of, not named");
+        assert_eq!(messages("sec", "zoom"), Some(vec![]), "its second name");
+        assert_eq!(messages("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(Fit::default()));
     }
 

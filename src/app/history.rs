@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::Plot;
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// Changes of one thing that follow each other within this time are taken back together.
 const TOGETHER: Duration = Duration::from_millis(800);
@@ -29,16 +29,16 @@ pub(super) enum Change {
         /// What stood there before, and after.
         numbers: [f64; 2],
         /// All that was given in place of the file's values before, and after.
-        given: [Vec<Given>; 2],
+        given: [Vec<InitialOverride>; 2],
     },
     /// Several initial values were given at once: all that was given before, and after.
-    Start([Vec<Given>; 2]),
+    Start([Vec<InitialOverride>; 2]),
     /// All values were given back to the file; these are the ones before.
     FullReset {
         /// The parameters.
         parameters: Vec<f64>,
         /// What was given in place of the file's initial values.
-        given: Vec<Given>,
+        given: Vec<InitialOverride>,
     },
     /// A picture shows something else, or is looked at in another way.
     Plot {
@@ -89,7 +89,7 @@ pub(super) struct History {
     undone: Vec<Change>,
     since: Option<Duration>,
     /// How much was done when the mouse took hold of something.
-    grip: Option<usize>,
+    begin_group: Option<usize>,
 }
 
 impl History {
@@ -97,7 +97,7 @@ impl History {
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
         let last = self.done.len().saturating_sub(1);
-        let joining = match self.grip {
+        let joining = match self.begin_group {
             // All that is done while something is held is one change, however long it takes.
             Some(before) => self.done.get_mut(before..).unwrap_or_default(),
             None if self.since.is_some_and(|since| since < TOGETHER) => &mut self.done[last..],
@@ -110,17 +110,17 @@ impl History {
     }
 
     /// The mouse takes hold of something, or values begin to be carried elsewhere.
-    pub(super) fn grip(&mut self) {
-        self.grip = Some(self.done.len());
+    pub(super) fn begin_group(&mut self) {
+        self.begin_group = Some(self.done.len());
     }
 
     /// They are let go; all that was changed meanwhile is taken back as one.
-    pub(super) fn release(&mut self) {
-        if let Some(before) = self.grip.filter(|before| self.done.len() > before + 1) {
+    pub(super) fn end_group(&mut self) {
+        if let Some(before) = self.begin_group.filter(|before| self.done.len() > before + 1) {
             let changes = self.done.split_off(before);
             self.done.push(Change::Together(changes));
         }
-        (self.grip, self.since) = (None, None);
+        (self.begin_group, self.since) = (None, None);
     }
 
     /// Time has passed.

@@ -3,8 +3,8 @@
 //! In: a key and the places that are active. Out: an [`Action`]. The help page, the hints in the footer, the palette
 //! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
 
-use super::action::{Action, Axes, Way};
-use super::{Code, Key, Page, Work};
+use super::action::{Action, Axes, Direction};
+use super::{Code, EditCommand, Key, Page};
 
 /// Where a key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -171,8 +171,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),
 
-    row(Place::Picker, &[UP], Action::Move(Way::Up), "", "the system above"),
-    row(Place::Picker, &[DOWN], Action::Move(Way::Down), "choose", "the system below"),
+    row(Place::Picker, &[UP], Action::Move(Direction::Up), "", "the system above"),
+    row(Place::Picker, &[DOWN], Action::Move(Direction::Down), "choose", "the system below"),
     row(Place::Picker, &[PAGE_UP], Action::PageUp, "", "ten systems up"),
     row(Place::Picker, &[PAGE_DOWN], Action::PageDown, "", "ten systems down"),
     row(Place::Picker, &[HOME], Action::First, "", "the first system"),
@@ -180,8 +180,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Picker, &[ENTER], Action::Open, "open", "open the system in the lab"),
     row(Place::Picker, &[c('/')], Action::Search, "search", "search by name, topic or summary; any other letter begins it too"),
 
-    row(Place::Search, &[UP], Action::Move(Way::Up), "", "the match above"),
-    row(Place::Search, &[DOWN, TAB], Action::Move(Way::Down), "choose", "the match below"),
+    row(Place::Search, &[UP], Action::Move(Direction::Up), "", "the match above"),
+    row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
     row(Place::Search, &[ENTER], Action::Open, "open", "open the match in the lab"),
 
     row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "hold time, or let it run"),
@@ -205,7 +205,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('O')], Action::Record, "", "record what is shown into a cast in the current folder, or end the recording"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
-    row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
+    row(Place::Experiment, &[c('3')], Action::Show(Page::PendingSignals), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
     row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "fewer frames a second, for a slow line"),
     row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),
@@ -215,14 +215,14 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
-    row(Place::Lab, &[c('b')], Action::Strike, "strike", "strike a blow of the file that waits for a key"),
+    row(Place::Lab, &[c('b')], Action::ApplyImpulse, "strike", "strike an impulse of the file that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "look at the motion in space from the next frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
-    row(Place::Space, &[LEFT, c('h')], Action::Move(Way::Left), "turn", "turn the picture to the left"),
-    row(Place::Space, &[RIGHT, c('l')], Action::Move(Way::Right), "", "turn the picture to the right"),
-    row(Place::Space, &[UP, c('k')], Action::Move(Way::Up), "", "look from higher up"),
-    row(Place::Space, &[DOWN, c('j')], Action::Move(Way::Down), "", "look from lower down"),
+    row(Place::Space, &[LEFT, c('h')], Action::Move(Direction::Left), "turn", "turn the picture to the left"),
+    row(Place::Space, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "turn the picture to the right"),
+    row(Place::Space, &[UP, c('k')], Action::Move(Direction::Up), "", "look from higher up"),
+    row(Place::Space, &[DOWN, c('j')], Action::Move(Direction::Down), "", "look from lower down"),
     row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
     row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the view as it was at first"),
@@ -238,14 +238,14 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('g')], Action::Log, "", "make the axis upwards logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "one to one: a unit as long across as upwards, or fill the pane again"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
-    row(Place::Plot, &[LEFT, c('h')], Action::Move(Way::Left), "move", "move the window, or the cursor, to the left"),
-    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Way::Right), "", "move the window, or the cursor, to the right"),
-    row(Place::Plot, &[UP, c('k')], Action::Move(Way::Up), "", "move the window, or the cursor, up"),
-    row(Place::Plot, &[DOWN, c('j')], Action::Move(Way::Down), "", "move the window, or the cursor, down"),
+    row(Place::Plot, &[LEFT, c('h')], Action::Move(Direction::Left), "move", "move the window, or the cursor, to the left"),
+    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "move the window, or the cursor, to the right"),
+    row(Place::Plot, &[UP, c('k')], Action::Move(Direction::Up), "", "move the window, or the cursor, up"),
+    row(Place::Plot, &[DOWN, c('j')], Action::Move(Direction::Down), "", "move the window, or the cursor, down"),
     row(Place::Plot, &[HOME, c('0')], Action::Home, "", "all of the motion, as at first"),
 
-    row(Place::Values, &[UP, c('k')], Action::Move(Way::Up), "", "the value above"),
-    row(Place::Values, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the value below"),
+    row(Place::Values, &[UP, c('k')], Action::Move(Direction::Up), "", "the value above"),
+    row(Place::Values, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the value below"),
     row(Place::Values, &[HOME], Action::First, "", "the first value"),
     row(Place::Values, &[END], Action::Last, "", "the last value"),
     row(Place::Values, &[LEFT, c('h')], change(-1, false), "", "less, by a fine step"),
@@ -255,11 +255,11 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value; pi, sqrt(2), 2*l are understood"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
-    row(Place::Gauges, &[UP, c('k')], Action::Move(Way::Up), "", "the gauge above"),
-    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Way::Down), "choose", "the gauge below"),
+    row(Place::Gauges, &[UP, c('k')], Action::Move(Direction::Up), "", "the gauge above"),
+    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the gauge below"),
 
-    row(Place::Text, &[UP, c('k')], Action::Move(Way::Up), "", "a line back"),
-    row(Place::Text, &[DOWN, c('j')], Action::Move(Way::Down), "scroll", "a line on"),
+    row(Place::Text, &[UP, c('k')], Action::Move(Direction::Up), "", "a line back"),
+    row(Place::Text, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line on"),
     row(Place::Text, &[PAGE_UP, c('b')], Action::PageUp, "", "a screenful back"),
     row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a screenful on"),
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
@@ -267,29 +267,29 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the present"),
     row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the present anew every two seconds, or only when asked"),
-    row(Place::Plain, &[UP, c('k')], Action::Move(Way::Up), "", "the line above"),
-    row(Place::Plain, &[DOWN, c('j')], Action::Move(Way::Down), "line", "the line below"),
+    row(Place::Plain, &[UP, c('k')], Action::Move(Direction::Up), "", "the line above"),
+    row(Place::Plain, &[DOWN, c('j')], Action::Move(Direction::Down), "line", "the line below"),
     row(Place::Plain, &[PAGE_UP], Action::PageUp, "", "a screenful back"),
     row(Place::Plain, &[PAGE_DOWN], Action::PageDown, "", "a screenful on"),
     row(Place::Plain, &[HOME, c('g')], Action::First, "", "the first line"),
     row(Place::Plain, &[END, c('G')], Action::Last, "", "the last line"),
 
-    row(Place::Menu, &[UP], Action::Move(Way::Up), "", "the line above"),
-    row(Place::Menu, &[DOWN], Action::Move(Way::Down), "choose", "the line below"),
+    row(Place::Menu, &[UP], Action::Move(Direction::Up), "", "the line above"),
+    row(Place::Menu, &[DOWN], Action::Move(Direction::Down), "choose", "the line below"),
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 
-    row(Place::Workbench, &[Key::ctrl('s')], Action::Work(Work::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
-    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::Work(Work::Mistake(1)), "mistake", "go to the next mistake"),
-    row(Place::Workbench, &[Key::ctrl('p')], Action::Work(Work::Mistake(-1)), "", "go to the mistake before"),
-    row(Place::Workbench, &[Key::ctrl('f')], Action::Work(Work::Find), "find", "find words"),
-    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::Work(Work::FindNext), "", "find them again"),
-    row(Place::Workbench, &[Key::ctrl('u')], Action::Work(Work::Undo), "undo", "undo the last change of the text"),
-    row(Place::Workbench, &[Key::ctrl('r')], Action::Work(Work::Redo), "", "redo the change that was undone last"),
-    row(Place::Workbench, &[Key::ctrl('x')], Action::Work(Work::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
-    row(Place::Workbench, &[Key::ctrl('y')], Action::Work(Work::Copy), "", "copy it"),
-    row(Place::Workbench, &[Key::ctrl('v')], Action::Work(Work::PutBack), "", "put in what was cut or copied last"),
-    row(Place::Workbench, &[Key::ctrl('o')], Action::Work(Work::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
+    row(Place::Workbench, &[Key::ctrl('s')], Action::EditCommand(EditCommand::Save), "save", "save the file; of a shipped system a copy under a name of your own"),
+    row(Place::Workbench, &[Key::ctrl('n'), Key::plain(Code::F(8))], Action::EditCommand(EditCommand::Diagnostic(1)), "mistake", "go to the next mistake"),
+    row(Place::Workbench, &[Key::ctrl('p')], Action::EditCommand(EditCommand::Diagnostic(-1)), "", "go to the mistake before"),
+    row(Place::Workbench, &[Key::ctrl('f')], Action::EditCommand(EditCommand::Find), "find", "find words"),
+    row(Place::Workbench, &[Key::ctrl('g'), Key::plain(Code::F(3))], Action::EditCommand(EditCommand::FindNext), "", "find them again"),
+    row(Place::Workbench, &[Key::ctrl('u')], Action::EditCommand(EditCommand::Undo), "undo", "undo the last change of the text"),
+    row(Place::Workbench, &[Key::ctrl('r')], Action::EditCommand(EditCommand::Redo), "", "redo the change that was undone last"),
+    row(Place::Workbench, &[Key::ctrl('x')], Action::EditCommand(EditCommand::Cut), "cut", "cut what is selected (Shift and arrows), or else the line"),
+    row(Place::Workbench, &[Key::ctrl('y')], Action::EditCommand(EditCommand::Copy), "", "copy it"),
+    row(Place::Workbench, &[Key::ctrl('v')], Action::EditCommand(EditCommand::PutBack), "", "put in what was cut or copied last"),
+    row(Place::Workbench, &[Key::ctrl('o')], Action::EditCommand(EditCommand::Reread), "", "read the file anew, as another program left it; of a shipped system its own text"),
     row(Place::Workbench, &[Key::plain(Code::F(1))], Action::Help, "help", "show these keys"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),

@@ -8,12 +8,12 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::change::Wishes;
+use super::change::PendingChanges;
 use super::history::History;
 use super::landscape::{self, Survey};
-use super::plot::{Eye, Plot};
-use super::{Loaded, Target};
-use crate::experiment::{Moment, Snapshot, Status};
+use super::plot::{CameraPose, Plot};
+use super::{Loaded, ValueId};
+use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::model::Shape;
 
@@ -61,14 +61,14 @@ pub struct Lab {
     /// The energy over the phase plane of one degree of freedom, for each plane that is shown.
     pub(super) surveys: Vec<Survey>,
     /// Values asked for and not yet seen.
-    pub(super) wishes: Vec<(Target, f64)>,
+    pub(super) pending: Vec<(ValueId, f64)>,
     /// What else was asked for and not yet seen.
-    pub(super) asked: Wishes,
+    pub(super) asked: PendingChanges,
     /// The speed asked for and not yet seen.
     pub(super) speed_wish: Option<f64>,
     pub(super) history: History,
     /// The motion that the experiment is to take up, until it has.
-    pub(super) awaited: Option<Moment>,
+    pub(super) awaited: Option<Checkpoint>,
 }
 
 /// For each shape whether it is a rod, a line that keeps its length: of the picture in space, then of each view with
@@ -119,8 +119,8 @@ impl Lab {
             zoomed: false,
             selection: Selection::default(),
             surveys: Vec::new(),
-            wishes: Vec::new(),
-            asked: Wishes::default(),
+            pending: Vec::new(),
+            asked: PendingChanges::default(),
             speed_wish: None,
             history: History::default(),
             awaited: None,
@@ -132,7 +132,7 @@ impl Lab {
         if snapshot.epoch != self.loaded.epoch {
             return false;
         }
-        let stopped = matches!(snapshot.status, Status::Faulted(_));
+        let stopped = matches!(snapshot.status, Status::Failed(_));
         if self.awaited.is_some() && !(snapshot.taken_up || stopped) {
             return false;
         }
@@ -143,8 +143,9 @@ impl Lab {
         self.asked.see(&snapshot);
         self.snapshot = Some(snapshot);
         self.survey();
-        let wishes = std::mem::take(&mut self.wishes);
-        self.wishes = wishes.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
+        let pending = std::mem::take(&mut self.pending);
+        self.pending =
+            pending.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
         true
     }
 
@@ -154,7 +155,7 @@ impl Lab {
     }
 
     /// What an eye sees: each shape, and whether it is a rod.
-    pub fn shapes(&self, eye: Eye) -> impl Iterator<Item = (&Shape, bool)> {
+    pub fn shapes(&self, eye: CameraPose) -> impl Iterator<Item = (&Shape, bool)> {
         let model = &self.loaded.model;
         let own = eye.own_shapes(model).map(|view| &self.rods.views[view]);
         let rods = own.unwrap_or(&self.rods.space).iter().copied();
@@ -192,20 +193,20 @@ impl Lab {
     }
 
     /// The value that keys would change.
-    pub fn selected(&self) -> Option<Target> {
+    pub fn selected(&self) -> Option<ValueId> {
         let target = match self.focus {
-            Pane::Parameters => Target::Parameter(self.selection.parameter),
-            Pane::Initial => Target::Initial(self.selection.initial),
+            Pane::Parameters => ValueId::Parameter(self.selection.parameter),
+            Pane::Initial => ValueId::Initial(self.selection.initial),
             Pane::Plot(_) | Pane::Gauges => return None,
         };
-        self.facts(target).map(|_| target)
+        self.value_info(target).map(|_| target)
     }
 
     /// Moves the selection of the focused list to `to(place)`, kept within the list.
     pub(super) fn select(&mut self, to: impl FnOnce(usize) -> usize) {
         let gauges = self.snapshot.as_ref().map_or(0, |s| s.gauges.len());
         let (count, place) = match self.focus {
-            Pane::Parameters => (self.count(Target::Parameter), &mut self.selection.parameter),
+            Pane::Parameters => (self.count(ValueId::Parameter), &mut self.selection.parameter),
             Pane::Initial => (self.loaded.model.moving(), &mut self.selection.initial),
             Pane::Gauges => (gauges, &mut self.selection.gauge),
             Pane::Plot(_) => return,
@@ -214,10 +215,10 @@ impl Lab {
     }
 
     /// The value that the file gives.
-    pub(super) fn of_file(&self, target: Target) -> Option<f64> {
+    pub(super) fn of_file(&self, target: ValueId) -> Option<f64> {
         match target {
-            Target::Parameter(index) => self.loaded.model.parameters.get(index).map(|p| p.value),
-            Target::Initial(index) => {
+            ValueId::Parameter(index) => self.loaded.model.parameters.get(index).map(|p| p.value),
+            ValueId::Initial(index) => {
                 let parameters = &self.seen()?.parameters;
                 self.loaded.system.initial_values(parameters).get(index).copied()
             }

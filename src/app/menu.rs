@@ -6,7 +6,7 @@ use tui_input::Input;
 
 use super::action::Action;
 use super::fuzzy::{Fit, Query, Texts};
-use super::{Pane, Target};
+use super::{Pane, ValueId};
 
 /// A list from which one line, or several, can be taken.
 #[derive(Clone, Debug)]
@@ -32,8 +32,8 @@ pub enum Choosing {
     Method,
     /// Any action.
     Action,
-    /// A blow.
-    Blow,
+    /// An impulse.
+    Impulse,
     /// A theme.
     Theme,
     /// What runs along the axis of the plot of this index.
@@ -72,8 +72,8 @@ pub enum Choice {
     Method(&'static str),
     /// An action.
     Action(Action),
-    /// The blow of this index.
-    Blow(usize),
+    /// The impulse of this index.
+    Impulse(usize),
     /// The picture in space.
     Space,
     /// The view of the file of this index.
@@ -85,7 +85,7 @@ pub enum Choice {
     /// The system of this place in the catalog.
     System(usize),
     /// A value to be typed.
-    Value(Target),
+    Value(ValueId),
     /// A pane of the lab.
     Pane(Pane),
     /// The theme of this place among all.
@@ -95,7 +95,7 @@ pub enum Choice {
 impl Menu {
     /// A list on its first line.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let plain = matches!(purpose, Choosing::Method | Choosing::Blow | Choosing::Theme);
+        let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
         let filter = (!plain).then(Input::default);
         Self { title: title.into(), purpose, items, filter, selected: 0, marked: Vec::new() }
     }

@@ -4,17 +4,17 @@
 //! Never here: how a line is searched, drawn or carried out.
 
 use super::keymap::{Binding, KEYS, Place};
-use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Over, Pane, Plot, Target};
+use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, Plot, ValueId};
 use crate::integrate::METHODS;
 use crate::system::System;
 
 impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         // What is chosen is done to the page, not to the help above it.
-        if let Some(Over::Help { scroll, .. }) = self.over {
+        if let Some(Overlay::Help { scroll, .. }) = self.overlay {
             self.scroll = scroll;
         }
-        self.over = None;
+        self.overlay = None;
         let places = self.places_below();
         let rows = |wanted: fn(&Binding) -> bool| {
             // What can be done with the motion first, what holds everywhere last.
@@ -32,7 +32,7 @@ impl App {
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
             often.map(line).partition(|item| item.refusal.is_none());
         if let Some(lab) = &self.lab {
-            items.extend(lab.blow_lines());
+            items.extend(lab.impulse_lines());
             items.extend(lab.value_lines());
         }
         items.extend(seldom.map(line));
@@ -45,7 +45,8 @@ impl App {
         items.extend(rows(|row| moves(row.action)).map(line));
         items.extend(refused);
         items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
-        self.over = Some(Over::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
+        self.overlay =
+            Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
 
@@ -66,13 +67,13 @@ impl App {
 
     /// Why an action can do nothing with the loaded system; most always can.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
-        if let (Action::Mark, Some(Over::Menu(menu))) = (action, &self.over) {
+        if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.overlay) {
             return (!menu.takes_several()).then_some("one line is taken here");
         }
         let lab = self.lab.as_ref()?;
         match action {
-            Action::Strike if lab.blows().is_empty() => {
-                Some("this system has no blow that waits for a key")
+            Action::ApplyImpulse if lab.impulses().is_empty() => {
+                Some("this system has no impulse that waits for a key")
             }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
@@ -109,7 +110,7 @@ impl App {
     }
 
     /// Shows the pane of a value and opens the field in which it is typed.
-    pub(super) fn type_into(&mut self, target: Target) -> Vec<Effect> {
+    pub(super) fn type_into(&mut self, target: ValueId) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
             lab.choose(target);
@@ -179,12 +180,12 @@ fn method_lines(system: &System) -> impl Iterator<Item = Item> {
 
 impl Lab {
     /// Selects a value.
-    pub(super) fn choose(&mut self, target: Target) {
+    pub(super) fn choose(&mut self, target: ValueId) {
         match target {
-            Target::Parameter(index) => {
+            ValueId::Parameter(index) => {
                 (self.focus, self.selection.parameter) = (Pane::Parameters, index);
             }
-            Target::Initial(index) => {
+            ValueId::Initial(index) => {
                 (self.focus, self.selection.initial) = (Pane::Initial, index);
             }
         }
@@ -192,24 +193,28 @@ impl Lab {
 
     /// A line for each value that can be typed.
     fn value_lines(&self) -> Vec<Item> {
-        let parameters = (0..self.count(Target::Parameter)).map(Target::Parameter);
-        let initial = (0..self.count(Target::Initial)).map(Target::Initial);
-        let line = |target: Target| {
-            let facts = self.facts(target)?;
+        let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
+        let initial = (0..self.count(ValueId::Initial)).map(ValueId::Initial);
+        let line = |target: ValueId| {
+            let value_info = self.value_info(target)?;
             let what = match target {
-                Target::Parameter(_) => "type",
-                Target::Initial(_) => "type the initial",
+                ValueId::Parameter(_) => "type",
+                ValueId::Initial(_) => "type the initial",
             };
-            let unit =
-                if facts.unit.is_empty() { String::new() } else { format!(" in {}", facts.unit) };
+            let unit = if value_info.unit.is_empty() {
+                String::new()
+            } else {
+                format!(" in {}", value_info.unit)
+            };
             let (meaning, about) = match target {
-                Target::Parameter(_) if !facts.about.is_empty() => {
-                    (format!(", {}", facts.about), format!("{}, a parameter{unit}", facts.name))
-                }
-                _ => (String::new(), format!("{}: {}", facts.name, facts.about)),
+                ValueId::Parameter(_) if !value_info.about.is_empty() => (
+                    format!(", {}", value_info.about),
+                    format!("{}, a parameter{unit}", value_info.name),
+                ),
+                _ => (String::new(), format!("{}: {}", value_info.name, value_info.about)),
             };
             Some(Item {
-                label: format!("{what} {}{meaning}", facts.shown),
+                label: format!("{what} {}{meaning}", value_info.shown),
                 about,
                 keys: String::new(),
                 refusal: None,

@@ -5,7 +5,9 @@
 use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
-use super::{Action, App, Effect, Lens, Notice, Over, Page, Pane, Plot, Purpose, Way};
+use super::{
+    Action, App, Direction, Effect, Notification, Overlay, Page, Pane, Plot, Purpose, Viewport,
+};
 use crate::experiment::{Command, Status};
 use crate::integrate::{METHODS, Stepping};
 
@@ -40,12 +42,12 @@ impl App {
             Action::Open => self.open_selected(),
             Action::Accept => self.accept(),
             Action::Mark => {
-                if let Some(Over::Menu(menu)) = &mut self.over {
+                if let Some(Overlay::Menu(menu)) = &mut self.overlay {
                     menu.mark();
                 }
                 Vec::new()
             }
-            Action::Work(work) => self.work(work),
+            Action::EditCommand(work) => self.work(work),
             other => self.in_lab(other),
         }
     }
@@ -56,8 +58,12 @@ impl App {
         match action {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
-                Some(Status::Faulted(_)) => self.say("It cannot go on from here: reset it with r."),
-                Some(Status::Ended(_)) => self.say("The motion has ended: begin it again with r."),
+                Some(Status::Failed(_)) => {
+                    self.notify("It cannot go on from here: reset it with r.")
+                }
+                Some(Status::Ended(_)) => {
+                    self.notify("The motion has ended: begin it again with r.")
+                }
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
@@ -69,9 +75,9 @@ impl App {
                 vec![Effect::Tell(Command::Speed(speed))]
             }
             Action::Reset | Action::FullReset => {
-                // What was told of the motion before is no longer so.
+                // What was reported of the motion before is no longer so.
                 self.notice = None;
-                self.news.clear();
+                self.notifications.clear();
                 if action == Action::FullReset {
                     return lab.full_reset();
                 }
@@ -80,13 +86,13 @@ impl App {
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, told)) => self.told(told, effects),
-                None => self.say("There is nothing to take back."),
+                None => self.notify("There is nothing to take back."),
             },
             Action::Redo => match lab.redo() {
                 Some((effects, told)) => self.told(told, effects),
-                None => self.say("There is nothing to do again."),
+                None => self.notify("There is nothing to do again."),
             },
-            Action::Strike => self.strike(),
+            Action::ApplyImpulse => self.apply_one_impulse(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
             Action::Edit => self.edit_file(),
@@ -101,7 +107,7 @@ impl App {
             Action::TypeTolerance => self.open_field(Purpose::Tolerance),
             Action::TypeValue => match lab.selected() {
                 Some(target) => self.open_field(Purpose::Value(target)),
-                None => self.say("There is nothing to type here."),
+                None => self.notify("There is nothing to type here."),
             },
             Action::NextPane | Action::PreviousPane => {
                 let panes: Vec<Pane> = lab.panes().collect();
@@ -126,13 +132,16 @@ impl App {
             }
             Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes)),
             Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes)),
-            Action::Log => self.with_lens(|lens| lens.log = !lens.log),
+            Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, Plot::Phase { .. })) => self.with_lens(|lens| lens.equal = !lens.equal),
-                _ => self.say("Only where one quantity stands against another can units be equal."),
+                Some((_, Plot::Phase { .. })) => {
+                    self.with_viewport(|viewport| viewport.equal = !viewport.equal)
+                }
+                _ => self
+                    .notify("Only where one quantity stands against another can units be equal."),
             },
-            Action::Cursor => self.with_lens(|lens| {
-                lens.cursor = if lens.cursor.is_some() { None } else { Some([0.5, 0.5]) };
+            Action::Cursor => self.with_viewport(|viewport| {
+                viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
             Action::NextFrame => self.next_frame(),
             Action::Home => self.with_plot(Plot::home),
@@ -142,13 +151,13 @@ impl App {
 
     /// Does something and tells what it was.
     fn told(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
-        self.notice = Some(Notice::info(sentence));
+        self.notice = Some(Notification::info(sentence));
         effects
     }
 
     /// Tells the user something.
-    pub(super) fn say(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notice::error(text));
+    pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
+        self.notice = Some(Notification::error(text));
         Vec::new()
     }
 
@@ -166,13 +175,14 @@ impl App {
     fn next_frame(&mut self) -> Vec<Effect> {
         let count = self.lab.as_ref().map_or(0, |lab| lab.loaded.model.frames.len());
         if count == 0 {
-            return self.say("This system has no frames to look from.");
+            return self.notify("This system has no frames to look from.");
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
         let picture = pictures.filter(|(_, plot)| matches!(plot, Plot::Space(_))).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
-            return self.say("No picture shows the motion in space; v chooses what a pane shows.");
+            return self
+                .notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
         lab.redraw(picture, |plot, _| {
             if let Plot::Space(eye) = plot {
@@ -182,10 +192,10 @@ impl App {
         Vec::new()
     }
 
-    fn with_lens(&mut self, change: impl FnOnce(&mut Lens)) -> Vec<Effect> {
+    fn with_viewport(&mut self, change: impl FnOnce(&mut Viewport)) -> Vec<Effect> {
         self.with_plot(|plot, _| {
-            if let Some(lens) = plot.lens() {
-                change(lens);
+            if let Some(viewport) = plot.viewport() {
+                change(viewport);
             }
         })
     }
@@ -193,16 +203,16 @@ impl App {
     fn change_frames(&mut self, more: bool) -> Vec<Effect> {
         let Some(rate) = self.meter.next_rate(more) else {
             let end = if more { "most" } else { "fewest" };
-            return self.say(format!("{} frames a second are the {end}.", self.meter.asked));
+            return self.notify(format!("{} frames a second are the {end}.", self.meter.asked));
         };
         self.meter.asked = rate;
-        self.notice = Some(Notice::info(format!("At most {rate} frames a second.")));
+        self.notice = Some(Notification::info(format!("At most {rate} frames a second.")));
         vec![Effect::Frames(rate)]
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {
         self.mouse = !self.mouse;
-        self.notice = Some(Notice::info(if self.mouse {
+        self.notice = Some(Notification::info(if self.mouse {
             "The mouse is phaselab's now; M gives it back, to select text with."
         } else {
             "The mouse is the terminal's again."
@@ -211,11 +221,11 @@ impl App {
     }
 
     fn help(&mut self) -> Vec<Effect> {
-        match self.over {
-            Some(Over::Help { .. }) => return self.back(),
+        match self.overlay {
+            Some(Overlay::Help { .. }) => return self.back(),
             _ => {
-                let editing = matches!(self.over, Some(Over::Workbench));
-                self.over = Some(Over::Help { scroll: self.scroll, editing });
+                let editing = matches!(self.overlay, Some(Overlay::Workbench));
+                self.overlay = Some(Overlay::Help { scroll: self.scroll, editing });
             }
         }
         self.scroll = 0;
@@ -223,22 +233,24 @@ impl App {
     }
 
     fn back(&mut self) -> Vec<Effect> {
-        if matches!(self.over, Some(Over::Workbench)) {
-            return self.leave_sheet();
+        if matches!(self.overlay, Some(Overlay::Workbench)) {
+            return self.leave_buffer();
         }
-        match self.over.take() {
-            Some(Over::Help { scroll, editing }) => {
+        match self.overlay.take() {
+            Some(Overlay::Help { scroll, editing }) => {
                 self.scroll = scroll;
-                self.over = editing.then_some(Over::Workbench);
+                self.overlay = editing.then_some(Overlay::Workbench);
                 return Vec::new();
             }
-            Some(Over::Message(_) | Over::Menu(_) | Over::Field(_) | Over::Prompt(_)) => {
+            Some(
+                Overlay::Message(_) | Overlay::Menu(_) | Overlay::Field(_) | Overlay::Prompt(_),
+            ) => {
                 return Vec::new();
             }
-            Some(Over::Workbench) | None => {}
+            Some(Overlay::Workbench) | None => {}
         }
         if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
-            self.notice = Some(Notice::info(format!("{name} is no longer being loaded.")));
+            self.notice = Some(Notification::info(format!("{name} is no longer being loaded.")));
             return vec![Effect::StopLoading];
         }
         match (self.page, &mut self.lab) {
@@ -250,38 +262,38 @@ impl App {
                 }
                 self.go(Page::Picker);
             }
-            (Page::Equations | Page::Notes | Page::Numbers | Page::Plain, Some(_)) => {
+            (Page::Equations | Page::PendingSignals | Page::Numbers | Page::Plain, Some(_)) => {
                 self.go(Page::Lab);
             }
         }
         Vec::new()
     }
 
-    fn shift(&mut self, way: Way) -> Vec<Effect> {
+    fn shift(&mut self, way: Direction) -> Vec<Effect> {
         match way {
-            Way::Up => return self.jump(-1),
-            Way::Down => return self.jump(1),
-            Way::Left | Way::Right => {}
+            Direction::Up => return self.jump(-1),
+            Direction::Down => return self.jump(1),
+            Direction::Left | Direction::Right => {}
         }
         self.with_plot(|plot, _| plot.shift(way))
     }
 
     /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
     pub(super) fn jump(&mut self, by: isize) -> Vec<Effect> {
-        match &mut self.over {
-            Some(Over::Menu(menu)) => menu.step(by),
-            Some(Over::Field(_) | Over::Prompt(_) | Over::Workbench) => {}
-            Some(Over::Help { .. } | Over::Message(_)) => self.roll(by),
+        match &mut self.overlay {
+            Some(Overlay::Menu(menu)) => menu.step(by),
+            Some(Overlay::Field(_) | Overlay::Prompt(_) | Overlay::Workbench) => {}
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
-                        let way = if by < 0 { Way::Up } else { Way::Down };
+                        let way = if by < 0 { Direction::Up } else { Direction::Down };
                         return self.with_plot(|plot, _| plot.shift(way));
                     }
                     lab.select(|place| place.saturating_add_signed(by));
                 }
-                (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => self.roll(by),
+                (Page::Equations | Page::PendingSignals | Page::Numbers, Some(_)) => self.roll(by),
                 (Page::Plain, Some(_)) => {
                     let last = usize::from(self.drawn.beyond + self.drawn.rows).saturating_sub(1);
                     let line = self.reading.line.saturating_add_signed(by);
@@ -306,11 +318,11 @@ impl App {
 
     pub(super) fn open_selected(&mut self) -> Vec<Effect> {
         let Some(name) = self.picker.take() else {
-            return self.say("No system fits this search.");
+            return self.notify("No system fits this search.");
         };
         if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
             self.scroll = 0;
-            self.over = Some(Over::Message(failure));
+            self.overlay = Some(Overlay::Message(failure));
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
@@ -333,14 +345,15 @@ impl App {
         let method = lab.snapshot.as_ref().map(|s| &s.method);
         let idle = lab.method().and_then(|name| idle(purpose, name));
         if let Some(sentence) = idle {
-            return self.say(sentence);
+            return self.notify(sentence);
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
-        self.over = Some(Over::Field(Field::new(purpose, now.map_or_else(String::new, written))));
+        self.overlay =
+            Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
     }
 }

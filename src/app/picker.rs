@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tui_input::Input;
 
-use super::LoadFailure;
+use super::LoadError;
 use super::fuzzy::{Fit, Query, Texts};
 use crate::preset::Entry;
 
@@ -24,7 +24,7 @@ pub struct Picker {
     /// The selected system, counted among those shown.
     pub selected: usize,
     /// Why the preview of the selected system cannot be shown.
-    pub failure: Option<LoadFailure>,
+    pub failure: Option<LoadError>,
     waiting: Option<Duration>,
 }
 

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::Loaded;
-use super::action::{Axes, Way};
+use super::action::{Axes, Direction};
 use crate::model::{Model, Shape, ViewKind};
 use crate::system::ChannelKind;
 
@@ -15,7 +15,7 @@ use crate::system::ChannelKind;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Plot {
     /// The file's shapes, seen through a camera.
-    Space(Eye),
+    Space(CameraPose),
     /// One channel against another.
     Phase {
         /// The channel along the axis.
@@ -23,27 +23,27 @@ pub enum Plot {
         /// The channel upwards.
         y: usize,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// The potential of a view of the file.
     Potential {
         /// The view's place among the views.
         view: usize,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// Channels against time.
     Time {
         /// The channels.
         y: Vec<usize>,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
 }
 
 /// What is seen, from which frame, and where the camera stands in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Eye {
+pub struct CameraPose {
     /// Turn about the vertical axis, in radians.
     pub yaw: f64,
     /// Height above the horizon, in radians; π/2 looks straight down on the plane of x and y.
@@ -58,7 +58,7 @@ pub struct Eye {
 
 /// How a plot is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lens {
+pub struct Viewport {
     /// Magnification across and upwards.
     pub zoom: [f64; 2],
     /// How far the window is moved, in parts of its width and height.
@@ -72,7 +72,7 @@ pub struct Lens {
     pub cursor: Option<[f64; 2]>,
 }
 
-impl Lens {
+impl Viewport {
     /// All of the motion.
     pub const WHOLE: Self =
         Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, equal: false, cursor: None };
@@ -86,7 +86,7 @@ impl Lens {
     }
 }
 
-impl Eye {
+impl CameraPose {
     /// Plane motion is seen face on, motion in space from the side and from above.
     pub(super) fn for_shapes(loaded: &Loaded) -> Self {
         Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, frame: None, view: None }.at_first(loaded)
@@ -146,18 +146,18 @@ impl Plot {
             add(Self::of_view(loaded, view));
         }
         if !loaded.model.space.is_empty() {
-            add(Some(Self::Space(Eye::for_shapes(loaded))));
+            add(Some(Self::Space(CameraPose::for_shapes(loaded))));
         }
         let channel = |kind| loaded.system.channels().iter().position(|c| c.kind == kind);
         for i in 0..loaded.model.coordinates.len() {
             let (x, y) = (channel(ChannelKind::Position(i)), channel(ChannelKind::Momentum(i)));
-            add(x.zip(y).map(|(x, y)| Self::Phase { x, y, lens: Lens::WHOLE }));
+            add(x.zip(y).map(|(x, y)| Self::Phase { x, y, viewport: Viewport::WHOLE }));
         }
         let positions = (0..loaded.model.coordinates.len())
             .filter_map(|i| channel(ChannelKind::Position(i)))
             .collect::<Vec<_>>();
         for q in positions {
-            add(Some(Self::Time { y: vec![q], lens: Lens::WHOLE }));
+            add(Some(Self::Time { y: vec![q], viewport: Viewport::WHOLE }));
         }
         plots
     }
@@ -166,15 +166,15 @@ impl Plot {
         let view = &loaded.model.views[index];
         let channel = |c: &crate::model::Channel| loaded.system.channel_of(c.expression);
         match view.kind {
-            ViewKind::Space => Some(Self::Space(Eye::of_view(loaded, index))),
+            ViewKind::Space => Some(Self::Space(CameraPose::of_view(loaded, index))),
             ViewKind::Phase => {
                 let (x, y) = (channel(view.x.as_ref()?)?, channel(view.y.first()?)?);
-                Some(Self::Phase { x, y, lens: Lens::WHOLE })
+                Some(Self::Phase { x, y, viewport: Viewport::WHOLE })
             }
-            ViewKind::Potential => Some(Self::Potential { view: index, lens: Lens::WHOLE }),
+            ViewKind::Potential => Some(Self::Potential { view: index, viewport: Viewport::WHOLE }),
             ViewKind::Time => {
                 let y: Vec<_> = view.y.iter().filter_map(channel).collect();
-                (!y.is_empty()).then_some(Self::Time { y, lens: Lens::WHOLE })
+                (!y.is_empty()).then_some(Self::Time { y, viewport: Viewport::WHOLE })
             }
         }
     }
@@ -194,7 +194,7 @@ impl Plot {
     fn shows_the_same(&self, other: &Self, model: &Model) -> bool {
         match (self, other) {
             (Self::Space(eye), Self::Space(other)) => {
-                let what = |eye: &Eye| (eye.frame, eye.own_shapes(model));
+                let what = |eye: &CameraPose| (eye.frame, eye.own_shapes(model));
                 what(eye) == what(other)
             }
             (Self::Phase { x, y, .. }, Self::Phase { x: x2, y: y2, .. }) => (x, y) == (x2, y2),
@@ -214,29 +214,38 @@ impl Plot {
         let mut plot = self.clone();
         match &mut plot {
             Self::Space(eye) => (eye.yaw, eye.pitch, eye.zoom) = (0.0, 0.0, 1.0),
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
-                let cursor = lens.cursor.map(|_| [0.0; 2]);
-                *lens = Lens { log: lens.log, equal: lens.equal, cursor, ..Lens::WHOLE };
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
+                let cursor = viewport.cursor.map(|_| [0.0; 2]);
+                *viewport = Viewport {
+                    log: viewport.log,
+                    equal: viewport.equal,
+                    cursor,
+                    ..Viewport::WHOLE
+                };
             }
         }
         plot
     }
 
     /// Turns the picture, or moves the window.
-    pub(super) fn shift(&mut self, way: Way) {
+    pub(super) fn shift(&mut self, way: Direction) {
         let [right, up] = match way {
-            Way::Left => [-1.0, 0.0],
-            Way::Right => [1.0, 0.0],
-            Way::Up => [0.0, 1.0],
-            Way::Down => [0.0, -1.0],
+            Direction::Left => [-1.0, 0.0],
+            Direction::Right => [1.0, 0.0],
+            Direction::Up => [0.0, 1.0],
+            Direction::Down => [0.0, -1.0],
         };
         match self {
             Self::Space(eye) => {
                 eye.yaw = (eye.yaw - right * PI / 24.0).rem_euclid(TAU);
                 eye.pitch = (eye.pitch + up * PI / 24.0).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
-                lens.shift([right, up]);
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
+                viewport.shift([right, up]);
             }
         }
     }
@@ -246,11 +255,13 @@ impl Plot {
         let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
         match self {
             Self::Space(eye) => nearer(&mut eye.zoom),
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
                 let chosen = match axes {
-                    Axes::Both => &mut lens.zoom[..],
-                    Axes::Across => &mut lens.zoom[..1],
-                    Axes::Upwards => &mut lens.zoom[1..],
+                    Axes::Both => &mut viewport.zoom[..],
+                    Axes::Across => &mut viewport.zoom[..1],
+                    Axes::Upwards => &mut viewport.zoom[1..],
                 };
                 chosen.iter_mut().for_each(nearer);
             }
@@ -264,8 +275,10 @@ impl Plot {
                 eye.yaw = (eye.yaw - by[0] * PI).rem_euclid(TAU);
                 eye.pitch = (eye.pitch - by[1] * PI).clamp(-FRAC_PI_2, FRAC_PI_2);
             }
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
-                lens.pan = [0, 1].map(|k| lens.pan[k] - by[k]);
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
+                viewport.pan = [0, 1].map(|k| viewport.pan[k] - by[k]);
             }
         }
     }
@@ -274,23 +287,23 @@ impl Plot {
     pub(super) fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
         // A window on time ends at the present, any other has its own middle.
         let anchor = [if matches!(self, Self::Time { .. }) { 1.0 } else { 0.5 }, 0.5];
-        let before = self.lens().map(|lens| lens.zoom);
+        let before = self.viewport().map(|viewport| viewport.zoom);
         self.zoom(factor, Axes::Both);
-        if let (Some(before), Some(lens)) = (before, self.lens()) {
-            lens.pan = [0, 1].map(|k| {
-                let nearer = lens.zoom[k] / before[k];
-                (lens.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
+        if let (Some(before), Some(viewport)) = (before, self.viewport()) {
+            viewport.pan = [0, 1].map(|k| {
+                let nearer = viewport.zoom[k] / before[k];
+                (viewport.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
             });
         }
     }
 
     /// How it is looked at, if it has axes.
-    pub(super) fn lens(&mut self) -> Option<&mut Lens> {
+    pub(super) fn viewport(&mut self) -> Option<&mut Viewport> {
         match self {
             Self::Space(_) => None,
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
-                Some(lens)
-            }
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => Some(viewport),
         }
     }
 
@@ -298,8 +311,10 @@ impl Plot {
     pub(super) fn home(&mut self, loaded: &Loaded) {
         match self {
             Self::Space(eye) => *eye = eye.at_first(loaded),
-            Self::Phase { lens, .. } | Self::Time { lens, .. } | Self::Potential { lens, .. } => {
-                *lens = Lens::WHOLE;
+            Self::Phase { viewport, .. }
+            | Self::Time { viewport, .. }
+            | Self::Potential { viewport, .. } => {
+                *viewport = Viewport::WHOLE;
             }
         }
     }

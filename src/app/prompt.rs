@@ -5,7 +5,7 @@
 use tui_input::Input;
 
 use super::field::edit;
-use super::{App, Effect, Key, Lab, Over};
+use super::{App, Effect, Key, Lab, Overlay};
 use crate::analysis::Inquiry;
 use crate::expr::{Symbol, SyntaxError};
 use crate::mechanics::body_values;
@@ -34,7 +34,7 @@ impl Prompt {
 impl App {
     pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
         if self.lab.is_some() {
-            self.over = Some(Over::Prompt(Prompt::default()));
+            self.overlay = Some(Overlay::Prompt(Prompt::default()));
         }
         Vec::new()
     }
@@ -51,7 +51,7 @@ impl App {
                 Err(mistake) => (prompt.mistake, prompt.answered) = (Some(mistake), None),
             }
         }
-        self.over = Some(Over::Prompt(prompt));
+        self.overlay = Some(Overlay::Prompt(prompt));
         Vec::new()
     }
 }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Action, App, Effect, Notice, Page};
+use super::{Action, App, Effect, Notification, Page};
 use crate::experiment::Snapshot;
 
 /// Between two readings where they come by themselves.
@@ -58,7 +58,7 @@ impl App {
             self.reading.line = line;
         } else {
             self.reading.automatic = !self.reading.automatic;
-            self.notice = Some(Notice::info(if self.reading.automatic {
+            self.notice = Some(Notification::info(if self.reading.automatic {
                 "It is read anew every two seconds."
             } else {
                 "It stays as it is until Enter."

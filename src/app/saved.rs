@@ -7,9 +7,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    App, Effect, Eye, Lab, Lens, Loaded, Over, Page, Pane, Plot, Selection, Sheet, SheetState,
+    App, CameraPose, Effect, Lab, Loaded, Overlay, Page, Pane, Plot, Selection, SheetState,
+    SourceBuffer, Viewport,
 };
-use crate::experiment::{Command, Moment};
+use crate::experiment::{Checkpoint, Command};
 
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +35,7 @@ pub struct Saved {
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The motion.
-    pub moment: Moment,
+    pub moment: Checkpoint,
 }
 
 /// A picture by the names of what it shows.
@@ -44,7 +45,7 @@ pub enum SavedPlot {
     /// The motion in space.
     Space {
         /// Where it is seen from.
-        eye: Eye,
+        eye: CameraPose,
     },
     /// One quantity against another.
     Phase {
@@ -53,21 +54,21 @@ pub enum SavedPlot {
         /// Upwards.
         y: Quantity,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// The potential of a view of the file.
     Potential {
         /// Its place among the views.
         view: usize,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
     /// Quantities against time.
     Time {
         /// Upwards.
         y: Vec<Quantity>,
         /// How it is looked at.
-        lens: Lens,
+        viewport: Viewport,
     },
 }
 
@@ -87,7 +88,7 @@ impl Saved {
         let Loaded { name, model, system, .. } = &lab.loaded;
         let moment = match &lab.awaited {
             Some(moment) => moment.clone(),
-            None => Moment::of(model, system, lab.seen()?),
+            None => Checkpoint::of(model, system, lab.seen()?),
         };
         Some(Self {
             version: Self::VERSION,
@@ -112,12 +113,14 @@ impl SavedPlot {
         };
         match plot {
             Plot::Space(eye) => Self::Space { eye: *eye },
-            Plot::Phase { x, y, lens } => {
-                Self::Phase { x: quantity(x), y: quantity(y), lens: *lens }
+            Plot::Phase { x, y, viewport } => {
+                Self::Phase { x: quantity(x), y: quantity(y), viewport: *viewport }
             }
-            Plot::Potential { view, lens } => Self::Potential { view: *view, lens: *lens },
-            Plot::Time { y, lens } => {
-                Self::Time { y: y.iter().map(quantity).collect(), lens: *lens }
+            Plot::Potential { view, viewport } => {
+                Self::Potential { view: *view, viewport: *viewport }
+            }
+            Plot::Time { y, viewport } => {
+                Self::Time { y: y.iter().map(quantity).collect(), viewport: *viewport }
             }
         }
     }
@@ -141,17 +144,17 @@ impl SavedPlot {
                 }
                 Plot::Space(*eye)
             }
-            Self::Phase { x, y, lens } => {
-                Plot::Phase { x: channel(x)?, y: channel(y)?, lens: *lens }
+            Self::Phase { x, y, viewport } => {
+                Plot::Phase { x: channel(x)?, y: channel(y)?, viewport: *viewport }
             }
-            Self::Potential { view, lens } => {
+            Self::Potential { view, viewport } => {
                 let kind = model.views.get(*view)?.kind;
                 let potential = kind == crate::model::ViewKind::Potential;
-                potential.then_some(Plot::Potential { view: *view, lens: *lens })?
+                potential.then_some(Plot::Potential { view: *view, viewport: *viewport })?
             }
-            Self::Time { y, lens } => {
+            Self::Time { y, viewport } => {
                 let y: Vec<usize> = y.iter().filter_map(channel).collect();
-                (!y.is_empty()).then_some(Plot::Time { y, lens: *lens })?
+                (!y.is_empty()).then_some(Plot::Time { y, viewport: *viewport })?
             }
         })
     }
@@ -181,8 +184,8 @@ impl App {
             return self.left.clone();
         }
         let lab = self.lab.as_ref()?;
-        let runs = |sheet: &Sheet| sheet.is_modified() && sheet.state != SheetState::Left;
-        let edited = self.own_sheet().is_some_and(runs);
+        let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
+        let edited = self.own_buffer().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
 
@@ -207,11 +210,11 @@ impl App {
         self.page = saved.page;
         self.remind();
         // the motion belongs to the text that is not saved, and waits until that is checked
-        if saved.edited && self.wake() { Vec::new() } else { self.take_up() }
+        if saved.edited && self.wake() { Vec::new() } else { self.restore() }
     }
 
     /// Has the experiment take up the motion that is waited for, if there is one.
-    pub(super) fn take_up(&mut self) -> Vec<Effect> {
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
         let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
         awaited.map(command).into_iter().collect()
@@ -239,8 +242,8 @@ impl App {
             lab.history = old.history;
         }
         // What is open speaks of the old system's places.
-        if matches!(self.over, Some(Over::Menu(_) | Over::Field(_))) {
-            self.over = None;
+        if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
+            self.overlay = None;
         }
         self.meter.forget();
         let Some(saved) = saved else {
@@ -250,6 +253,6 @@ impl App {
         lab.look_as(&saved);
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
-        self.take_up()
+        self.restore()
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! In: a speed in simulated seconds per second. Out: the next one. Never here: pacing.
 
-use crate::expr::portable;
+use crate::num::math;
 
 /// The slowest and the fastest speed before flat out, as powers of ten.
 const ENDS: [i32; 2] = [-3, 3];
@@ -14,15 +14,15 @@ pub(super) fn faster(speed: f64) -> f64 {
 
 /// The next slower speed; the slowest stays.
 pub(super) fn slower(speed: f64) -> f64 {
-    let slowest = portable::powi(10.0, ENDS[0]);
+    let slowest = math::powi(10.0, ENDS[0]);
     steps().filter(|step| *step < speed * (1.0 - 1e-9)).last().unwrap_or(slowest)
 }
 
 fn steps() -> impl Iterator<Item = f64> {
     let decade = |e: i32| {
         [1.0, 2.0, 5.0].map(|digit| {
-            if e < 0 { digit / portable::powi(10.0, -e) } else { digit * portable::powi(10.0, e) }
+            if e < 0 { digit / math::powi(10.0, -e) } else { digit * math::powi(10.0, e) }
         })
     };
-    (ENDS[0]..ENDS[1]).flat_map(decade).chain([portable::powi(10.0, ENDS[1])])
+    (ENDS[0]..ENDS[1]).flat_map(decade).chain([math::powi(10.0, ENDS[1])])
 }

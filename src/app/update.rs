@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::editor::beginning;
 use super::field::{edit, paste};
 use super::keymap::{self, Place};
-use super::{App, Code, Effect, Event, Key, Lab, LoadFailure, Loaded, Notice, Over, Page};
+use super::{App, Code, Effect, Event, Key, Lab, LoadError, Loaded, Notification, Overlay, Page};
 use crate::experiment::Snapshot;
 
 /// The most that is taken of one paste, in bytes.
@@ -30,19 +30,19 @@ impl App {
             Event::Loaded(Err(failure)) => self.failed(failure),
             Event::Rebuilt(loaded) => self.rebuilt(loaded),
             Event::Written(Ok(sentence)) => {
-                self.notice = Some(Notice::info(sentence));
+                self.notice = Some(Notification::info(sentence));
                 Vec::new()
             }
-            Event::Written(Err(sentence)) => self.say(sentence),
+            Event::Written(Err(sentence)) => self.notify(sentence),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
-                self.news.tick(&mut self.notice, elapsed);
+                self.notifications.tick(&mut self.notice, elapsed);
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
                 let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
-                preview.into_iter().chain(self.tick_sheet(elapsed)).collect()
+                preview.into_iter().chain(self.tick_buffer(elapsed)).collect()
             }
             Event::Checked(checked) => self.checked(*checked),
             Event::FileSaved(outcome) => {
@@ -88,15 +88,15 @@ impl App {
         }
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
-        match &mut self.over {
-            Some(Over::Workbench) => self.type_on_sheet(key),
-            Some(Over::Field(field)) => field.press(key),
-            Some(Over::Prompt(prompt)) => prompt.press(key),
-            Some(Over::Menu(menu)) => {
+        match &mut self.overlay {
+            Some(Overlay::Workbench) => self.type_into_buffer(key),
+            Some(Overlay::Field(field)) => field.press(key),
+            Some(Overlay::Prompt(prompt)) => prompt.press(key),
+            Some(Overlay::Menu(menu)) => {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
             }
-            Some(Over::Help { .. } | Over::Message(_)) => {}
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => {}
             None if searching => {
                 self.picker.search(|input| {
                     edit(input, key);
@@ -110,11 +110,11 @@ impl App {
     fn paste(&mut self, text: &str) -> Vec<Effect> {
         let all = text.len();
         let text = beginning(text, LONGEST_PASTE);
-        let whole = match &mut self.over {
-            Some(Over::Workbench) => self.paste_on_sheet(text),
-            Some(Over::Field(field)) => field.paste(text),
-            Some(Over::Prompt(prompt)) => paste(&mut prompt.input, text),
-            Some(Over::Menu(menu)) => {
+        let whole = match &mut self.overlay {
+            Some(Overlay::Workbench) => self.paste_into_buffer(text),
+            Some(Overlay::Field(field)) => field.paste(text),
+            Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
+            Some(Overlay::Menu(menu)) => {
                 menu.selected = 0;
                 menu.filter.as_mut().is_none_or(|filter| paste(filter, text))
             }
@@ -126,8 +126,8 @@ impl App {
             _ => return Vec::new(),
         };
         if !whole || text.len() < all {
-            self.notice = Some(Notice::error(match self.over {
-                Some(Over::Workbench) => LONG_TEXT,
+            self.notice = Some(Notification::error(match self.overlay {
+                Some(Overlay::Workbench) => LONG_TEXT,
                 _ => "The pasted text was too long; its beginning was taken.",
             }));
         }
@@ -141,8 +141,8 @@ impl App {
         if lab.see(Arc::clone(snapshot)) {
             self.meter.count(steps);
             self.reading.see(snapshot);
-            for sentence in news(&before, &snapshot.notices) {
-                self.news.tell(&mut self.notice, Notice::info(sentence.clone()));
+            for sentence in notifications(&before, &snapshot.notices) {
+                self.notifications.tell(&mut self.notice, Notification::info(sentence.clone()));
             }
         }
         Vec::new()
@@ -153,11 +153,11 @@ impl App {
         self.drop_hold();
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
-        self.over.take_if(|over| matches!(over, Over::Workbench));
+        self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.lab = Some(Lab::new(loaded));
         // What went wrong is not less so because something else is there.
         self.notice.take_if(|notice| !notice.error);
-        self.news.clear();
+        self.notifications.clear();
         self.meter.forget();
         self.picker.failure = None;
         if answered == Some(true) {
@@ -170,8 +170,8 @@ impl App {
 
     /// The system whose file is told to be wrong.
     pub fn failed_system(&self) -> Option<&str> {
-        match &self.over {
-            Some(Over::Message(failure)) => Some(&failure.name),
+        match &self.overlay {
+            Some(Overlay::Message(failure)) => Some(&failure.name),
             _ => None,
         }
     }
@@ -182,10 +182,10 @@ impl App {
         name.map(|name| self.ask(name, true)).into_iter().collect()
     }
 
-    fn failed(&mut self, failure: LoadFailure) -> Vec<Effect> {
+    fn failed(&mut self, failure: LoadError) -> Vec<Effect> {
         if self.answered(&failure.name) == Some(true) {
             self.scroll = 0;
-            self.over = Some(Over::Message(failure.clone()));
+            self.overlay = Some(Overlay::Message(failure.clone()));
         }
         self.picker.failure = Some(failure);
         Vec::new()
@@ -201,11 +201,11 @@ impl App {
     pub(super) fn go(&mut self, page: Page) {
         if page == Page::Picker {
             self.left = self.saved();
-            // what was told of the motion that is left says nothing of another
+            // what was reported of the motion that is left says nothing of another
             self.notice = None;
-            self.news.clear();
+            self.notifications.clear();
         }
-        (self.page, self.over, self.scroll) = (page, None, 0);
+        (self.page, self.overlay, self.scroll) = (page, None, 0);
         if page == Page::Plain {
             self.read();
         }
@@ -213,7 +213,7 @@ impl App {
 }
 
 /// The sentences of `now` that came after those of `before`; old ones may have gone at the front.
-fn news<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
+fn notifications<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
     let mut known = (0..=before.len().min(now.len())).rev();
     &now[known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0)..]
 }

@@ -4,13 +4,13 @@
 //! Never here: the list on the screen, or the command that sets it.
 
 use super::Lab;
-use crate::expr::portable;
 use crate::model::Scale;
+use crate::num::math;
 use crate::system::ChannelKind;
 
 /// One value that can be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Target {
+pub enum ValueId {
     /// The parameter of this index.
     Parameter(usize),
     /// The initial value of this index: coordinates first, then velocities or momenta.
@@ -19,7 +19,7 @@ pub enum Target {
 
 /// What is known of a value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
+pub struct ValueInfo {
     /// As written: `theta0`.
     pub name: String,
     /// As shown: `θ₀`.
@@ -34,20 +34,20 @@ pub struct Facts {
 
 impl Lab {
     /// How many parameters, or how many initial values.
-    pub fn count(&self, kind: fn(usize) -> Target) -> usize {
+    pub fn count(&self, kind: fn(usize) -> ValueId) -> usize {
         match kind(0) {
-            Target::Parameter(_) => self.loaded.model.parameters.len(),
-            Target::Initial(_) => self.loaded.model.moving(),
+            ValueId::Parameter(_) => self.loaded.model.parameters.len(),
+            ValueId::Initial(_) => self.loaded.model.moving(),
         }
     }
 
     /// What is known of a value; of one that does not exist, nothing.
-    pub fn facts(&self, target: Target) -> Option<Facts> {
+    pub fn value_info(&self, target: ValueId) -> Option<ValueInfo> {
         let model = &self.loaded.model;
         match target {
-            Target::Parameter(index) => {
+            ValueId::Parameter(index) => {
                 let p = model.parameters.get(index)?;
-                Some(Facts {
+                Some(ValueInfo {
                     name: p.name.clone(),
                     shown: p.shown.clone(),
                     unit: p.unit.clone(),
@@ -55,7 +55,7 @@ impl Lab {
                     range: Some((p.min, p.max, p.scale)),
                 })
             }
-            Target::Initial(index) => {
+            ValueId::Initial(index) => {
                 let count = model.coordinates.len();
                 let c = model.coordinates.get(index % count.max(1))?;
                 let (symbol, what) = match (index / count, model.is_lagrangian()) {
@@ -79,7 +79,7 @@ impl Lab {
                     }
                     _ => c.unit.clone(),
                 };
-                Some(Facts {
+                Some(ValueInfo {
                     name: info.name.clone(),
                     shown: info.unicode.clone(),
                     unit,
@@ -91,34 +91,34 @@ impl Lab {
     }
 
     /// The value: what was asked for last, until the experiment shows it too.
-    pub fn value(&self, target: Target) -> Option<f64> {
-        if let Some((_, wish)) = self.wishes.iter().find(|(t, _)| *t == target) {
+    pub fn value(&self, target: ValueId) -> Option<f64> {
+        if let Some((_, wish)) = self.pending.iter().find(|(t, _)| *t == target) {
             return Some(*wish);
         }
         self.fact(target)
     }
 
     /// The value as the experiment has it.
-    pub(super) fn fact(&self, target: Target) -> Option<f64> {
+    pub(super) fn fact(&self, target: ValueId) -> Option<f64> {
         let snapshot = self.snapshot.as_ref()?;
         match target {
-            Target::Parameter(index) => snapshot.parameters.get(index).copied(),
-            Target::Initial(index) => snapshot.initial.get(index).copied(),
+            ValueId::Parameter(index) => snapshot.parameters.get(index).copied(),
+            ValueId::Initial(index) => snapshot.initial.get(index).copied(),
         }
     }
 
     /// The value one fine or coarse step up (+1) or down (−1), within its range.
-    pub fn stepped(&self, target: Target, sign: i8, coarse: bool) -> Option<f64> {
+    pub fn stepped(&self, target: ValueId, sign: i8, coarse: bool) -> Option<f64> {
         let value = self.value(target)?;
-        let range = self.facts(target)?.range;
+        let range = self.value_info(target)?.range;
         Some(step(value, range, f64::from(sign), if coarse { 10.0 } else { 1.0 }))
     }
 }
 
 impl Lab {
     /// A value as it would be set by hand: a whole number of fine steps within its range, whose ends are exact.
-    pub(super) fn rounded(&self, target: Target, value: f64) -> f64 {
-        match self.facts(target).and_then(|facts| facts.range) {
+    pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
+        match self.value_info(target).and_then(|value_info| value_info.range) {
             Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
             Some((min, max, Scale::Log)) if min > 0.0 => significant(value, 3).clamp(min, max),
             Some((min, max, _)) => {
@@ -135,8 +135,8 @@ impl Lab {
 fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> f64 {
     match range {
         Some((min, max, Scale::Log)) if min > 0.0 && value > 0.0 => {
-            let factor = portable::powf(max / min, times / 200.0);
-            let moved = significant(value * portable::powf(factor, sign), 4);
+            let factor = math::powf(max / min, times / 200.0);
+            let moved = significant(value * math::powf(factor, sign), 4);
             within(moved, value, min, max)
         }
         Some((min, max, _)) => {
@@ -160,7 +160,7 @@ fn nice_step(length: f64) -> f64 {
     if !length.is_finite() || length <= 0.0 {
         return 1.0;
     }
-    let power = portable::powf(10.0, portable::log10(length).floor());
+    let power = math::powf(10.0, math::log10(length).floor());
     let digit = [1.0, 2.0, 5.0, 10.0].into_iter().rfind(|d| d * power <= length * 1.5);
     significant(digit.unwrap_or(1.0) * power, 3)
 }

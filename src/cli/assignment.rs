@@ -2,13 +2,15 @@
 
 use std::str::FromStr;
 
-use crate::expr::{Expr, Number, Pool, nearest};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, report};
+use crate::expr::{Expr, Pool};
 use crate::mechanics::body_constants;
 use crate::model::{Allowed, Channel, Model, Scope};
-use crate::preset::{Mistake, report};
-use crate::system::Given;
+use crate::num::Number;
+use crate::system::InitialOverride;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::stderr;
 use crate::printable;
 
@@ -63,7 +65,7 @@ fn first_mistake(scope: &Scope) -> String {
 }
 
 /// The parameters: the file's values, or those set.
-pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, Failure> {
+pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, CommandError> {
     let mut values = model.parameter_values();
     refuse_twice("--set", set)?;
     for assignment in set {
@@ -78,21 +80,25 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
 }
 
 /// One of two values for the same name would be lost.
-fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), Failure> {
+fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), CommandError> {
     for (i, later) in set.iter().enumerate() {
         if let Some(first) = set[..i].iter().find(|first| first.name == later.name) {
             let [name, one, other] =
                 [&first.name, &first.value, &later.value].map(|text| printable::quoted(text));
             let message =
                 format!("{option} gives {name} twice, {one} and {other}: keep one of them");
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(())
 }
 
 /// The time of the initial values: `--init t=…`, else the file's.
-pub(super) fn start(model: &Model, parameters: &[f64], set: &[Assignment]) -> Result<f64, Failure> {
+pub(super) fn start(
+    model: &Model,
+    parameters: &[f64],
+    set: &[Assignment],
+) -> Result<f64, CommandError> {
     match set.iter().rfind(|assignment| assignment.name == "t") {
         Some(assignment) => initial_value(model, parameters, assignment),
         None => Ok(model.run.start),
@@ -104,29 +110,30 @@ pub(super) fn initial(
     model: &Model,
     parameters: &[f64],
     set: &[Assignment],
-) -> Result<Vec<Given>, Failure> {
-    let mut all: Vec<Given> = Vec::new();
+) -> Result<Vec<InitialOverride>, CommandError> {
+    let mut all: Vec<InitialOverride> = Vec::new();
     refuse_twice("--init", set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
         all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
-        let has = |wanted: Given| all.iter().any(|g| label(model, g) == label(model, &wanted));
-        if has(Given::Velocity(i, 0.0)) && has(Given::Momentum(i, 0.0)) {
+        let has =
+            |wanted: InitialOverride| all.iter().any(|g| label(model, g) == label(model, &wanted));
+        if has(InitialOverride::Velocity(i, 0.0)) && has(InitialOverride::Momentum(i, 0.0)) {
             let name = &c.name;
             let message =
                 format!("--init gives both {name}' and p_{name}; one follows from the other");
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(all)
 }
 
 /// Has a model begin at these coordinates: which constraints repeat others is judged there.
-pub(super) fn begin_at(model: &mut Model, given: &[Given]) {
+pub(super) fn begin_at(model: &mut Model, given: &[InitialOverride]) {
     for given in given {
-        if let &Given::Position(i, x) = given {
+        if let &InitialOverride::Position(i, x) = given {
             model.coordinates[i].initial = model.pool.number(Number::Real(x).canonical());
         }
     }
@@ -137,7 +144,7 @@ fn initial_value(
     model: &Model,
     parameters: &[f64],
     assignment: &Assignment,
-) -> Result<f64, Failure> {
+) -> Result<f64, CommandError> {
     let mut pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "an initial value");
     let e = scope
@@ -154,13 +161,13 @@ fn initial_value(
 }
 
 /// Which initial value a name means.
-fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
+fn place(model: &Model, name: &str, value: f64) -> Result<InitialOverride, CommandError> {
     let coordinate = |name: &str| model.coordinate(name);
-    let plain = coordinate(name).map(|i| Given::Position(i, value));
+    let plain = coordinate(name).map(|i| InitialOverride::Position(i, value));
     // variables of brackets have neither velocities nor momenta at their start
     let find = |name: &str| coordinate(name).filter(|_| !model.is_poisson());
-    let primed = || Some(Given::Velocity(find(name.strip_suffix('\'')?)?, value));
-    let momentum = || Some(Given::Momentum(find(name.strip_prefix("p_")?)?, value));
+    let primed = || Some(InitialOverride::Velocity(find(name.strip_suffix('\'')?)?, value));
+    let momentum = || Some(InitialOverride::Momentum(find(name.strip_prefix("p_")?)?, value));
     plain.or_else(primed).or_else(momentum).ok_or_else(|| {
         let names: Vec<String> = model
             .coordinates
@@ -174,23 +181,25 @@ fn place(model: &Model, name: &str, value: f64) -> Result<Given, Failure> {
 }
 
 /// As it is written in front of the `=`.
-fn label(model: &Model, given: &Given) -> String {
+fn label(model: &Model, given: &InitialOverride) -> String {
     match *given {
-        Given::Position(i, _) => model.coordinates[i].name.clone(),
-        Given::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
-        Given::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
+        InitialOverride::Position(i, _) => model.coordinates[i].name.clone(),
+        InitialOverride::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
+        InitialOverride::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
     }
 }
 
 /// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the one the equations live in.
-pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, Failure> {
+pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, CommandError> {
     let (name, written) = match text.split_once('=') {
         Some((name, expression)) => (name.trim(), expression.trim()),
         None => (text.trim(), text.trim()),
     };
     if name.is_empty() {
         let text = printable::quoted(text);
-        return Err(Failure::WrongUse(format!("--observe {text}: a name stands before the =")));
+        return Err(CommandError::WrongUse(format!(
+            "--observe {text}: a name stands before the ="
+        )));
     }
     let expression = expression(model, pool, written, "--observe")?;
     Ok(Channel { written: name.to_owned(), expression })
@@ -203,35 +212,35 @@ pub(super) fn expression(
     pool: &mut Pool,
     written: &str,
     called: &str,
-) -> Result<Expr, Failure> {
+) -> Result<Expr, CommandError> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     if let Some(e) = scope.read(pool, written) {
         return Ok(e);
     }
-    let mistakes: Vec<Mistake> = scope
+    let mistakes: Vec<Diagnostic> = scope
         .mistakes
         .into_iter()
         .map(|mistake| {
             let place = mistake.span.start..mistake.span.end;
-            Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
+            Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
         })
         .collect();
     stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
     let written = printable::quoted(written);
-    Err(Failure::WrongUse(format!("{called}: `{written}` is no expression of this system")))
+    Err(CommandError::WrongUse(format!("{called}: `{written}` is no expression of this system")))
 }
 
-fn wrong(assignment: &Assignment, why: &str) -> Failure {
+fn wrong(assignment: &Assignment, why: &str) -> CommandError {
     let [name, value] = [&assignment.name, &assignment.value].map(|text| printable::quoted(text));
-    Failure::WrongUse(format!("{name}={value}: {why}"))
+    CommandError::WrongUse(format!("{name}={value}: {why}"))
 }
 
-fn unknown(kind: &str, name: &str, names: &[&str]) -> Failure {
+fn unknown(kind: &str, name: &str, names: &[&str]) -> CommandError {
     let shown = printable::quoted(name);
     let help = match nearest(name, names.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if names.is_empty() => "there are none".to_owned(),
         None => format!("there are {}", names.join(", ")),
     };
-    Failure::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
+    CommandError::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
 }

@@ -6,15 +6,15 @@ use serde_json::{Value, json};
 
 use super::assignment::{self, Assignment};
 use super::decimal::shortest;
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::mechanics::{self, ChainRule, Equations, Recognised, WhyNot};
+use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
 use crate::model::{Channel, Model};
-use crate::system::{ChannelKind, Given, System};
+use crate::system::{ChannelKind, InitialOverride, System};
 
 /// Take Poisson's bracket of two expressions.
 ///
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
@@ -80,7 +80,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
 /// The point at which the value is wanted.
 struct Start {
     parameters: Vec<f64>,
-    given: Vec<Given>,
+    given: Vec<InitialOverride>,
 }
 
 impl Start {
@@ -141,13 +141,13 @@ fn finite(value: Option<f64>) -> Result<f64, String> {
     value.filter(|x| x.is_finite()).ok_or_else(|| "it is not finite there".to_owned())
 }
 
-/// All that is told.
+/// All that is reported.
 struct Answer<'a> {
     arguments: &'a Arguments,
     model: &'a Model,
     f: Expr,
     g: Expr,
-    expression: Result<Expr, WhyNot>,
+    expression: Result<Expr, NoClosedForm>,
     recognised: Option<Recognised>,
     value: Result<f64, String>,
 }

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{open, stderr};
 use crate::analysis::false_claims;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::mechanics;
-use crate::preset::{Document, Mistake, Severity};
 use crate::printable;
 use crate::system::System;
 
@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// The files.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// How the mistakes are told.
+    /// How the mistakes are reported.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }
@@ -42,11 +42,11 @@ enum Format {
     Json,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let mut files = Vec::new();
     let mut errors = 0;
     for path in &arguments.files {
-        let document = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+        let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
         let mistakes = mistakes(&document);
         errors += mistakes.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
@@ -59,13 +59,15 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     }
     match (errors, arguments.files.as_slice()) {
         (0, _) => Ok(()),
-        (n, [file]) => Err(Failure::WrongFile(open::count(n, &printable::path(file)))),
-        (n, files) => Err(Failure::WrongFile(open::count(n, &format!("{} files", files.len())))),
+        (n, [file]) => Err(CommandError::WrongFile(open::count(n, &printable::path(file)))),
+        (n, files) => {
+            Err(CommandError::WrongFile(open::count(n, &format!("{} files", files.len()))))
+        }
     }
 }
 
 /// All mistakes of a file: of its text, else of what follows from it, else of its claims.
-fn mistakes(document: &Document) -> Vec<Mistake> {
+fn mistakes(document: &Document) -> Vec<Diagnostic> {
     let checked = match document.read() {
         Ok(checked) => checked,
         Err(mistakes) => return mistakes,
@@ -83,14 +85,14 @@ fn mistakes(document: &Document) -> Vec<Mistake> {
         }
         Err(why) => {
             let place = checked.model.law_place.clone();
-            mistakes.push(Mistake::error(place, why.to_string()));
+            mistakes.push(Diagnostic::error(place, why.to_string()));
         }
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
     mistakes
 }
 
-fn object(document: &Document, mistakes: &[Mistake]) -> Value {
+fn object(document: &Document, mistakes: &[Diagnostic]) -> Value {
     let mistakes: Vec<Value> = mistakes
         .iter()
         .map(|mistake| {

@@ -2,7 +2,7 @@
 
 use clap_complete::Shell;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 
 /// Print what a shell needs to complete commands, options and the names of presets.
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     Output::print(Form::Text, &script(arguments.shell))
 }
 

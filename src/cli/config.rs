@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{open, stderr};
-use crate::preset::Document;
+use crate::diagnostic::Document;
 use crate::printable;
 use crate::shell::{Options, config};
 
@@ -40,12 +40,12 @@ enum Command {
     },
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     match &arguments.command {
         Command::PrintDefault => print(&config::default_text()),
         Command::Path => print(&format!("{}\n", printable::path(&path()?))),
         Command::Check { file: Some(path) } => {
-            let document = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+            let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
             read(&document).map(|_| ())
         }
         Command::Check { file: None } => match find()? {
@@ -61,27 +61,27 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
 
 /// What the configuration asks for, nothing where there is none. Its mistakes are shown where they
 /// stand.
-pub(super) fn options() -> Result<Options, Failure> {
+pub(super) fn options() -> Result<Options, CommandError> {
     find()?.map_or(Ok(Options::default()), |document| read(&document))
 }
 
-fn find() -> Result<Option<Document>, Failure> {
+fn find() -> Result<Option<Document>, CommandError> {
     config::find().map_err(|why| match config::path() {
-        Some(path) => Failure::reading(&path, &why),
-        None => Failure::CouldNot(printable::why(&why)),
+        Some(path) => CommandError::reading(&path, &why),
+        None => CommandError::CouldNot(printable::why(&why)),
     })
 }
 
-fn path() -> Result<PathBuf, Failure> {
+fn path() -> Result<PathBuf, CommandError> {
     let none =
         "there is no home, and so no folder for a configuration: set HOME or XDG_CONFIG_HOME";
-    config::path().ok_or_else(|| Failure::CouldNot(none.to_owned()))
+    config::path().ok_or_else(|| CommandError::CouldNot(none.to_owned()))
 }
 
-fn read(document: &Document) -> Result<Options, Failure> {
+fn read(document: &Document) -> Result<Options, CommandError> {
     config::read(document).map_err(|mistakes| open::refuse(document, &mistakes))
 }
 
-fn print(text: &str) -> Result<(), Failure> {
+fn print(text: &str) -> Result<(), CommandError> {
     Output::print(Form::Text, text)
 }

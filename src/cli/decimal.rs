@@ -1,6 +1,6 @@
 //! Numbers as text that reads back to the same bits, and times that are where they were asked for.
 
-use crate::expr::Number;
+use crate::num::Number;
 
 /// The shortest decimal that reads back to the same `f64`: `0.1`, `2.0`, `1e-9`. `None` where it is
 /// not finite.

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::{open, record};
-use crate::preset::Document;
+use crate::diagnostic::Document;
 use crate::record::Script;
 
 /// Check scripts of demos.
@@ -32,20 +32,20 @@ enum Command {
     },
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let Command::Check { files } = &arguments.command;
     let mut wrong = Vec::new();
     for path in files {
-        let source = Document::open(path).map_err(|why| Failure::reading(path, &why))?;
+        let source = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
         match check(&source) {
-            Err(Failure::WrongFile(what)) => wrong.push(what),
+            Err(CommandError::WrongFile(what)) => wrong.push(what),
             other => other?,
         }
     }
-    if wrong.is_empty() { Ok(()) } else { Err(Failure::WrongFile(wrong.join("\n"))) }
+    if wrong.is_empty() { Ok(()) } else { Err(CommandError::WrongFile(wrong.join("\n"))) }
 }
 
-fn check(source: &Document) -> Result<(), Failure> {
+fn check(source: &Document) -> Result<(), CommandError> {
     let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
     let Some(system) = &script.head.open else { return Ok(()) };
     let document = open::find(&system.text)?;

@@ -8,7 +8,7 @@ mod text;
 
 use std::ffi::OsString;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
     let mut equations = open::derive(&document, &model)?;

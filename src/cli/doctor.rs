@@ -4,7 +4,7 @@ use std::io::{IsTerminal, stdout};
 
 use rustix::termios::tcgetwinsize;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use crate::shell::diagnosis;
 use crate::view::card::card;
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     glyphs: bool,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let variables = |name: &str| std::env::var(name).ok();
     let near = stdout().is_terminal();
     let text = if arguments.glyphs {

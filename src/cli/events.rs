@@ -5,20 +5,20 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
-use crate::experiment::Chronicle;
-use crate::integrate::{Happening, Kind};
+use crate::experiment::EventLog;
+use crate::integrate::{Occurrence, OccurrenceKind};
 use crate::model::Model;
 
-/// The events and blows of a run.
+/// The events and impulses of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Events {
     /// `None` where nothing is known of them.
-    of: Option<(Arc<Model>, Chronicle)>,
+    of: Option<(Arc<Model>, EventLog)>,
 }
 
 impl Events {
-    pub(super) fn of(model: &Arc<Model>, happenings: &Chronicle) -> Events {
-        Events { of: Some((Arc::clone(model), happenings.clone())) }
+    pub(super) fn of(model: &Arc<Model>, occurrences: &EventLog) -> Events {
+        Events { of: Some((Arc::clone(model), occurrences.clone())) }
     }
 
     /// Those of a run that was ended from outside, which nobody can be asked for.
@@ -26,17 +26,17 @@ impl Events {
         Events { of: None }
     }
 
-    /// One object for each event and each blow, in time: name, time, and of a blow the jump of each
+    /// One object for each event and each impulse, in time: name, time, and of an impulse the jump of each
     /// momentum (or variable) and the reaction of each constraint.
     pub(super) fn iter(&self) -> impl Iterator<Item = Value> {
-        self.of.iter().flat_map(|(model, happenings)| {
-            happenings.iter().map(move |happening| Events::object(model, happening))
+        self.of.iter().flat_map(|(model, occurrences)| {
+            occurrences.iter().map(move |occurrence| Events::object(model, occurrence))
         })
     }
 
-    fn object(model: &Model, happening: &Happening) -> Value {
-        let mut object = json!({ "name": happening.name, "t": happening.time });
-        if let Kind::Blow { jump, reaction } = &happening.kind {
+    fn object(model: &Model, occurrence: &Occurrence) -> Value {
+        let mut object = json!({ "name": occurrence.name, "t": occurrence.time });
+        if let OccurrenceKind::Impulse { jump, reaction } = &occurrence.kind {
             let moved = |i: usize| {
                 let c = &model.coordinates[i];
                 if model.is_poisson() { c.name.clone() } else { format!("p_{}", c.name) }

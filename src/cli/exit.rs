@@ -43,7 +43,7 @@ pub const EXITS: &[Exit] = &[
     ),
     exit(
         "65",
-        "a file is wrong: a system, a script, the configuration; its mistakes are told in their \
+        "a file is wrong: a system, a script, the configuration; its mistakes are reported in their \
          places",
     ),
     exit("74", "output could not be written; a file that stood there is as it was"),

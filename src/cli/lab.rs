@@ -3,13 +3,13 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::{config, play, record};
 use crate::preset::{Catalog, Origin, is_path};
-use crate::record::Performance;
+use crate::record::ScriptRunner;
 use crate::shell::options::{Choice, Kind, OPTIONS};
-use crate::shell::{self, Ending, NoSession, Options, Refusal, Request};
+use crate::shell::{self, Ending, LabError, Options, Request, SessionError};
 
 /// What to open and how to show it: a name, and an argument for each row of [`OPTIONS`].
 #[derive(Debug)]
@@ -113,26 +113,26 @@ fn argument(choice: &'static Choice) -> Arg {
 }
 
 /// What a terminal is to be used with: what was asked for, else the environment, else the configuration.
-pub(super) fn request(name: Option<String>, asked: Options) -> Result<Request, Failure> {
+pub(super) fn request(name: Option<String>, asked: Options) -> Result<Request, CommandError> {
     let variable = |name: &str| std::env::var(name).ok();
-    let environment = Options::of_environment(&variable).map_err(Failure::WrongUse)?;
+    let environment = Options::of_environment(&variable).map_err(CommandError::WrongUse)?;
     let configured = config::options()?.within(&variable);
     Ok(Request::new(name, &asked.or(environment).or(configured)))
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     if arguments.demo {
         return perform_demo(arguments);
     }
     if let Some(message) = arguments.name.as_deref().and_then(super::unknown) {
-        return Err(Failure::WrongUse(message));
+        return Err(CommandError::WrongUse(message));
     }
     if arguments.options.is_on("watch") {
         watchable(arguments.name.as_deref())?;
     }
     let mut request = request(arguments.name.clone(), arguments.options.clone())?;
     let mut ended = shell::run(&request);
-    let gone = matches!(ended, Err(Refusal::NoSession(_) | Refusal::NotFound(_)));
+    let gone = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
     if gone && request.resume && !arguments.options.is_on("resume") {
         // a session is gone on with wherever there is one; here there is none yet, or none that can be gone on with
         request.resume = false;
@@ -141,14 +141,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
     how_it_ended(ended)
 }
 
-/// A demo on the terminal. Its last picture stays, and what is wrong with its script is told, once the terminal is given
+/// A demo on the terminal. Its last picture stays, and what is wrong with its script is reported, once the terminal is given
 /// back.
-fn perform_demo(arguments: &Arguments) -> Result<(), Failure> {
+fn perform_demo(arguments: &Arguments) -> Result<(), CommandError> {
     let request = request(None, arguments.options.clone())?;
     let source = play::source(arguments.name.as_deref())?;
     let (script, system, name) = play::scripted(&source)?;
     let wrong = |mistake| record::told(&source, &[mistake]);
-    let performance = Performance::watched(script, &system, &name).map_err(wrong)?;
+    let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {
         Ok(done) => done,
         Err(refusal) => return how_it_ended(Err(refusal)),
@@ -160,12 +160,12 @@ fn perform_demo(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// What is shipped has no file that could change.
-fn watchable(name: Option<&str>) -> Result<(), Failure> {
+fn watchable(name: Option<&str>) -> Result<(), CommandError> {
     let Some(name) = name.filter(|name| !is_path(name)) else { return Ok(()) };
     let catalog = Catalog::load();
     let entry = catalog.entries().iter().find(|entry| entry.name == name);
     match entry.map(|entry| &entry.origin) {
-        Some(Origin::Shipped) => Err(Failure::WrongUse(format!(
+        Some(Origin::Shipped) => Err(CommandError::WrongUse(format!(
             "`{name}` is shipped with phaselab and has no file to be watched; open it, press E and Ctrl-s to save a \
              copy of your own, and watch that"
         ))),
@@ -174,18 +174,18 @@ fn watchable(name: Option<&str>) -> Result<(), Failure> {
 }
 
 /// What an ending on the terminal means for the exit code.
-pub(super) fn how_it_ended(ended: Result<Ending, Refusal>) -> Result<(), Failure> {
+pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), CommandError> {
     match ended {
         Ok(Ending::Quit) => Ok(()),
-        Ok(Ending::Gone) => Err(Failure::Signal(signal_hook::consts::SIGHUP)),
-        Ok(Ending::Signal(number)) => Err(Failure::Signal(number)),
-        Err(refusal @ Refusal::System(_)) => Err(Failure::CouldNot(refusal.to_string())),
-        Err(refusal @ (Refusal::Unsaved(_) | Refusal::Unrecorded(_) | Refusal::NoLog(_))) => {
-            Err(Failure::CouldNotWrite(refusal.to_string()))
+        Ok(Ending::Gone) => Err(CommandError::Signal(signal_hook::consts::SIGHUP)),
+        Ok(Ending::Signal(number)) => Err(CommandError::Signal(number)),
+        Err(refusal @ LabError::System(_)) => Err(CommandError::CouldNot(refusal.to_string())),
+        Err(refusal @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {
+            Err(CommandError::CouldNotWrite(refusal.to_string()))
         }
-        Err(Refusal::NoSession(why @ (NoSession::Newer { .. } | NoSession::Malformed { .. }))) => {
-            Err(Failure::WrongFile(why.to_string()))
-        }
-        Err(refusal) => Err(Failure::WrongUse(refusal.to_string())),
+        Err(LabError::SessionError(
+            why @ (SessionError::Newer { .. } | SessionError::Malformed { .. }),
+        )) => Err(CommandError::WrongFile(why.to_string())),
+        Err(refusal) => Err(CommandError::WrongUse(refusal.to_string())),
     }
 }

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use super::stderr;
 use crate::preset::{Catalog, Entry, Origin};
@@ -46,7 +46,7 @@ impl Format {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let catalog = Catalog::load();
     if catalog.is_cut() {
         let folder =

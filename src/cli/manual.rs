@@ -6,7 +6,7 @@ use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 
 use super::exit::EXITS;
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use crate::app::keymap::{KEYS, Place};
 use crate::shell::options::OPTIONS;
@@ -56,7 +56,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ("XDG_STATE_HOME", "Where the last session is kept."),
 ];
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let page = match arguments.command.as_slice() {
         [] => whole(),
         words => of_command(words)?,
@@ -102,17 +102,17 @@ fn whole() -> io::Result<Vec<u8>> {
 }
 
 /// The page of one command.
-fn of_command(words: &[String]) -> Result<io::Result<Vec<u8>>, Failure> {
+fn of_command(words: &[String]) -> Result<io::Result<Vec<u8>>, CommandError> {
     let mut command = super::command();
     command.build();
     let mut found = &command;
     for word in words {
         found = found.find_subcommand(word).ok_or_else(|| {
             let names = found.get_subcommands().map(clap::Command::get_name);
-            let near = crate::expr::nearest(word, names);
+            let near = crate::diagnostic::nearest(word, names);
             let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
             let word = crate::printable::quoted(word);
-            Failure::WrongUse(format!("there is no command `{word}`{help}"))
+            CommandError::WrongUse(format!("there is no command `{word}`{help}"))
         })?;
     }
     let examples = examples(found);

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use crate::integrate::{METHODS, Method, Preserves, Stepping};
 
@@ -41,7 +41,7 @@ impl Format {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let text = match arguments.format {
         Format::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
         Format::Json => {

@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::stderr;
 use crate::printable;
 use crate::shell::whole::Whole;
@@ -45,7 +45,7 @@ enum Target {
 impl Output {
     /// Standard output, or the file of that path. A regular file takes its place whole at [`Output::finish`], so that
     /// a failure leaves an old file as it was; a device or a pipe is written directly.
-    pub(super) fn open(path: Option<&Path>, form: Form) -> Result<Output, Failure> {
+    pub(super) fn open(path: Option<&Path>, form: Form) -> Result<Output, CommandError> {
         let Some(path) = path else { return Ok(Output::standard(form)) };
         let name = printable::path(path);
         let about = fs::metadata(path);
@@ -56,7 +56,7 @@ impl Output {
         } else {
             Whole::begin(path).map(Target::File)
         };
-        let target = target.map_err(|error| Failure::writing(&name, &error))?;
+        let target = target.map_err(|error| CommandError::writing(&name, &error))?;
         Ok(Output { writer: BufWriter::new(target), form, name, over })
     }
 
@@ -66,7 +66,7 @@ impl Output {
     }
 
     /// Writes all of a text to standard output.
-    pub(super) fn print(form: Form, text: &str) -> Result<(), Failure> {
+    pub(super) fn print(form: Form, text: &str) -> Result<(), CommandError> {
         let mut out = Output::standard(form);
         out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
         out.finish()
@@ -78,7 +78,7 @@ impl Output {
     }
 
     /// Brings everything to its place, and tells where something else stood there.
-    pub(super) fn finish(self) -> Result<(), Failure> {
+    pub(super) fn finish(self) -> Result<(), CommandError> {
         let Self { writer, name, over, .. } = self;
         let done = writer.into_inner().map_err(io::IntoInnerError::into_error);
         let done = done.and_then(|target| match target {
@@ -86,7 +86,7 @@ impl Output {
             Target::Direct(mut file) => file.flush(),
             Target::File(file) => file.finish_on_disk(),
         });
-        done.map_err(|error| Failure::writing(&name, &error))?;
+        done.map_err(|error| CommandError::writing(&name, &error))?;
         if over {
             stderr::tell(&format!("{name} is replaced"));
         }
@@ -99,8 +99,8 @@ impl Output {
     }
 
     /// The failure that a write error means.
-    pub(super) fn failed(&self, error: &io::Error) -> Failure {
-        Failure::writing(&self.name, error)
+    pub(super) fn failed(&self, error: &io::Error) -> CommandError {
+        CommandError::writing(&self.name, error)
     }
 }
 

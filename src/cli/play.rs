@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::{lab, open, record};
-use crate::preset::{Document, demo, is_path};
-use crate::record::{Script, Tape};
+use crate::diagnostic::Document;
+use crate::preset::{demo, is_path};
+use crate::record::{RecordedCast, Script};
 use crate::shell::{self, Options};
 use crate::{file, printable};
 
@@ -32,7 +33,7 @@ pub(super) struct Arguments {
 /// The greatest cast that is read.
 const LIMIT: u64 = 64 << 20;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let tape = tape(&arguments.file)?;
     let request = lab::request(None, Options::default())?;
     // the terminal is given back first
@@ -40,25 +41,26 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     lab::how_it_ended(shell::show(tape, &request))
 }
 
-fn tape(path: &Path) -> Result<Tape, Failure> {
+fn tape(path: &Path) -> Result<RecordedCast, CommandError> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
         return recorded(&own);
     }
-    let (bytes, _) = file::read(path, LIMIT).map_err(|why| Failure::reading(path, &why))?;
+    let (bytes, _) = file::read(path, LIMIT).map_err(|why| CommandError::reading(path, &why))?;
     let shown = printable::path(path);
     if bytes.len() as u64 > LIMIT {
         let what = format!("{shown}: a cast may have 64 MiB; this one has more");
-        return Err(Failure::WrongFile(what));
+        return Err(CommandError::WrongFile(what));
     }
     if bytes.trim_ascii_start().starts_with(b"{") {
         let text = String::from_utf8_lossy(&bytes);
-        return Tape::read(&text).map_err(|why| Failure::WrongFile(format!("{shown}: {why}")));
+        return RecordedCast::read(&text)
+            .map_err(|why| CommandError::WrongFile(format!("{shown}: {why}")));
     }
     recorded(&Document::from_bytes(shown, &bytes))
 }
 
 /// What a script comes to.
-fn recorded(source: &Document) -> Result<Tape, Failure> {
+fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
     let (script, system, name) = scripted(source)?;
     let recording = record::recorded(&script, source, &system, &name, None)?;
     record::hold(source, &recording)?;
@@ -69,25 +71,25 @@ fn recorded(source: &Document) -> Result<Tape, Failure> {
 const TOUR: &str = include_str!("tour.demo");
 
 /// The text of a script: a file's, a preset's own, or that of the tour.
-pub(super) fn source(name: Option<&str>) -> Result<Document, Failure> {
+pub(super) fn source(name: Option<&str>) -> Result<Document, CommandError> {
     let Some(name) = name else { return Ok(Document::new("tour.demo", TOUR)) };
     let path = Path::new(name);
     let is_script = path.extension().is_some_and(|ending| ending == "demo");
     if is_script || (is_path(name) && path.extension().is_none_or(|ending| ending != "toml")) {
-        return Document::open(path).map_err(|why| Failure::reading(path, &why));
+        return Document::open(path).map_err(|why| CommandError::reading(path, &why));
     }
     record::own_demo(name, "name a script, as in --demo my.demo")
 }
 
 /// A script, its system, and how that is called on the screen.
-pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), Failure> {
+pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), CommandError> {
     let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
     let Some(system) = &script.head.open else {
         let what = format!("{} does not say which system it is about: Open NAME", source.path);
-        return Err(Failure::WrongFile(what));
+        return Err(CommandError::WrongFile(what));
     };
     let document = open::find(&system.text)?;
-    // the mistakes of the system are told as its own
+    // the mistakes of the system are reported as its own
     open::read(&document)?;
     let name = record::called(&system.text).to_owned();
     Ok((script, document, name))

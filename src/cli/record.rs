@@ -6,15 +6,16 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::open;
 use super::output::{Form, Output};
-use crate::expr::nearest;
-use crate::preset::{Document, Mistake, demo, demos};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Document};
+use crate::preset::{demo, demos};
 use crate::printable;
-use crate::record::cast::{self, Version};
+use crate::record::cast_writer::{self, Version};
 use crate::record::script::read_size;
-use crate::record::{Recording, Script, account, play, still};
+use crate::record::{Recording, Script, play, screenshot, transcript};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
@@ -65,10 +66,10 @@ enum Format {
     Account,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
-        Some(path) => Document::open(path).map_err(|why| Failure::reading(path, &why))?,
+        Some(path) => Document::open(path).map_err(|why| CommandError::reading(path, &why))?,
         None => own_demo(&printable::os(&arguments.name), "give one with --script")?,
     };
     let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
@@ -100,11 +101,10 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Writes a still of the end, or of the beginning of a chapter.
-fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), Failure> {
-    let form = path
-        .to_string_lossy()
-        .parse()
-        .map_err(|why| Failure::WrongUse(format!("--still {}: {why}", printable::path(path))))?;
+fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), CommandError> {
+    let form = path.to_string_lossy().parse().map_err(|why| {
+        CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)))
+    })?;
     let screen = match at {
         None => &recording.last,
         Some(name) => {
@@ -116,7 +116,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
             };
             let unknown = || {
                 let name = printable::quoted(name);
-                Failure::WrongUse(format!("there is no marker `{name}`; {}", help()))
+                CommandError::WrongUse(format!("there is no marker `{name}`; {}", help()))
             };
             &marker.ok_or_else(unknown)?.screen
         }
@@ -130,11 +130,11 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
 }
 
 /// The demo that is shipped with a preset; where there is none, what can be done instead.
-pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, Failure> {
+pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, CommandError> {
     demo(name).ok_or_else(|| {
         let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
         let name = printable::quoted(name);
-        Failure::WrongUse(format!("`{name}` has no demo of its own: {instead}{near}"))
+        CommandError::WrongUse(format!("`{name}` has no demo of its own: {instead}{near}"))
     })
 }
 
@@ -145,8 +145,8 @@ pub(super) fn recorded(
     system: &Document,
     name: &str,
     size: Option<(u16, u16)>,
-) -> Result<Recording, Failure> {
-    // the mistakes of the system are told as its own
+) -> Result<Recording, CommandError> {
+    // the mistakes of the system are reported as its own
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
     play(script, system, called(name), size).map_err(|mistakes| told(source, &mistakes))
@@ -159,7 +159,7 @@ pub(super) fn called(name: &str) -> &str {
 }
 
 /// Tells the claims that are false.
-pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Failure> {
+pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), CommandError> {
     if recording.false_claims.is_empty() {
         Ok(())
     } else {
@@ -168,6 +168,6 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Failu
 }
 
 /// Shows mistakes where they stand.
-pub(super) fn told(source: &Document, mistakes: &[Mistake]) -> Failure {
+pub(super) fn told(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
     open::refuse(source, mistakes)
 }

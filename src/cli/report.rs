@@ -43,10 +43,10 @@ pub(super) struct Invariant {
     pub(super) reason: String,
     /// Its value at the start.
     pub(super) initial: f64,
-    /// Its value at the end; with blows it may be another, and drift is what there is beside them.
+    /// Its value at the end; with impulses it may be another, and drift is what there is beside them.
     #[serde(rename = "final")]
     pub(super) last: f64,
-    /// Its greatest distance from the initial value over all steps, relative to what of its terms moves; what blows
+    /// Its greatest distance from the initial value over all steps, relative to what of its terms moves; what impulses
     /// give does not count.
     pub(super) max_drift: f64,
     /// `exact`, `bounded`, `secular`, `lost`, `broken by the physics`, `open`.
@@ -62,7 +62,7 @@ pub(super) enum Status {
     /// Where an event or the user stopped it.
     Stopped,
     /// Where it could not go on.
-    Faulted,
+    Failed,
 }
 
 impl Status {
@@ -71,7 +71,7 @@ impl Status {
         match self {
             Status::Completed => "completed",
             Status::Stopped => "stopped",
-            Status::Faulted => "faulted",
+            Status::Failed => "faulted",
         }
     }
 }

@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment, number};
 use super::events::Events;
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
 use super::report::{Closing, Header, Status};
@@ -95,7 +95,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 /// How many times the gauges are looked at, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
@@ -120,7 +120,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .map(|text| assignment::column(&model, &mut equations.pool, text))
         .collect::<Result<_, _>>()?;
     let system = System::compile(&model, &equations, &columns)
-        .map_err(|why| Failure::WrongFile(format!("{}: {why}", document.path)))?;
+        .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
     refuse_twins(&system)?;
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
@@ -132,7 +132,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(open::refuse(&document, &[mistake]));
     }
     let name = arguments.method.as_deref().unwrap_or(&model.run.method);
-    let method = choose_method(&system, name).map_err(|why| Failure::WrongUse(why.to_string()))?;
+    let method =
+        choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
 
     misplaced(arguments, method)?;
     cautions::before(&system, method);
@@ -149,10 +150,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
-        .map_err(|why| Failure::WrongUse(why.to_string()))?;
+        .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
     if arguments.format == Format::Csv {
-        experiment.only_count_happenings();
+        experiment.only_count_occurrences();
     }
     let form = match arguments.format {
         Format::Csv => Form::Text,
@@ -163,7 +164,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let run = Run { experiment, times, columns, interrupt, steps: STEPS_PER_LOOK, strict };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // whatever else went wrong meanwhile
-        (Err(_), Some(signal)) => Err(Failure::Signal(signal)),
+        (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),
         (written, _) => written,
     }
 }
@@ -182,7 +183,7 @@ struct Run<'i> {
 
 /// How a run ended before its time.
 enum End {
-    Fault(experiment::Fault),
+    Fault(experiment::Failure),
     Event,
     Signal(i32),
     Write(std::io::Error),
@@ -213,7 +214,7 @@ impl Table {
             if out.is_file() {
                 interrupt.saves();
             }
-            // nobody is left to be told of a failure
+            // nobody is left to be reported of a failure
             let _ = out.finish();
         }
     }
@@ -221,9 +222,9 @@ impl Table {
 
 impl Run<'_> {
     /// Writes all rows, and what is known at the end.
-    fn write(mut self, format: Format, out: Output, header: &Header) -> Result<(), Failure> {
+    fn write(mut self, format: Format, out: Output, header: &Header) -> Result<(), CommandError> {
         let name = out.name().to_owned();
-        let failed = |error: &std::io::Error| Failure::writing(&name, error);
+        let failed = |error: &std::io::Error| CommandError::writing(&name, error);
         let table = Table(Arc::default());
         let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
         self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
@@ -241,9 +242,9 @@ impl Run<'_> {
         }
         out.finish()?;
         cautions::after(&self.experiment);
-        let chronicle = self.experiment.happenings();
-        if chronicle.forgotten() > 0 && format != Format::Csv {
-            let (count, forgotten) = (chronicle.count(), chronicle.forgotten());
+        let event_log = self.experiment.occurrences();
+        if event_log.forgotten() > 0 && format != Format::Csv {
+            let (count, forgotten) = (event_log.count(), event_log.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
         if let Some(passed) = self.experiment.singular_passages() {
@@ -255,19 +256,19 @@ impl Run<'_> {
         let line = departure.map(|departure| departure.line).unwrap_or_default();
         let cut_short = matches!(end, Some(End::Fault(_) | End::Signal(_)));
         if refused && !cut_short {
-            return Err(Failure::CouldNot(line));
+            return Err(CommandError::CouldNot(line));
         }
         stderr::tell(&line);
         match end {
-            Some(End::Fault(fault)) => Err(Failure::CouldNot(fault.message)),
-            Some(End::Signal(signal)) => Err(Failure::Signal(signal)),
+            Some(End::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
+            Some(End::Signal(signal)) => Err(CommandError::Signal(signal)),
             _ => Ok(()),
         }
     }
 
     /// A signal has ended the run meanwhile.
-    fn gone(&self) -> Result<(), Failure> {
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(Failure::Signal(signal)))
+    fn gone(&self) -> Result<(), CommandError> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
     }
 
     fn rows(&mut self, table: &Table) -> Result<(), End> {
@@ -302,7 +303,7 @@ impl Run<'_> {
             bar.show(self.experiment.time());
             // a step that a signal has cancelled is no fault of the motion
             self.interrupted()?;
-            if let experiment::Status::Faulted(fault) = self.experiment.status() {
+            if let experiment::Status::Failed(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
             // the moment itself still has its row
@@ -317,7 +318,7 @@ impl Run<'_> {
 
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
-            Some(End::Fault(fault)) => (Status::Faulted, Some(fault.message.clone())),
+            Some(End::Fault(fault)) => (Status::Failed, Some(fault.message.clone())),
             Some(End::Signal(_) | End::Write(_)) => {
                 (Status::Stopped, Some("stopped by a signal".to_owned()))
             }
@@ -331,14 +332,14 @@ impl Run<'_> {
             },
         };
         let gauges = self.experiment.snapshot().gauges;
-        let events = Events::of(self.experiment.model(), self.experiment.happenings());
+        let events = Events::of(self.experiment.model(), self.experiment.occurrences());
         Closing { invariants: invariants::of(&gauges), events, status, message }
     }
 }
 
 /// Step and tolerance: as asked for, else as the file says.
-fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
-    let wrong = |what: String| Err(Failure::WrongUse(what));
+fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandError> {
+    let wrong = |what: String| Err(CommandError::WrongUse(what));
     let told = printable::number;
     match (arguments.step, arguments.tolerance) {
         (Some(step), _) if step <= 0.0 => {
@@ -355,9 +356,9 @@ fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, Failure> {
 }
 
 /// A step is for methods of fixed step, a tolerance for the others.
-fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), Failure> {
+fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError> {
     let name = method.name;
-    let wrong = |what: String| Err(Failure::WrongUse(what));
+    let wrong = |what: String| Err(CommandError::WrongUse(what));
     match method.stepping {
         Stepping::Adaptive if arguments.step.is_some() => {
             wrong(format!("--step: {name} chooses its steps by a tolerance, --tolerance"))
@@ -370,7 +371,7 @@ fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), Failure> {
 }
 
 /// Two columns of one name could not be told apart.
-fn refuse_twins(system: &System) -> Result<(), Failure> {
+fn refuse_twins(system: &System) -> Result<(), CommandError> {
     let columns = &system.channels()[..system.columns()];
     for (i, column) in columns.iter().enumerate() {
         if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
@@ -378,7 +379,7 @@ fn refuse_twins(system: &System) -> Result<(), Failure> {
                 "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
                 printable::quoted(&column.name)
             );
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use ratatui::style::{Color, Style};
 
-use super::failure::Failure;
+use super::failure::CommandError;
 use super::output::{Form, Output};
 use crate::view::colour::ColourDepth;
 use crate::view::sgr;
@@ -29,7 +29,7 @@ enum Command {
     List,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let Command::List = arguments.command;
     let variable = |name: &str| std::env::var(name).ok();
     let depth = if std::io::stdout().is_terminal() {

@@ -5,7 +5,7 @@
 
 use super::deviation::Deviation;
 use super::{Gauge, Reference};
-use crate::expr::portable;
+use crate::num::math;
 use crate::system::{ChannelKind, System};
 
 /// What a gauge of an attitude remembers.
@@ -86,7 +86,7 @@ fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
     let odd = [a[1][2] - a[2][1], a[2][0] - a[0][2], a[0][1] - a[1][0]];
     let size = odd.iter().map(|x| x * x).sum::<f64>().sqrt();
     let trace = a[0][0] + a[1][1] + a[2][2];
-    let angle = portable::atan2(size, trace - 1.0);
+    let angle = math::atan2(size, trace - 1.0);
     if size > 1e-6 {
         return (angle, odd.map(|x| x / size));
     }
@@ -106,7 +106,7 @@ mod tests {
 
     /// Turned by an angle about z, as A takes components from space to body.
     fn about_z(angle: f64) -> [[f64; 3]; 3] {
-        let (s, c) = portable::sin_cos(angle);
+        let (s, c) = math::sin_cos(angle);
         [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
     }
 
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_rotation_is_told() {
+    fn what_is_no_rotation_is_reported() {
         assert!(missing(&about_z(1.0)) < 1e-15);
         let mirror = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]];
         assert_eq!(missing(&mirror), 2.0);

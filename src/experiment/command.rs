@@ -1,8 +1,8 @@
 //! What can be asked of an experiment: plain data that can be logged and replayed.
 
-use super::Moment;
+use super::Checkpoint;
 use crate::integrate::Settings;
-use crate::system::Given;
+use crate::system::InitialOverride;
 
 /// One request.
 #[derive(Clone, PartialEq, Debug)]
@@ -31,9 +31,9 @@ pub enum Command {
         value: f64,
     },
     /// Begins the motion anew with these in place of the file's initial values, and with no others.
-    Start(Vec<Given>),
+    Start(Vec<InitialOverride>),
     /// Strikes the motion now with the impulse of this index.
-    Strike(usize),
+    ApplyImpulse(usize),
     /// Back to the initial values; parameters stay.
     Reset,
     /// Back to all values of the file.
@@ -49,5 +49,5 @@ pub enum Command {
     /// Takes the present values as the gauges' reference.
     Reference,
     /// Takes up a motion that was left elsewhere.
-    TakeUp(Box<Moment>),
+    TakeUp(Box<Checkpoint>),
 }

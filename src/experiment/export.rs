@@ -2,11 +2,12 @@
 //!
 //! In: a document, its system, a [`Snapshot`]. Out: a text that reads without a mistake. Never here: writing it.
 
-use super::{Moment, Ready, Snapshot};
+use super::{Checkpoint, Prepared, Snapshot};
 use crate::analysis::false_claims;
-use crate::expr::portable;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::{AttitudeSource, Model};
-use crate::preset::{Beginning, Document, Edition, Mistake, Severity};
+use crate::num::math;
+use crate::preset::{Beginning, Rewrite};
 use crate::system::{ChannelKind, System};
 
 /// What was made of the present.
@@ -28,7 +29,7 @@ impl Export {
         (model, system): (&Model, &System),
         snapshot: &Snapshot,
     ) -> Result<Export, String> {
-        let moment = Moment::of(model, system, snapshot);
+        let moment = Checkpoint::of(model, system, snapshot);
         let mut missing = Vec::new();
         let begun = moment.present.is_some();
         let held = snapshot.released.is_empty();
@@ -36,16 +37,16 @@ impl Export {
             missing.push("A constraint was let go, so the file begins at the start.".to_owned());
         }
         if begun && held && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
-            missing.push("Blows that come again and again count from the new start.".to_owned());
+            missing.push("Impulses that come again and again count from the new start.".to_owned());
         }
-        let mut edition = Edition {
+        let mut edition = Rewrite {
             parameters: moment.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
             method: moment.method.clone(),
             run: [("step", moment.step), ("tolerance", moment.tolerance), ("speed", moment.speed)]
                 .into_iter()
                 .filter_map(|(key, value)| Some((key, value.filter(|v| v.is_finite())?)))
                 .collect(),
-            ..Edition::default()
+            ..Rewrite::default()
         };
         if begun && held {
             edition.start = Some(snapshot.time).filter(|time| *time != model.run.start);
@@ -86,7 +87,7 @@ impl Export {
 const LEFT_OUT: &str = "What the file expects of the motion and no longer holds is left out.";
 
 /// What is wrong with a text, and a report where it cannot even be opened.
-type Wrong = (Vec<Mistake>, Option<String>);
+type Wrong = (Vec<Diagnostic>, Option<String>);
 
 /// The text without those of its expectations that are wrong: they were expected of other values. Whether there were
 /// any.
@@ -100,7 +101,7 @@ fn with_what_holds(
     loop {
         let (mistakes, report) = wrong_with(&Document::new(&document.path, &text));
         let places: Vec<_> = mistakes.iter().map(|mistake| mistake.place.clone()).collect();
-        let fewer = Edition::without_expectations(&text, &places).map_err(|why| why.to_string())?;
+        let fewer = Rewrite::without_expectations(&text, &places).map_err(|why| why.to_string())?;
         match (fewer, report) {
             // each turn leaves one out at least
             (Some(fewer), _) => (text, left_out) = (fewer, true),
@@ -112,7 +113,7 @@ fn with_what_holds(
 
 /// What is wrong with a text as it stands there.
 fn wrong_as_written(document: &Document) -> Wrong {
-    match Ready::of(document) {
+    match Prepared::of(document) {
         Err(unready) => (unready.mistakes, Some(unready.report)),
         Ok(_) => (Vec::new(), None),
     }
@@ -120,9 +121,9 @@ fn wrong_as_written(document: &Document) -> Wrong {
 
 /// The same and what its motion does not do.
 fn wrong_in_motion(document: &Document) -> Wrong {
-    match Ready::of(document) {
+    match Prepared::of(document) {
         Err(unready) => (unready.mistakes, Some(unready.report)),
-        Ok(Ready { model, equations, .. }) => {
+        Ok(Prepared { model, equations, .. }) => {
             let mistakes = false_claims(&model, &equations).into_iter();
             (mistakes.filter(|m| m.severity == Severity::Error).collect(), None)
         }
@@ -159,11 +160,11 @@ fn value(system: &System, snapshot: &Snapshot, kind: ChannelKind) -> Option<f64>
 /// is (sin θ sin φ, −sin θ cos φ, cos θ): Goldstein, *Classical Mechanics*, (4-46).
 fn attitude(system: &System, snapshot: &Snapshot) -> Option<[f64; 3]> {
     let entry = |i: usize, j: usize| value(system, snapshot, ChannelKind::Attitude(3 * i + j));
-    let sine = portable::hypot(entry(2, 0)?, entry(2, 1)?);
-    let theta = portable::atan2(sine, entry(2, 2)?);
+    let sine = math::hypot(entry(2, 0)?, entry(2, 1)?);
+    let theta = math::atan2(sine, entry(2, 2)?);
     if sine < 1e-12 {
-        return Some([portable::atan2(entry(0, 1)?, entry(0, 0)?), theta, 0.0]);
+        return Some([math::atan2(entry(0, 1)?, entry(0, 0)?), theta, 0.0]);
     }
-    let phi = portable::atan2(entry(2, 0)?, -entry(2, 1)?);
-    Some([phi, theta, portable::atan2(entry(0, 2)?, entry(1, 2)?)])
+    let phi = math::atan2(entry(2, 0)?, -entry(2, 1)?);
+    Some([phi, theta, math::atan2(entry(0, 2)?, entry(1, 2)?)])
 }

@@ -4,7 +4,7 @@
 //! In: what follows from the law of motion; the values of the channels at some times, the terms of what is conserved
 //! after every step. Out: [`Gauge`]s. Never here: how the values were computed.
 
-mod needle;
+mod invariant_monitor;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
-use needle::{Needle, Subject};
+use invariant_monitor::{InvariantMonitor, Subject};
 
 /// The gauge that is constant by the law of the energy's change.
 const LEDGER: &str = "energy ledger";
@@ -33,7 +33,7 @@ const CONTRADICTED: f64 = 100.0;
 #[derive(Clone, Debug)]
 pub(super) struct Gauges {
     equations: Arc<Equations>,
-    needles: Vec<Needle>,
+    monitors: Vec<InvariantMonitor>,
     residuals: Vec<Residual>,
     attitude: Option<Attitude>,
     /// For each symbol an expression of the state may hold: its channel.
@@ -49,7 +49,7 @@ impl Gauges {
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
         let equations = &Arc::new(with_energy_opened(equations));
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-        let mut needles = Vec::new();
+        let mut monitors = Vec::new();
         let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
             let Some(channel) = find(kind) else { return };
             let shown = system.channels()[channel].shown.clone();
@@ -64,7 +64,7 @@ impl Gauges {
                 quantity,
                 expression,
             };
-            needles.push(Needle::new(subject));
+            monitors.push(InvariantMonitor::new(subject));
         };
         // the first quantity of a `TermWatch`
         let energy = Some(0);
@@ -75,7 +75,7 @@ impl Gauges {
             let reason = "E less the work done on it".to_owned();
             add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         } else if !model.impulses.is_empty() {
-            let reason = "E less what the blows gave".to_owned();
+            let reason = "E less what the impulses gave".to_owned();
             add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
@@ -86,8 +86,8 @@ impl Gauges {
             let is_energy = conserved.name == "energy";
             let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
             let quantity = Some(if is_energy { 0 } else { i + 1 });
-            needles.extend(find(kind).map(|channel| {
-                Needle::new(Subject {
+            monitors.extend(find(kind).map(|channel| {
+                InvariantMonitor::new(Subject {
                     name: conserved.name.clone(),
                     shown: system.channels()[channel].shown.clone(),
                     reason: conserved.reason.to_string(),
@@ -100,7 +100,7 @@ impl Gauges {
             }));
         }
         // the energy first, whatever else there is
-        needles.sort_by_key(|needle| needle.channel != find(ChannelKind::Energy).unwrap_or(0));
+        monitors.sort_by_key(|monitor| monitor.channel != find(ChannelKind::Energy).unwrap_or(0));
         let mut places = Vec::new();
         for (i, c) in equations.coordinates.iter().enumerate() {
             for (symbol, kind) in [
@@ -121,7 +121,7 @@ impl Gauges {
         let equations = Arc::clone(equations);
         Gauges {
             equations,
-            needles,
+            monitors,
             residuals,
             attitude,
             places,
@@ -136,8 +136,8 @@ impl Gauges {
         self.reference_time = now.time;
         self.reference_steps = now.steps;
         self.samples = 0;
-        for needle in &mut self.needles {
-            needle.refer(now.time, now.values, now.terms);
+        for monitor in &mut self.monitors {
+            monitor.refer(now.time, now.values, now.terms);
         }
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
@@ -151,11 +151,11 @@ impl Gauges {
             let same = |r: &&Reference| r.name == name && r.value.to_bits() == value.to_bits();
             references.iter().find(same)
         };
-        for needle in &mut self.needles {
-            if let Some(reference) = known(&needle.name, now.values[needle.channel]) {
+        for monitor in &mut self.monitors {
+            if let Some(reference) = known(&monitor.name, now.values[monitor.channel]) {
                 self.reference_time = reference.since;
                 self.reference_steps = 0;
-                needle.restore(reference, now.time);
+                monitor.restore(reference, now.time);
             }
         }
         for residual in &mut self.residuals {
@@ -170,10 +170,10 @@ impl Gauges {
         }
     }
 
-    /// A blow has led from some values to others: the references jump with them, so that drift is
-    /// told from what the blow gave. The energy ledger knows that by its own law.
+    /// An impulse has led from some values to others: the references jump with them, so that drift is
+    /// told from what the impulse gave. The energy ledger knows that by its own law.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
-        self.needles.iter_mut().for_each(|needle| needle.shift(before, after));
+        self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
     }
 
     /// Takes note of the values at one of the evenly spaced times. Where these lie farther apart than the steps, they
@@ -200,8 +200,8 @@ impl Gauges {
     /// Takes note of the values at any other time.
     pub(super) fn look(&mut self, now: &Present<'_>) {
         let floor = self.floor(now.steps);
-        for needle in &mut self.needles {
-            needle.look(now.time, now.values, now.terms, floor);
+        for monitor in &mut self.monitors {
+            monitor.look(now.time, now.values, now.terms, floor);
         }
         for residual in &mut self.residuals {
             residual.look(now.residuals);
@@ -220,15 +220,15 @@ impl Gauges {
         terms: &TermWatch,
     ) {
         let floor = self.floor(steps);
-        for needle in &mut self.needles {
-            needle.sample(time, values, terms, floor);
+        for monitor in &mut self.monitors {
+            monitor.sample(time, values, terms, floor);
         }
     }
 
     /// Takes note of the terms at the end of a step, or within.
     pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
         let floor = self.floor(steps);
-        self.needles.iter_mut().for_each(|needle| needle.step(time, terms, floor, dense));
+        self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
     }
 
     /// What rounding may have done to a value of size 1 since the reference.
@@ -239,8 +239,9 @@ impl Gauges {
     /// What they show.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
-        let show = |needle: &Needle| needle.show(now.values, self.reference_time, floor);
-        let mut shown: Vec<Gauge> = self.needles.iter().map(show).collect();
+        let show =
+            |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
+        let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let held = self.residuals.iter().enumerate().map(|(k, residual)| {
@@ -261,11 +262,11 @@ impl Gauges {
                 None => (now.parameter)(symbol),
             }
         };
-        for needle in &mut self.needles {
-            let (_, error) = equations.pool.evaluate_with_error(needle.expression, &at);
+        for monitor in &mut self.monitors {
+            let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
             // where its terms cannot be told apart, the value itself is the measure
-            let value = now.values[needle.channel].abs();
-            needle.measure(if error.is_finite() { error.max(value) } else { value });
+            let value = now.values[monitor.channel].abs();
+            monitor.measure(if error.is_finite() { error.max(value) } else { value });
         }
     }
 }

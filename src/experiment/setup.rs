@@ -1,18 +1,19 @@
 //! How an experiment begins: values, method, and the spacing of what it records.
 
-use crate::expr::{Symbol, nearest};
-use crate::integrate::{METHODS, Method, Refusal, Settings};
+use crate::diagnostic::nearest;
+use crate::expr::Symbol;
+use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;
-use crate::system::{Form, Given, System};
+use crate::system::{Form, InitialOverride, System};
 
-/// Everything an experiment is told at its beginning.
+/// Everything an experiment is reported at its beginning.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Setup {
     /// The parameters, in the model's order.
     pub parameters: Vec<f64>,
     /// Initial values that take the place of the file's.
-    pub given: Vec<Given>,
+    pub overrides: Vec<InitialOverride>,
     /// The method's name in the table of methods, or `auto`.
     pub method: String,
     /// Its step or tolerance.
@@ -37,7 +38,7 @@ impl Setup {
         let run = &model.run;
         Setup {
             parameters: model.parameter_values(),
-            given: Vec::new(),
+            overrides: Vec::new(),
             method: run.method.clone(),
             settings: Settings { step: run.step, tolerance: run.tolerance },
             start: run.start,
@@ -58,23 +59,28 @@ impl Setup {
 
 /// What is given in place of the file's initial values once the one of an index (coordinates first, then velocities or
 /// momenta) is given too.
-pub fn with_given(system: &System, before: &[Given], index: usize, value: f64) -> Vec<Given> {
+pub fn with_override(
+    system: &System,
+    before: &[InitialOverride],
+    index: usize,
+    value: f64,
+) -> Vec<InitialOverride> {
     let n = system.degrees();
-    let given = match (index < n, system.form()) {
-        (true, _) => Given::Position(index, value),
-        (false, Form::Velocity) => Given::Velocity(index - n, value),
-        (false, Form::Momentum | Form::Variables) => Given::Momentum(index - n, value),
+    let overrides = match (index < n, system.form()) {
+        (true, _) => InitialOverride::Position(index, value),
+        (false, Form::Velocity) => InitialOverride::Velocity(index - n, value),
+        (false, Form::Momentum | Form::Variables) => InitialOverride::Momentum(index - n, value),
     };
-    let same = |g: &&Given| match g {
-        Given::Position(i, _) => *i == index,
-        Given::Velocity(i, _) | Given::Momentum(i, _) => i + n == index,
+    let same = |g: &&InitialOverride| match g {
+        InitialOverride::Position(i, _) => *i == index,
+        InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => i + n == index,
     };
-    before.iter().filter(|g| !same(g)).copied().chain([given]).collect()
+    before.iter().filter(|g| !same(g)).copied().chain([overrides]).collect()
 }
 
 /// Why a method cannot be had.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum NoMethod {
+pub enum MethodNotFound {
     /// There is none of that name.
     #[error("there is no method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
     Unknown {
@@ -85,7 +91,7 @@ pub enum NoMethod {
     },
     /// It does not fit the system.
     #[error(transparent)]
-    Refused(#[from] Refusal),
+    Refused(#[from] MethodError),
 }
 
 fn help(near: Option<&str>) -> String {
@@ -93,7 +99,7 @@ fn help(near: Option<&str>) -> String {
 }
 
 /// The method of a name, if it fits the system; for `auto` the first in the table that does.
-pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, NoMethod> {
+pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, MethodNotFound> {
     if name == "auto" {
         let fits = |method: &&Method| (method.fits)(system).is_ok();
         return METHODS.iter().find(fits).ok_or_else(|| unknown(name));
@@ -103,7 +109,7 @@ pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, NoM
     Ok(method)
 }
 
-fn unknown(name: &str) -> NoMethod {
+fn unknown(name: &str) -> MethodNotFound {
     let near = nearest(name, METHODS.iter().map(|method| method.name));
-    NoMethod::Unknown { name: name.to_owned(), near }
+    MethodNotFound::Unknown { name: name.to_owned(), near }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Chronicle, Setup, Trail};
+use super::{EventLog, Setup, Trail};
 use crate::analysis::Verdict;
 use crate::system::{Form, State};
 
@@ -36,10 +36,10 @@ pub struct Snapshot {
     pub gauges: Arc<[Gauge]>,
     /// The method and its step.
     pub method: MethodFact,
-    /// What the user is told in passing: "energy reference taken anew: …". The newest last.
+    /// What the user is reported in passing: "energy reference taken anew: …". The newest last.
     pub notices: Arc<[String]>,
     /// What happened since the last restart, in time.
-    pub happenings: Chronicle,
+    pub occurrences: EventLog,
     /// The constraints that were let go, by index.
     pub released: Vec<usize>,
     /// Whether a motion left elsewhere was taken up.
@@ -64,7 +64,7 @@ impl Snapshot {
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
-            happenings: Chronicle::default(),
+            occurrences: EventLog::default(),
             released: Vec::new(),
             taken_up: false,
         }
@@ -81,12 +81,12 @@ pub enum Status {
     /// Ended by the event of this name.
     Ended(String),
     /// It cannot go on.
-    Faulted(Fault),
+    Failed(Failure),
 }
 
 /// Why a motion cannot go on.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Fault {
+pub struct Failure {
     /// When.
     pub time: f64,
     /// What happened, where, and what may help, in a sentence or two.
@@ -112,7 +112,7 @@ pub struct Gauge {
     pub scale: f64,
     /// The greatest distance from the reference since it was taken.
     pub farthest: f64,
-    /// The value that drift is measured from: the initial one, and what blows have added to it.
+    /// The value that drift is measured from: the initial one, and what impulses have added to it.
     pub reference: f64,
     /// When that was taken.
     pub reference_time: f64,
@@ -153,8 +153,8 @@ pub struct MethodFact {
     pub tolerance: Option<f64>,
 }
 
-impl From<crate::system::Fault> for Fault {
-    fn from(fault: crate::system::Fault) -> Fault {
-        Fault { time: fault.time, message: fault.to_string() }
+impl From<crate::system::MotionError> for Failure {
+    fn from(fault: crate::system::MotionError) -> Failure {
+        Failure { time: fault.time, message: fault.to_string() }
     }
 }

@@ -7,7 +7,7 @@
 
 mod elementary;
 
-use super::number::Number;
+use crate::num::Number;
 
 /// Half a unit in the last place of an `f64`, with room for the radius' own rounding.
 const ROUNDING: f64 = 1.2 * f64::EPSILON;

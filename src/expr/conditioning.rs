@@ -4,10 +4,10 @@
 use rustc_hash::FxHashMap;
 
 use super::evaluate::real_power;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
-use crate::expr::portable;
+use crate::num::Number;
+use crate::num::math;
 
 /// What one rounding does, in units of ε times the value.
 const HALF: f64 = 0.5;
@@ -41,14 +41,11 @@ impl Pool {
                 Node::Product(c, factors) => product(c.value(), factors, &known),
                 Node::Power(base, exponent) => {
                     let ((b, b_error), (n, n_error)) = (known[base], known[exponent]);
-                    let value = portable::powf(b, n);
+                    let value = math::powf(b, n);
                     let of_base =
                         if b_error == 0.0 { 0.0 } else { (n * value / b).abs() * b_error };
-                    let of_exponent = if n_error == 0.0 {
-                        0.0
-                    } else {
-                        (portable::ln(b) * value).abs() * n_error
-                    };
+                    let of_exponent =
+                        if n_error == 0.0 { 0.0 } else { (math::ln(b) * value).abs() * n_error };
                     (value, HALF * value.abs() + of_base + of_exponent)
                 }
                 Node::Call(function, arguments) => {
@@ -83,7 +80,7 @@ fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64
         let (b, own) = known[base];
         let exponent = n.value();
         let slope =
-            if exponent == 1.0 { 1.0 } else { exponent * portable::powf(b.abs(), exponent - 1.0) };
+            if exponent == 1.0 { 1.0 } else { exponent * math::powf(b.abs(), exponent - 1.0) };
         let others = powers.iter().enumerate().filter(|(j, _)| *j != i);
         let others = others.fold(c, |product, (_, power)| product * power);
         error += (others * slope).abs() * own;

@@ -6,9 +6,9 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
+use crate::num::Number;
 
 impl Pool {
     /// `∂e/∂symbol`.

@@ -4,10 +4,10 @@
 use rustc_hash::FxHashMap;
 
 use super::ball::Ball;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Symbol;
-use crate::expr::portable;
+use crate::num::Number;
+use crate::num::math;
 
 impl Pool {
     /// The value of `e` where each symbol has the value `at` gives it.
@@ -44,7 +44,7 @@ impl Pool {
                     (value, size)
                 }
                 Node::Power(base, exponent) => {
-                    sized(portable::powf(values[base].0, values[exponent].0))
+                    sized(math::powf(values[base].0, values[exponent].0))
                 }
                 Node::Call(function, arguments) => {
                     let arguments: Vec<f64> = arguments.iter().map(|a| values[a].0).collect();
@@ -119,11 +119,11 @@ fn sized(value: f64) -> (f64, f64) {
 pub(super) fn real_power(base: f64, exponent: Number) -> f64 {
     match exponent {
         Number::Rational(n, 1) => match i32::try_from(n) {
-            Ok(n) => portable::powi(base, n),
-            Err(_) => portable::powf(base, n as f64),
+            Ok(n) => math::powi(base, n),
+            Err(_) => math::powf(base, n as f64),
         },
         Number::Rational(1, 2) => base.sqrt(),
         Number::Rational(-1, 2) => 1.0 / base.sqrt(),
-        _ => portable::powf(base, exponent.value()),
+        _ => math::powf(base, exponent.value()),
     }
 }

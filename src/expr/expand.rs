@@ -5,8 +5,8 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 /// The most monomials a product is multiplied out to in a proof before it is left as it is.
 pub(super) const PROOF_TERMS: usize = 4000;

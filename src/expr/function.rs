@@ -22,9 +22,9 @@ mod sqrt;
 mod tan;
 mod tanh;
 
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
-use super::real::Recurrence;
+use crate::num::Number;
+use crate::num::Recurrence;
 
 /// Which function: the place of its row in [`FUNCTIONS`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

@@ -1,9 +1,9 @@
 //! LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::print::{Level, Piece, Printer, Style};
+use crate::num::Number;
 
 impl Pool {
     /// The expression in LaTeX, for math mode.

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::function::FunctionId;
 use super::notation::{latex_name, unicode_name};
-use super::number::Number;
 use super::symbol::{Rank, Symbol, SymbolInfo};
 use crate::cancel::Cancel;
+use crate::num::Number;
 
 /// The most nodes one pool may hold: a stranger's file must not fill the memory.
 pub const NODE_LIMIT: usize = 1_000_000;

@@ -3,9 +3,9 @@
 //! [`Style`].
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Rank;
+use crate::num::Number;
 
 /// How tightly a written piece holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]

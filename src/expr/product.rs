@@ -3,9 +3,9 @@
 //! the original has one: `sqrt(x^2)` stays as it is.
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
-use crate::expr::portable;
+use crate::num::Number;
+use crate::num::math;
 
 type Factor = (Expr, Number);
 
@@ -171,7 +171,7 @@ impl Pool {
         if let Some(exact) = n.exact_power(exponent) {
             return Some((exact, Vec::new()));
         }
-        let inexact = Number::Real(portable::powf(n.value(), exponent.value()));
+        let inexact = Number::Real(math::powf(n.value(), exponent.value()));
         let (Number::Rational(en, ed), false) = (exponent, n.value() <= 0.0) else {
             return Some((inexact, Vec::new()));
         };

@@ -1,8 +1,8 @@
 //! Points at which identities are tried: the same each time, different for each symbol, first of
 //! ordinary size and then of ever more different magnitudes.
 
-use super::portable;
 use super::symbol::Symbol;
+use crate::num::math;
 
 /// So many points are of ordinary size.
 const ORDINARY: u64 = 24;
@@ -28,6 +28,6 @@ pub(super) fn sample(symbol: Symbol, point: u64) -> f64 {
         return if point % 3 == 2 && turned { -value } else { value };
     }
     let span = SPANS[(point % SPANS.len() as u64) as usize];
-    let value = portable::powf(10.0, span * (2.0 * unit - 1.0));
+    let value = math::powf(10.0, span * (2.0 * unit - 1.0));
     if point % 2 == 1 && turned { -value } else { value }
 }

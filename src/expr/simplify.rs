@@ -3,8 +3,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 /// An expression heavier than this is only joined and factored, not multiplied out for trial.
 const TRIAL_LIMIT: u64 = 400;

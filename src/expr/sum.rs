@@ -1,7 +1,7 @@
 //! Sums in canonical form: like terms collected, nested sums opened, numbers gathered.
 
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 impl Pool {
     /// `a + b`.

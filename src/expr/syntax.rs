@@ -3,8 +3,8 @@
 //! knows the names.
 
 use super::function::{FUNCTIONS, FunctionId};
-use super::number::Number;
 use super::pool::{Expr, Pool};
+use crate::num::Number;
 
 /// A range of bytes in the source text of one expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -6,14 +6,14 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 impl Pool {
     /// The size of an expression's terms: |c| + Σ|cᵢ|·size of a sum, the product of the sizes of
     /// a product's factors, |f(u)| + |f'(u)|·size of a function of a sum u, and |e| of all else.
     /// Never less than |e|.
-    pub fn size_of_terms(&mut self, e: Expr) -> Expr {
+    pub fn magnitude(&mut self, e: Expr) -> Expr {
         let mut sizes: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             let size = self.size_of_node(part, &sizes);

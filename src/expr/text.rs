@@ -1,9 +1,9 @@
 //! The file's own syntax: what is printed here parses back to the same expression.
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Pool};
 use super::print::{Level, Piece, Printer, Style};
+use crate::num::Number;
 
 impl Pool {
     /// The expression in the syntax of preset files.

@@ -1,7 +1,7 @@
 //! Words of an expression: numbers, names with primes, operators, each with its span.
 
-use super::number::Number;
 use super::syntax::{Span, SyntaxError};
+use crate::num::Number;
 
 /// One word.
 #[derive(Clone, PartialEq, Debug)]

@@ -4,8 +4,8 @@
 use rustc_hash::FxHashMap;
 
 use super::function::FunctionId;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
+use crate::num::Number;
 
 /// The terms of a sum with their coefficients.
 type Terms = FxHashMap<Expr, Number>;

@@ -2,9 +2,9 @@
 
 use super::function::FunctionId;
 use super::notation::superscript;
-use super::number::Number;
 use super::pool::{Expr, Node, Pool};
 use super::print::{Level, Piece, Printer, Style};
+use crate::num::Number;
 
 impl Pool {
     /// The expression in Unicode mathematics.

@@ -12,11 +12,11 @@
 mod tableau;
 
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
-use super::method::{Method, Preserves, Refusal, Settings, Stepping};
+use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
-use super::{pace, rounding};
-use crate::expr::{Double, portable};
-use crate::system::{Fault, FaultKind, Rates, State, System};
+use super::{initial_step, roundoff};
+use crate::num::{DoubleDouble, math};
+use crate::system::{MotionError, MotionErrorKind, Rates, State, System};
 
 /// The tolerance where none is asked for.
 const TOLERANCE: f64 = 1e-13;
@@ -34,7 +34,7 @@ const ROUNDINGS: f64 = 4.0;
 const FORGETTING: f64 = 0.8;
 
 /// A step that has to be shorter than this part of the longest one so far leads nowhere: what
-/// moves in both cannot be told by the same digits.
+/// moves in both cannot be reported by the same digits.
 const SHORTEST: f64 = 1e-15;
 
 /// How often a step is tried shorter where it led to a place without rates.
@@ -86,11 +86,11 @@ struct DormandPrince {
 }
 
 impl DormandPrince {
-    fn new(system: &System, settings: &Settings) -> Result<DormandPrince, Refusal> {
+    fn new(system: &System, settings: &Settings) -> Result<DormandPrince, MethodError> {
         let tolerance = settings.tolerance.unwrap_or(TOLERANCE);
         if !(1e-15..1.0).contains(&tolerance) {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-15 and 1");
-            return Err(Refusal { method: METHOD.name, reason });
+            return Err(MethodError { method: METHOD.name, reason });
         }
         let zeros = vec![0.0; system.state_len()];
         let state = State::new(0.0, system.form(), zeros.clone());
@@ -115,7 +115,7 @@ impl DormandPrince {
     }
 
     /// Makes the stages of a step of this size and its result, in `next`.
-    fn attempt(&mut self, step: f64) -> Result<(), Fault> {
+    fn attempt(&mut self, step: f64) -> Result<(), MotionError> {
         for stage in 1..METHOD_STAGES {
             let (rates, numbers) = (&mut self.rates, &mut self.numbers);
             evaluate(rates, stage, step, &self.state, &mut self.slopes, numbers)?;
@@ -123,7 +123,7 @@ impl DormandPrince {
         self.next.copy_from(&self.state);
         for i in 0..self.numbers.len() {
             let change = step * sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
-            self.next.set(i, self.state.exact(i) + Double::from(change));
+            self.next.set(i, self.state.exact(i) + DoubleDouble::from(change));
         }
         Ok(())
     }
@@ -146,8 +146,8 @@ impl DormandPrince {
             let allowed = self.tolerance * size + ROUNDINGS * step.abs() * self.noise[i];
             if allowed > 0.0 {
                 let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
-                fifth += portable::powi(sum(FIFTH, &self.slopes, i) / allowed, 2);
-                third += portable::powi((whole - sum(THIRD, &self.slopes, i)) / allowed, 2);
+                fifth += math::powi(sum(FIFTH, &self.slopes, i) / allowed, 2);
+                third += math::powi((whole - sum(THIRD, &self.slopes, i)) / allowed, 2);
             }
         }
         let both = fifth + 0.01 * third;
@@ -160,12 +160,12 @@ impl DormandPrince {
     }
 
     /// Measures what rounding does to the rates where the step begins: its end may be anywhere.
-    fn listen(&mut self, step: f64) {
+    fn estimate_roundoff(&mut self, step: f64) {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
         let sizes: Vec<f64> = values.iter().zip(&self.slopes[0]).map(size).collect();
-        let place = rounding::Place { time: *time, numbers: values, sizes: &sizes, step };
-        if rounding::measure(&mut self.rates, &place, &mut self.fresh).is_ok() {
+        let place = roundoff::Place { time: *time, numbers: values, sizes: &sizes, step };
+        if roundoff::measure(&mut self.rates, &place, &mut self.fresh).is_ok() {
             for (noise, fresh) in self.noise.iter_mut().zip(&self.fresh) {
                 *noise = noise.max(*fresh);
             }
@@ -174,15 +174,15 @@ impl DormandPrince {
 
     /// A fault where a step of this size leads nowhere, or where somebody asked to stop. The way
     /// to the limit (`last`) may be as short as it likes.
-    fn may_try(&self, step: f64, last: bool) -> Result<(), Fault> {
+    fn may_try(&self, step: f64, last: bool) -> Result<(), MotionError> {
         let size = step.abs();
         let kind = if self.system.cancel().is_cancelled() {
-            FaultKind::Cancelled
+            MotionErrorKind::Cancelled
         } else if size <= 1e-16 * self.state.time.abs()
             || size < 1e-290
             || (size < SHORTEST * self.longest && !last)
         {
-            FaultKind::StepUnderflow(step)
+            MotionErrorKind::StepUnderflow(step)
         } else {
             return Ok(());
         };
@@ -190,7 +190,7 @@ impl DormandPrince {
     }
 
     /// The slopes that only the interpolant needs.
-    fn complete(&mut self) -> Result<(), Fault> {
+    fn complete(&mut self) -> Result<(), MotionError> {
         if !self.has_interpolant {
             let step = self.last_step();
             for stage in METHOD_STAGES + 1..STAGES.len() {
@@ -215,7 +215,7 @@ fn evaluate(
     origin: &State,
     slopes: &mut [Vec<f64>],
     numbers: &mut [f64],
-) -> Result<(), Fault> {
+) -> Result<(), MotionError> {
     for (i, x) in numbers.iter_mut().enumerate() {
         *x = origin.values[i] + (origin.carry[i] + step * sum(STAGES[stage].from, slopes, i));
     }
@@ -228,23 +228,23 @@ fn sum(terms: &[Term], slopes: &[Vec<f64>], i: usize) -> f64 {
 }
 
 impl Stepper for DormandPrince {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.before.copy_from(&self.state);
         self.rates.set_parameters(parameters);
-        self.size = pace::of(&self.system, state, parameters) * FIRST;
+        self.size = initial_step::of(&self.system, state, parameters) * FIRST;
         self.longest = 0.0;
         self.noise.fill(0.0);
         self.stale = false;
         self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
         let time = self.state.exact_time();
-        let left = Double::written(limit) - time;
+        let left = DoubleDouble::written(limit) - time;
         if self.stale {
             self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
             self.stale = false;
@@ -260,7 +260,7 @@ impl Stepper for DormandPrince {
             self.may_try(step, last)?;
             if let Err(fault) = self.attempt(step) {
                 // a stage of a step too long may lie where there are no rates
-                if failures == TRIES || fault.kind == FaultKind::Cancelled {
+                if failures == TRIES || fault.kind == MotionErrorKind::Cancelled {
                     return Err(fault);
                 }
                 self.size = step.abs() * SHORTER;
@@ -270,13 +270,14 @@ impl Stepper for DormandPrince {
             self.measure(step);
             let mut error = self.error(step);
             if error > 1.0 && error.is_finite() {
-                self.listen(step);
+                self.estimate_roundoff(step);
                 error = self.error(step);
             }
             let most = if failures > 0 { 1.0 } else { LONGER };
-            let factor = (SAFETY * portable::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
+            let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
             if error <= 1.0 {
-                let end = if last { Double::from(limit) } else { time + Double::from(step) };
+                let end =
+                    if last { DoubleDouble::from(limit) } else { time + DoubleDouble::from(step) };
                 (self.next.time, self.next.time_carry) = (end.high, end.low);
                 let slope = &mut self.slopes[METHOD_STAGES];
                 self.rates.evaluate(end.high, &self.next.values, slope)?;
@@ -297,7 +298,7 @@ impl Stepper for DormandPrince {
         Ok(())
     }
 
-    fn settle(&mut self, state: &State) {
+    fn replace_state(&mut self, state: &State) {
         // constraints move it by as much as the tolerance is, which may be more than rounding
         self.stale |= state.values != self.state.values;
         self.state.copy_from(state);
@@ -311,7 +312,7 @@ impl Stepper for DormandPrince {
         (self.before.time, self.state.time)
     }
 
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         if time == self.state.time {
             out.copy_from(&self.state);
             return Ok(());
@@ -319,7 +320,7 @@ impl Stepper for DormandPrince {
         self.complete()?;
         out.copy_from(&self.before);
         let step = self.last_step();
-        let part = (Double::written(time) - self.before.exact_time()).high / step;
+        let part = (DoubleDouble::written(time) - self.before.exact_time()).high / step;
         let rest = 1.0 - part;
         for i in 0..self.numbers.len() {
             let change = (self.state.exact(i) - self.before.exact(i)).high;
@@ -334,7 +335,7 @@ impl Stepper for DormandPrince {
             for (k, c) in coefficients.iter().enumerate().rev() {
                 moved = (moved + c) * if k % 2 == 0 { part } else { rest };
             }
-            out.set(i, self.before.exact(i) + Double::from(moved));
+            out.set(i, self.before.exact(i) + DoubleDouble::from(moved));
         }
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)

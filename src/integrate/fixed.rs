@@ -1,12 +1,12 @@
 //! What all methods of fixed step have in common: the clock, the direction, looks between steps,
 //! the step where none is asked for, and whether it is stable. A method itself is a [`Scheme`].
 
-use super::method::{Refusal, Settings};
-use super::pace;
+use super::initial_step;
+use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
-use crate::expr::{Double, portable};
-use crate::system::{Fault, FaultKind, Form, State, System};
+use crate::num::{DoubleDouble, math};
+use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
 /// The step where none is asked for, as a part of the motion's [pace](pace::of).
 const PART_OF_PACE: f64 = 1.0 / 10.0;
@@ -27,7 +27,7 @@ pub(super) trait Scheme: Clone + Send {
 
     /// Moves the numbers of `state` by one step; its time is that of the beginning, and left
     /// alone.
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault>;
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
     /// The motion begins at a state in the system's own form, which may say more than the
     /// scheme's.
@@ -42,7 +42,7 @@ pub(super) trait Scheme: Clone + Send {
     }
 
     /// The rates of change at the numbers of a state.
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault>;
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
 }
 
 /// A motion in steps that are all alike.
@@ -55,9 +55,9 @@ pub(super) struct FixedStep<S> {
     parameters: Vec<f64>,
     asked: Option<f64>,
     /// The step; negative where the motion runs backwards.
-    step: Double,
+    step: DoubleDouble,
     /// When the steps began, and how many there were: the time is counted, not summed.
-    origin: Double,
+    origin: DoubleDouble,
     count: f64,
     /// How many steps there were since the start, and what was found on the way.
     taken: f64,
@@ -73,9 +73,12 @@ impl<S: Scheme> FixedStep<S> {
         system: &System,
         settings: &Settings,
         scheme: S,
-    ) -> Result<FixedStep<S>, Refusal> {
+    ) -> Result<FixedStep<S>, MethodError> {
         if let Some(step) = settings.step.filter(|&h| !(h > 0.0 && h.is_finite())) {
-            return Err(Refusal { method, reason: format!("the step {step} is not above zero") });
+            return Err(MethodError {
+                method,
+                reason: format!("the step {step} is not above zero"),
+            });
         }
         let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
         Ok(FixedStep {
@@ -84,8 +87,8 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
-            step: Double::ZERO,
-            origin: Double::ZERO,
+            step: DoubleDouble::ZERO,
+            origin: DoubleDouble::ZERO,
             count: 0.0,
             taken: 0.0,
             unstable: None,
@@ -96,7 +99,7 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// Counts on from the present time with another step.
-    fn count_from_here(&mut self, step: Double) {
+    fn count_from_here(&mut self, step: DoubleDouble) {
         self.step = step;
         self.origin = self.state.exact_time();
         self.count = 0.0;
@@ -107,7 +110,7 @@ impl<S: Scheme> FixedStep<S> {
     fn look(&mut self) {
         let n = self.taken;
         let due = if n < STEPS_PER_LOOK {
-            n == 0.0 || portable::log2(n).fract() == 0.0
+            n == 0.0 || math::log2(n).fract() == 0.0
         } else {
             n % STEPS_PER_LOOK == 0.0
         };
@@ -124,12 +127,12 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// A fault where somebody asked to stop, or where the way is longer than can be counted.
-    fn may_step(&self, limit: f64) -> Result<(), Fault> {
+    fn may_step(&self, limit: f64) -> Result<(), MotionError> {
         let way = (limit - self.origin.high).abs() / self.step.high.abs();
         let kind = if self.system.cancel().is_cancelled() {
-            FaultKind::Cancelled
+            MotionErrorKind::Cancelled
         } else if limit.is_finite() && way > MOST_STEPS {
-            FaultKind::TooManySteps(self.step.high.abs(), limit)
+            MotionErrorKind::TooManySteps(self.step.high.abs(), limit)
         } else {
             return Ok(());
         };
@@ -138,17 +141,17 @@ impl<S: Scheme> FixedStep<S> {
 }
 
 impl<S: Scheme> Stepper for FixedStep<S> {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.scheme.form(), parameters)?;
         self.before.copy_from(&self.state);
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
         let step = match self.asked {
-            Some(step) => Double::written(step),
+            Some(step) => DoubleDouble::written(step),
             None => {
-                let pace = pace::of(&self.system, state, parameters) * PART_OF_PACE;
+                let pace = initial_step::of(&self.system, state, parameters) * PART_OF_PACE;
                 // two digits are enough, and times are then short decimals
-                Double::written(format!("{pace:.1e}").parse().unwrap_or(pace))
+                DoubleDouble::written(format!("{pace:.1e}").parse().unwrap_or(pace))
             }
         };
         self.count_from_here(step);
@@ -157,7 +160,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
@@ -171,7 +174,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         let time = self.origin + self.step * (self.count + 1.0);
         (self.next.time, self.next.time_carry) = (time.high, time.low);
         if time.high == self.state.time {
-            let kind = FaultKind::StepUnderflow(self.step.high);
+            let kind = MotionErrorKind::StepUnderflow(self.step.high);
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         self.system.check_finite(&self.next)?;
@@ -181,7 +184,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
-    fn settle(&mut self, state: &State) {
+    fn replace_state(&mut self, state: &State) {
         self.state.copy_from(state);
     }
 
@@ -193,7 +196,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         (self.before.time, self.state.time)
     }
 
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         if time == self.state.time {
             out.copy_from(&self.state);
             return Ok(());
@@ -204,7 +207,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         }
         self.aside.begin(&self.parameters);
         self.aside.go_on_from(&self.scheme);
-        let step = Double::written(time) - self.before.exact_time();
+        let step = DoubleDouble::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)
@@ -223,7 +226,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
 pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
     for (i, &rate) in rates.iter().enumerate() {
         if rate != 0.0 {
-            state.set(i, state.exact(i) + Double::from(factor * rate));
+            state.set(i, state.exact(i) + DoubleDouble::from(factor * rate));
         }
     }
 }

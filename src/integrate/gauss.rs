@@ -17,10 +17,10 @@ mod tableau;
 
 use self::tableau::Tableau;
 use super::fixed::{FixedStep, Scheme};
-use super::method::{Method, Preserves, Refusal, Stepping};
-use super::rounding;
-use crate::expr::Double;
-use crate::system::{Fault, FaultKind, Form, Rates, State, System};
+use super::method::{Method, MethodError, Preserves, Stepping};
+use super::roundoff;
+use crate::num::DoubleDouble;
+use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
 
 /// How often the iteration may be repeated.
 const PASSES: usize = 120;
@@ -72,10 +72,10 @@ pub(super) const SIXTH_ORDER: Method = Method {
 };
 
 /// Whether the method keeps what it is chosen for.
-fn fits(method: &Method, system: &System) -> Result<(), Refusal> {
+fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     if system.constraints() > 0 {
         let reason = "the motion is held to constraints, and would no longer be symplectic";
-        return Err(Refusal { method: method.name, reason: reason.to_owned() });
+        return Err(MethodError { method: method.name, reason: reason.to_owned() });
     }
     Ok(())
 }
@@ -117,7 +117,7 @@ impl Gauss {
 
     /// The slopes to begin with: the last step's polynomial, carried on into this one; else the
     /// slope at the beginning.
-    fn guess(&mut self, state: &State) -> Result<(), Fault> {
+    fn guess(&mut self, state: &State) -> Result<(), MotionError> {
         if !self.contiguous {
             for slope in &mut self.slopes {
                 self.rates.evaluate(state.time, &state.values, slope)?;
@@ -145,7 +145,7 @@ impl Gauss {
     }
 
     /// The slopes that belong to the stages.
-    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), Fault> {
+    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), MotionError> {
         for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
         {
             self.rates.evaluate(time + c.high * step, stage, slope)?;
@@ -154,7 +154,7 @@ impl Gauss {
     }
 
     /// One pass; whether all numbers have come to rest.
-    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, Fault> {
+    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, MotionError> {
         self.evaluate(step, state.time)?;
         for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
             old.clone_from(stage);
@@ -179,25 +179,25 @@ impl Gauss {
     }
 
     /// Measures what rounding does to the rates at the first stage.
-    fn listen(&mut self, step: f64, state: &State) {
+    fn estimate_roundoff(&mut self, step: f64, state: &State) {
         let (stage, slope) = (&self.stages[0], &self.slopes[0]);
         for (i, size) in self.sizes.iter_mut().enumerate() {
             *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
         }
         let time = state.time + self.tableau.nodes[0].high * step;
-        let place = rounding::Place { time, numbers: stage, sizes: &self.sizes, step };
-        if rounding::measure(&mut self.rates, &place, &mut self.noise).is_err() {
+        let place = roundoff::Place { time, numbers: stage, sizes: &self.sizes, step };
+        if roundoff::measure(&mut self.rates, &place, &mut self.noise).is_err() {
             self.noise.fill(0.0);
         }
     }
 
-    fn solve(&mut self, step: f64, state: &State) -> Result<(), Fault> {
+    fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
         self.resting.fill(false);
         self.place(step, state);
         for count in 1..=PASSES {
             if self.rates.system().cancel().is_cancelled() {
-                let kind = FaultKind::Cancelled;
+                let kind = MotionErrorKind::Cancelled;
                 return Err(self.rates.system().fault(kind, state.time, &state.values));
             }
             match self.pass(count - 1, step, state) {
@@ -208,7 +208,7 @@ impl Gauss {
                 Err(fault) => return Err(fault),
             }
             if count % PATIENCE == 0 {
-                self.listen(step, state);
+                self.estimate_roundoff(step, state);
             }
             if self.stages.iter().flatten().any(|x| !x.is_finite()) {
                 break;
@@ -219,7 +219,7 @@ impl Gauss {
         let mut here = state.clone();
         here.values.clone_from(&self.slopes[0]);
         system.check_finite(&here)?;
-        Err(system.fault(FaultKind::NoConvergence(step), state.time, &state.values))
+        Err(system.fault(MotionErrorKind::NoConvergence(step), state.time, &state.values))
     }
 }
 
@@ -241,11 +241,11 @@ impl Scheme for Gauss {
         self.rates.go_on_from(&other.rates);
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.rates.evaluate(time, numbers, out)
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         self.guess(state)?;
         self.contiguous = false;
         self.solve(step, state)?;
@@ -265,7 +265,7 @@ impl Scheme for Gauss {
 }
 
 /// h Σ w f of one number, in all digits.
-fn change(weights: &[Double], slopes: &[Vec<f64>], i: usize, step: f64) -> Double {
+fn change(weights: &[DoubleDouble], slopes: &[Vec<f64>], i: usize, step: f64) -> DoubleDouble {
     let pairs = weights.iter().zip(slopes);
-    pairs.fold(Double::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
+    pairs.fold(DoubleDouble::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
 }

@@ -36,13 +36,13 @@ pub struct Method {
     /// What it is good for, in a sentence or two, and its source.
     pub about: &'static str,
     /// Whether it can be used for a system, and why not.
-    pub fits: fn(&System) -> Result<(), Refusal>,
+    pub fits: fn(&System) -> Result<(), MethodError>,
     /// A stepper for a system.
-    pub make: fn(&System, &Settings) -> Made,
+    pub make: fn(&System, &Settings) -> StepperResult,
 }
 
 /// A stepper, or why there is none.
-pub type Made = Result<Box<dyn Stepper>, Refusal>;
+pub type StepperResult = Result<Box<dyn Stepper>, MethodError>;
 
 /// How a method chooses its steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -76,7 +76,7 @@ pub struct Settings {
 /// Why a method cannot be used for a system: a sentence for the user.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{method} cannot be used here: {reason}")]
-pub struct Refusal {
+pub struct MethodError {
     /// The method's name.
     pub method: &'static str,
     /// Why.

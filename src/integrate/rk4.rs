@@ -9,8 +9,8 @@
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
 use super::stability::Modes;
-use crate::expr::portable;
-use crate::system::{Fault, Form, Rates, State, System};
+use crate::num::math;
+use crate::system::{Form, MotionError, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
     name: "rk4",
@@ -59,7 +59,7 @@ impl Scheme for RungeKutta {
         self.rates.set_parameters(parameters);
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         self.slope.fill(0.0);
         self.sum.fill(0.0);
         for (part, weight) in STAGES {
@@ -83,7 +83,7 @@ impl Scheme for RungeKutta {
         Some(Modes { growth: |_, z| growth(z), weights: &[] })
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.rates.evaluate(time, numbers, out)
     }
 }
@@ -94,5 +94,5 @@ fn growth([re, im]: [f64; 2]) -> f64 {
     for k in [4.0, 3.0, 2.0, 1.0] {
         (a, b) = (1.0 + (re * a - im * b) / k, (re * b + im * a) / k);
     }
-    portable::hypot(a, b)
+    math::hypot(a, b)
 }

@@ -6,16 +6,16 @@
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
 use super::fixed::{FixedStep, Scheme, add};
-use super::method::{Made, Method, Refusal, Settings};
+use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
-use crate::system::{Fault, Form, Rates, State, System};
+use crate::system::{Form, MotionError, Rates, State, System};
 
 /// What a system must be for it.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
 
 /// Whether a system is so.
-pub(super) fn fits(method: &Method, system: &System) -> Result<(), Refusal> {
-    system.separable().map_err(|why| Refusal { method: method.name, reason: why.to_owned() })
+pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
+    system.separable().map_err(|why| MethodError { method: method.name, reason: why.to_owned() })
 }
 
 /// A stepper by `weights`, the parts of the step in order.
@@ -24,10 +24,10 @@ pub(super) fn make(
     system: &System,
     settings: &Settings,
     weights: Vec<f64>,
-) -> Made {
+) -> StepperResult {
     fits(method, system)?;
     let Some((drift, kick)) = system.split_rates() else {
-        return Err(Refusal { method: method.name, reason: format!("{NEEDS} does not hold") });
+        return Err(MethodError { method: method.name, reason: format!("{NEEDS} does not hold") });
     };
     let zeros = vec![0.0; system.state_len()];
     let scheme =
@@ -57,7 +57,7 @@ impl Scheme for Splitting {
         self.known = false;
     }
 
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), Fault> {
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
         if !self.known {
             self.kick.evaluate(state.time, &state.values, &mut self.force)?;
         }
@@ -80,7 +80,7 @@ impl Scheme for Splitting {
         Some(Modes { growth, weights: &self.weights })
     }
 
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.drift.evaluate(time, numbers, out)?;
         self.kick.evaluate(time, numbers, out)
     }

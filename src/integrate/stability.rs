@@ -13,7 +13,7 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::{Schur, balancing};
 
-use crate::expr::portable;
+use crate::num::math;
 
 /// A mode that grows by less than this part in a step is not told from one that does not.
 const GROWS: f64 = 1e-3;
@@ -58,8 +58,8 @@ impl Modes<'_> {
     pub(super) fn limit(self, z: &[[f64; 2]], step: f64) -> Option<f64> {
         let grows = |part: f64| {
             z.iter().any(|&[re, im]| {
-                let steady = re <= STEADY * portable::hypot(re, im);
-                let own = portable::exp(part * re.max(0.0));
+                let steady = re <= STEADY * math::hypot(re, im);
+                let own = math::exp(part * re.max(0.0));
                 let made = (self.growth)(self.weights, [part * re, part * im]);
                 steady && made > (1.0 + GROWS) * own
             })
@@ -115,7 +115,7 @@ mod tests {
 
     /// A method that makes of a mode what the explicit rule of Euler does.
     const EULER: Modes<'static> =
-        Modes { growth: |_, [re, im]| portable::hypot(1.0 + re, im), weights: &[] };
+        Modes { growth: |_, [re, im]| math::hypot(1.0 + re, im), weights: &[] };
 
     #[test]
     fn a_mode_that_falls_is_stable_up_to_two() {

@@ -1,24 +1,24 @@
 //! What every method can do.
 
 use super::Unstable;
-use crate::expr::Double;
-use crate::system::{Fault, Form, State};
+use crate::num::DoubleDouble;
+use crate::system::{Form, MotionError, State};
 
 /// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
 /// motion is known anywhere inside it.
 pub trait Stepper: Send {
     /// Begins at a state, at these parameters; it may have either form. Forgets all steps taken.
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault>;
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError>;
 
     /// Takes one step towards `limit`, which lies before or after the present time. A method of
     /// variable step never passes the limit and ends its last step exactly on it. A method of
-    /// fixed step keeps its step and so may pass it: states between are told by [`Stepper::at`].
+    /// fixed step keeps its step and so may pass it: states between are reported by [`Stepper::at`].
     /// Does nothing where the present time has reached the limit.
-    fn step(&mut self, limit: f64) -> Result<(), Fault>;
+    fn step(&mut self, limit: f64) -> Result<(), MotionError>;
 
     /// Goes on from a state that differs from the one at the end of the last step by rounding only,
     /// as one put back on its constraints does. The last step stays as it was.
-    fn settle(&mut self, state: &State);
+    fn replace_state(&mut self, state: &State);
 
     /// The state at the end of the last step, in the form the method works in.
     fn state(&self) -> &State;
@@ -33,11 +33,11 @@ pub trait Stepper: Send {
     /// the last step and throws it away afterwards: the result has the method's order, and the
     /// sequence of equal steps, on which the good behaviour of symplectic methods rests, is not
     /// disturbed.
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault>;
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError>;
 
     /// The same at a time that is known beyond the last digit of an `f64`, as that of a crossing
     /// is. A method that cannot tell such times apart gives the state at the nearest.
-    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         self.at(time.high, out)
     }
 

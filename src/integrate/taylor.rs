@@ -10,19 +10,19 @@
 //! Monthly Notices of the Royal Astronomical Society 504 (2021) 2614.
 
 mod branches;
-mod bridge;
+mod collocation_step;
 mod kinks;
-mod rest;
 mod step_size;
+mod sticking;
 
-use bridge::Bridge;
+use collocation_step::CollocationStep;
 use kinks::Kinks;
-use rest::{Rest, Still};
+use sticking::{Rest, Still};
 
-use super::method::{Method, Preserves, Refusal, Settings, Stepping};
+use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
-use crate::expr::Double;
-use crate::system::{ExactRates, Fault, FaultKind, Form, Series, Side, State, System};
+use crate::num::DoubleDouble;
+use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, Side, State, System};
 
 /// The tolerance where none is asked for. It lies far below the last digit shown, so that what
 /// is shown carries the error of one rounding at the end and not of all on the way.
@@ -64,7 +64,7 @@ struct Taylor {
     taken: Option<f64>,
     kinks: Kinks,
     rates: ExactRates,
-    bridge: Bridge,
+    bridge: CollocationStep,
     /// The longest step since the motion was last bent: what a step is short beside.
     stride: f64,
     /// The last step, and whether it and those before lead away from a place that was passed.
@@ -73,7 +73,7 @@ struct Taylor {
     /// The present state is one from which no series leads on.
     landed: bool,
     /// The last step was a bridge from this state, with these rates there if it has none itself.
-    leapt: Option<(State, Option<Vec<Double>>)>,
+    leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
     /// A motion that has come to rest, until it sets out.
     resting: Option<Still>,
     parameters: Vec<f64>,
@@ -128,18 +128,18 @@ const HALVINGS: u32 = 60;
 const ROUNDING: f64 = 1e-18;
 
 impl Taylor {
-    fn new(system: &System, settings: &Settings) -> Result<Taylor, Refusal> {
+    fn new(system: &System, settings: &Settings) -> Result<Taylor, MethodError> {
         let tolerance = settings.tolerance.unwrap_or(TOLERANCE);
         if !(1e-30..1.0).contains(&tolerance) {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
-            return Err(Refusal { method: METHOD.name, reason });
+            return Err(MethodError { method: METHOD.name, reason });
         }
         let order = step_size::order_for(tolerance);
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         let series = system.series(order, exact);
         let (rates, bridge) =
-            (system.exact_rates(), Bridge::new(system.state_len(), system.moving()));
+            (system.exact_rates(), CollocationStep::new(system.state_len(), system.moving()));
         let system = system.clone();
         Ok(Taylor {
             system,
@@ -173,7 +173,7 @@ impl Taylor {
 
     /// Builds the series at the present state in a unit of time near the step it allows, and
     /// gives the size of that step; it may be longer than `left`.
-    fn expand(&mut self, left: f64) -> Result<f64, Fault> {
+    fn expand(&mut self, left: f64) -> Result<f64, MotionError> {
         let (size, direction) = (left.abs(), left.signum());
         let mut units = Units::default();
         loop {
@@ -212,7 +212,7 @@ impl Taylor {
 
     /// On a surface: takes the first choice of sides that leads on, and gives the step there;
     /// nothing where the surface was left without a series.
-    fn decide(&mut self, choices: &[Vec<Side>], left: f64) -> Result<Option<f64>, Fault> {
+    fn decide(&mut self, choices: &[Vec<Side>], left: f64) -> Result<Option<f64>, MotionError> {
         let mut rough = false;
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
@@ -222,8 +222,8 @@ impl Taylor {
                     return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
                 }
                 Ok(_) => {}
-                Err(fault) if fault.kind == FaultKind::Sticks => {}
-                Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+                Err(fault) if fault.kind == MotionErrorKind::Sticks => {}
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                 Err(_) if rough => {}
                 Err(_) => {
                     rough = true;
@@ -233,13 +233,13 @@ impl Taylor {
                 }
             }
         }
-        let kind = if rough { FaultKind::Rough } else { FaultKind::Sticks };
+        let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::Sticks };
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
     /// Leaves a place from which no series leads on, or leads on so far that no more than `least`
     /// would be gained; false where that cannot be.
-    fn leap(&mut self, left: f64, least: f64) -> Result<bool, Fault> {
+    fn leap(&mut self, left: f64, least: f64) -> Result<bool, MotionError> {
         self.leaps.0 += 1;
         if self.leaps.0.is_multiple_of(ROUND) {
             let (before, now) = (self.leaps.1, self.state.time);
@@ -255,7 +255,7 @@ impl Taylor {
         let rates = &mut self.rates;
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
         if found.is_none() {
-            match rest::of(&self.system, rates, &self.parameters, &from, stride)? {
+            match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
                 Rest::Unknown => return Ok(false),
                 Rest::Stays(still) => {
                     self.state = still.at(rates, from.exact_time())?;
@@ -269,8 +269,13 @@ impl Taylor {
                     found =
                         self.bridge.cross(rates, &from, (wanted, 0.0), toward, &mut self.state)?;
                     if found.is_none() {
-                        let first =
-                            rest::set_out(&self.system, rates, &self.parameters, &from, wanted)?;
+                        let first = sticking::set_out(
+                            &self.system,
+                            rates,
+                            &self.parameters,
+                            &from,
+                            wanted,
+                        )?;
                         let Some((still, state)) = first else { return Ok(false) };
                         self.begin = from.time;
                         self.state = state;
@@ -293,15 +298,15 @@ impl Taylor {
     }
 
     /// Evaluates the rates at the present state.
-    fn look(&mut self) -> Result<(), Fault> {
+    fn look(&mut self) -> Result<(), MotionError> {
         let state = &self.state;
-        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         self.rates.evaluate(state.exact_time(), &numbers)
     }
 
     /// Moves along the series and makes the step shorter until no root has left its branch there;
     /// gives the part of the time that is left.
-    fn advance(&mut self, after: Double) -> Result<f64, Fault> {
+    fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
         let (mut part, scale) = (1.0, self.series.scale());
         if self.series.guards() == 0 {
             self.series.state_after(after, &mut self.state);
@@ -318,7 +323,7 @@ impl Taylor {
             part *= 0.5;
         }
         self.state = from;
-        let kind = FaultKind::StepUnderflow(after.high * part);
+        let kind = MotionErrorKind::StepUnderflow(after.high * part);
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
@@ -329,12 +334,12 @@ impl Taylor {
             let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
             let largest = terms.zip(powers).fold(0.0_f64, |m, (c, p)| m.max((c * p).abs()));
             if self.state.values[i].abs() <= ROUNDING * largest {
-                self.state.set(i, Double::ZERO);
+                self.state.set(i, DoubleDouble::ZERO);
             }
         }
     }
 
-    fn not_finite(&self) -> Fault {
+    fn not_finite(&self) -> MotionError {
         let names = self.system.channels();
         let n = self.system.degrees();
         let culprit =
@@ -344,7 +349,7 @@ impl Taylor {
             Some(i) => format!("the force on {}", names[i - n].shown),
             None => "the motion".to_owned(),
         };
-        self.system.fault(FaultKind::NotFinite(name), self.state.time, &self.state.values)
+        self.system.fault(MotionErrorKind::NotFinite(name), self.state.time, &self.state.values)
     }
 }
 
@@ -386,7 +391,7 @@ impl Units {
 
 impl Taylor {
     /// The state at a time within the last step.
-    fn tell(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn tell(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         if let Some(still) = &self.resting {
             out.copy_from(&still.at(&mut self.rates, time)?);
             return Ok(());
@@ -405,7 +410,7 @@ impl Taylor {
 }
 
 impl Stepper for Taylor {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.begin = self.state.time;
         self.scaled = false;
@@ -425,12 +430,12 @@ impl Stepper for Taylor {
         self.kinks.begin(&mut self.series, &mut self.rates, &self.state)
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), Fault> {
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
         let time = self.state.exact_time();
-        let left = Double::written(limit) - time;
+        let left = DoubleDouble::written(limit) - time;
         if self.resting.as_ref().is_some_and(Still::is_over) {
             self.resting = None;
             self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
@@ -449,7 +454,7 @@ impl Stepper for Taylor {
             if self.leap(left.high, 0.0)? {
                 return Ok(());
             }
-            return Err(self.system.fault(FaultKind::Rough, time.high, &self.state.values));
+            return Err(self.system.fault(MotionErrorKind::Rough, time.high, &self.state.values));
         }
         let step = match self.kinks.undecided(&self.series) {
             Some(sides) => match self.decide(&sides, left.high)? {
@@ -458,13 +463,13 @@ impl Stepper for Taylor {
             },
             None => match self.expand(left.high) {
                 Ok(step) => step,
-                Err(fault) if fault.kind == FaultKind::Cancelled => return Err(fault),
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                 Err(fault) => return if self.leap(left.high, 0.0)? { Ok(()) } else { Err(fault) },
             },
         };
         self.leapt = None;
         let mut last = step >= left.high.abs();
-        let mut after = if last { left } else { Double::from(step.copysign(left.high)) };
+        let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
         let vanishing = step < VANISHING * self.stride;
         // what makes steps vanish lies a little farther than they reach
@@ -482,7 +487,7 @@ impl Stepper for Taylor {
         }
         let short = step <= SMALLEST * time.high.abs() && !approaching && !leaving;
         if short || (nearest && crossing.is_none()) {
-            let kind = FaultKind::StepUnderflow(step);
+            let kind = MotionErrorKind::StepUnderflow(step);
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         if let Some(crossing) = &crossing {
@@ -491,8 +496,8 @@ impl Stepper for Taylor {
         self.begin = self.state.time;
         let mut landed = false;
         if vanishing && crossing.is_none() && !approaching {
-            if let Some(x) = branches::foretold(&self.series, end) {
-                (last, landed, after) = (false, true, Double::from(x * scale));
+            if let Some(x) = branches::predicted(&self.series, end) {
+                (last, landed, after) = (false, true, DoubleDouble::from(x * scale));
             } else if (step < TOUCHING * self.stride || step < STALLED * time.high.abs())
                 && self.leap(left.high, BEYOND * step)?
             {
@@ -537,12 +542,12 @@ impl Stepper for Taylor {
             self.taken = Some(step.min(left.high.abs()).min(4.0 * after.high.abs()));
         }
         if !self.kinks.arrive(crossing, &self.series, &mut self.state) {
-            return Err(self.system.fault(FaultKind::Sticks, time.high, &self.state.values));
+            return Err(self.system.fault(MotionErrorKind::Sticks, time.high, &self.state.values));
         }
         self.system.check_finite(&self.state)
     }
 
-    fn settle(&mut self, state: &State) {
+    fn replace_state(&mut self, state: &State) {
         self.state.copy_from(state);
     }
 
@@ -554,16 +559,16 @@ impl Stepper for Taylor {
         (self.begin, self.state.time)
     }
 
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), Fault> {
+    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         out.copy_from(&self.state);
         if time != self.state.time {
-            self.tell(Double::written(time), out)?;
+            self.tell(DoubleDouble::written(time), out)?;
             out.time = time;
         }
         Ok(())
     }
 
-    fn at_exactly(&mut self, time: Double, out: &mut State) -> Result<(), Fault> {
+    fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         out.copy_from(&self.state);
         if time != self.state.exact_time() {
             self.tell(time, out)?;

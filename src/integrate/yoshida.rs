@@ -6,7 +6,7 @@
 
 use super::method::{Method, Preserves, Stepping};
 use super::splitting;
-use crate::expr::portable;
+use crate::num::math;
 
 /// Of order 6: all but the middle one.
 const SIXTH: [f64; 3] = [0.784_513_610_477_557_3, 0.235_573_213_359_358_13, -1.177_679_984_178_871];
@@ -34,7 +34,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
             Yoshida, Physics Letters A 150 (1990) 262, eq. 4.1.",
     fits: |system| splitting::fits(&FOURTH_ORDER, system),
     make: |system, settings| {
-        let outer = 1.0 / (2.0 - portable::cbrt(2.0));
+        let outer = 1.0 / (2.0 - math::cbrt(2.0));
         splitting::make(&FOURTH_ORDER, system, settings, palindrome(&[outer]))
     },
 };

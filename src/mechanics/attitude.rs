@@ -6,7 +6,7 @@
 //! Source: *The Principles of Dynamics*, §§ 2.1.2–3. A takes components along space axes to those
 //! along body axes.
 
-use super::equations::{Carried, CarriedRates, Equations};
+use super::equations::{Auxiliary, AuxiliaryRates, Equations};
 use super::rigid_body;
 use crate::expr::{Expr, Symbol};
 use crate::model::{AttitudeSource, Model};
@@ -16,7 +16,8 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let Some(attitude) = &model.attitude else { return };
     match &attitude.source {
         AttitudeSource::Euler(angles) => {
-            equations.beside.attitude = Some(rigid_body::attitude(&mut equations.pool, *angles));
+            equations.supplements.attitude =
+                Some(rigid_body::attitude(&mut equations.pool, *angles));
         }
         AttitudeSource::Rate { omega, start } => {
             let omega = omega.map(|e| equations.open(e));
@@ -34,9 +35,9 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             }
             let initial = rigid_body::attitude(pool, *start).concat();
             let symbols: Vec<Symbol> = attitude.matrix.concat();
-            let plain = |plain| CarriedRates { plain, matrix: Vec::new(), right: Vec::new() };
+            let plain = |plain| AuxiliaryRates { plain, matrix: Vec::new(), right: Vec::new() };
             let (rates, initial) = (plain(rates), plain(initial));
-            equations.beside.carried.push(Carried { symbols, rates, initial });
+            equations.supplements.auxiliary.push(Auxiliary { symbols, rates, initial });
         }
     }
 }

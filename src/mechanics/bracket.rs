@@ -11,10 +11,11 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Equations, Flow, WhyNot};
+use super::equations::{Equations, Flow, NoClosedForm};
 use super::lagrange::zero_if_proved;
-use crate::expr::{Expr, Number, Rank, Symbol, Zero, portable};
+use crate::expr::{Expr, Rank, Symbol, Zero};
 use crate::model::{Mechanics, Model};
+use crate::num::{Number, math};
 
 /// \[f, g\] as a function of (q, p, t), or of a Poisson system's variables and t; simplified, and
 /// exactly 0 where that is proved. `f` and `g` are written as observables are, or are such
@@ -22,7 +23,12 @@ use crate::model::{Mechanics, Model};
 ///
 /// # Errors
 /// Where f or g is not known as such a function.
-pub fn bracket(model: &Model, equations: &mut Equations, f: Expr, g: Expr) -> Result<Expr, WhyNot> {
+pub fn bracket(
+    model: &Model,
+    equations: &mut Equations,
+    f: Expr,
+    g: Expr,
+) -> Result<Expr, NoClosedForm> {
     let f = in_phase_space(equations, f)?;
     let g = in_phase_space(equations, g)?;
     let seeds = flow_of(model, equations, g);
@@ -36,12 +42,16 @@ pub fn bracket(model: &Model, equations: &mut Equations, f: Expr, g: Expr) -> Re
 ///
 /// # Errors
 /// Where f or H is not known as a function of (q, p, t).
-pub fn rate_by_bracket(model: &Model, equations: &mut Equations, f: Expr) -> Result<Expr, WhyNot> {
+pub fn rate_by_bracket(
+    model: &Model,
+    equations: &mut Equations,
+    f: Expr,
+) -> Result<Expr, NoClosedForm> {
     let hamiltonian = equations.hamiltonian.clone()?;
-    let carried = bracket(model, equations, f, hamiltonian)?;
+    let auxiliary = bracket(model, equations, f, hamiltonian)?;
     let f = in_phase_space(equations, f)?;
     let own = equations.pool.derivative(f, equations.symbols.time);
-    let rate = equations.pool.add(carried, own);
+    let rate = equations.pool.add(auxiliary, own);
     let rate = zero_if_proved(&mut equations.pool, rate);
     Ok(equations.pool.simplify(rate))
 }
@@ -51,16 +61,20 @@ pub fn rate_by_bracket(model: &Model, equations: &mut Equations, f: Expr) -> Res
 ///
 /// # Errors
 /// Where one of these is not known in closed form, or the action stands in it.
-pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot> {
+pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedForm> {
     if equations.pool.depends(e, equations.symbols.action) {
         let why = "the action is an integral along the motion, no function of its state";
-        return Err(WhyNot(why.to_owned()));
+        return Err(NoClosedForm(why.to_owned()));
     }
-    let carried: Vec<Symbol> =
-        equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()).collect();
-    if equations.pool.depends_on_any(e, &carried) {
+    let auxiliary: Vec<Symbol> = equations
+        .supplements
+        .auxiliary
+        .iter()
+        .flat_map(|auxiliary| auxiliary.symbols.clone())
+        .collect();
+    if equations.pool.depends_on_any(e, &auxiliary) {
         let why = "what is carried along beside the motion is no function of its state";
-        return Err(WhyNot(why.to_owned()));
+        return Err(NoClosedForm(why.to_owned()));
     }
     if !equations.is_lagrangian() {
         return Ok(equations.open(e));
@@ -89,8 +103,8 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot
     Ok(e)
 }
 
-fn unknown(what: &str, by: &str, why: &WhyNot) -> WhyNot {
-    WhyNot(format!("{what} is not known in terms of {by}: {why}"))
+fn unknown(what: &str, by: &str, why: &NoClosedForm) -> NoClosedForm {
+    NoClosedForm(format!("{what} is not known in terms of {by}: {why}"))
 }
 
 /// The derivation f ↦ \[f, g\]: what each variable of phase space is taken to.
@@ -139,9 +153,9 @@ impl ChainRule {
     ///
     /// # Errors
     /// Where there is no Lagrangian, or f or g is not known as a function of (q, q̇, t).
-    pub fn of(equations: &mut Equations, f: Expr, g: Expr) -> Result<ChainRule, WhyNot> {
+    pub fn of(equations: &mut Equations, f: Expr, g: Expr) -> Result<ChainRule, NoClosedForm> {
         let Flow::Lagrange { mass, .. } = equations.flow.clone() else {
-            return Err(WhyNot("there is no Lagrangian to begin with".to_owned()));
+            return Err(NoClosedForm("there is no Lagrangian to begin with".to_owned()));
         };
         let momenta = equations.momenta.clone();
         let momentum_slopes = momenta.iter().map(|&p| slopes(equations, p).positions).collect();
@@ -176,7 +190,7 @@ impl ChainRule {
 }
 
 /// An observable as a function of (q, q̇, t).
-fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot> {
+fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedForm> {
     let mut e = equations.open(e);
     let accelerations: Vec<Symbol> = equations.coordinates.iter().map(|c| c.acceleration).collect();
     if equations.pool.depends_on_any(e, &accelerations) {
@@ -185,9 +199,11 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, WhyNot> {
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
     others.push(equations.symbols.action);
-    others.extend(equations.beside.carried.iter().flat_map(|carried| carried.symbols.clone()));
+    others.extend(
+        equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()),
+    );
     if equations.pool.depends_on_any(e, &others) {
-        return Err(WhyNot("it is not known as a function of q, q̇ and t".to_owned()));
+        return Err(NoClosedForm("it is not known as a function of q, q̇ and t".to_owned()));
     }
     Ok(e)
 }
@@ -249,7 +265,7 @@ pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Re
 /// How the energy is written.
 const ENERGY: &str = "energy";
 
-/// The names a bracket may be told by, and what they are as functions of phase space.
+/// The names a bracket may be reported by, and what they are as functions of phase space.
 fn names(model: &Model, equations: &mut Equations) -> Vec<(Expr, Expr)> {
     let mut written: Vec<(String, Expr)> =
         model.observables.iter().map(|o| (o.name.clone(), o.expression)).collect();
@@ -290,9 +306,8 @@ fn common_factor(
     candidate: Expr,
 ) -> Option<Expr> {
     let pool = &equations.pool;
-    let value = |symbol: Symbol, turn: f64| {
-        0.7 + 0.5 * portable::sin(2.4 * symbol.index() as f64 + 1.7 * turn)
-    };
+    let value =
+        |symbol: Symbol, turn: f64| 0.7 + 0.5 * math::sin(2.4 * symbol.index() as f64 + 1.7 * turn);
     let quotient = |turn: f64, doubled: Option<Symbol>| {
         let at = |symbol: Symbol| {
             let fixed = constants.contains(&symbol);
@@ -313,13 +328,13 @@ fn common_factor(
     let mut rest = first;
     for &symbol in constants {
         let doubled = quotient(1.0, Some(symbol)) / first;
-        let power = portable::log2(doubled).round();
-        if !close(doubled, portable::exp2(power)) {
+        let power = math::log2(doubled).round();
+        if !close(doubled, math::exp2(power)) {
             return None;
         }
         if power != 0.0 {
             factors.push((symbol, power as i64));
-            rest /= portable::powf(value(symbol, 0.0), power);
+            rest /= math::powf(value(symbol, 0.0), power);
         }
     }
     let denominator = (1..=12_i64).find(|&d| {

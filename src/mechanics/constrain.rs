@@ -5,11 +5,12 @@
 //! initial values agree.
 //! Source: *The Principles of Dynamics*, § 1.3.2.
 
-use super::equations::{ConstraintRow, CoordinateSymbols, WhyNot};
+use super::equations::{ConstraintRow, CoordinateSymbols, NoClosedForm};
 use super::lagrange::tidy_derivative;
 use super::linear;
-use crate::expr::{Expr, Number, Pool, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Constraint, Model};
+use crate::num::Number;
 
 /// The rows of a model's constraints.
 pub(super) fn rows(pool: &mut Pool, model: &Model) -> Vec<ConstraintRow> {
@@ -45,8 +46,8 @@ fn row(
         drift.push((c.position, v));
     }
     let kept = pool.sum(&terms);
-    let carried = pool.derivation(kept, &drift);
-    let bias = pool.neg(carried);
+    let auxiliary = pool.derivation(kept, &drift);
+    let bias = pool.neg(auxiliary);
     ConstraintRow {
         name: constraint.name.clone(),
         multiplier: constraint.multiplier,
@@ -109,7 +110,7 @@ pub(super) fn solve(
     mass: &[Vec<Expr>],
     force: &[Expr],
     rows: &[ConstraintRow],
-) -> Result<(Vec<Expr>, Vec<Expr>), WhyNot> {
+) -> Result<(Vec<Expr>, Vec<Expr>), NoClosedForm> {
     let matrix = augmented(pool, mass, rows);
     let right: Vec<Expr> = force.iter().copied().chain(rows.iter().map(|c| c.bias)).collect();
     let mut solution = linear::solve(pool, &matrix, &right)?.x?;

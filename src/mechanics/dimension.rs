@@ -8,8 +8,9 @@
 use std::collections::BTreeMap;
 
 use super::Equations;
-use crate::expr::{Expr, Node, Number, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::model::Model;
+use crate::num::Number;
 
 /// Exponents of base units, in halves: the units of Gauss have them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

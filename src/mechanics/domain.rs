@@ -4,8 +4,9 @@
 //! say so. Never here: domains of functions that are left; these say so themselves.
 
 use super::equations::Equations;
-use crate::expr::{Expr, Node, Number, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::model::Model;
+use crate::num::Number;
 
 /// Expressions of the motion that stood under even roots in the file and are nowhere under one in
 /// the energy: where they are below zero, the file's law has no value and the equations do.

@@ -21,12 +21,12 @@ pub struct Equations {
     /// The equations of motion in the form they are integrated in.
     pub flow: Flow,
     /// L, given or found from H by the inverse Legendre transform.
-    pub lagrangian: Result<Expr, WhyNot>,
+    pub lagrangian: Result<Expr, NoClosedForm>,
     /// H(q, p, t), given or found from L.
-    pub hamiltonian: Result<Expr, WhyNot>,
+    pub hamiltonian: Result<Expr, NoClosedForm>,
     /// For a Lagrangian system q̇(q, p, t) where it exists in closed form; for a Hamiltonian one
     /// ∂H/∂p.
-    pub velocities: Result<Vec<Expr>, WhyNot>,
+    pub velocities: Result<Vec<Expr>, NoClosedForm>,
     /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, or H.
     pub energy: Expr,
     /// dh/dt by its law: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, or ∂H/∂t + Σ force ∂H/∂p. Exactly zero where
@@ -35,28 +35,28 @@ pub struct Equations {
     /// d(action)/dt = L (for a Hamiltonian system Σ p ∂H/∂p − H).
     pub action_rate: Expr,
     /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian); q̇ then ṗ (Hamiltonian).
-    pub solved: Result<Vec<Expr>, WhyNot>,
+    pub solved: Result<Vec<Expr>, NoClosedForm>,
     /// What the motion is held to.
     pub constraints: Vec<ConstraintRow>,
     /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
-    pub multipliers: Result<Vec<Expr>, WhyNot>,
+    pub multipliers: Result<Vec<Expr>, NoClosedForm>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// What is conserved, and why.
     pub conserved: Vec<Conserved>,
     /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
-    pub separable: Result<Separable, WhyNot>,
+    pub separable: Result<Separable, NoClosedForm>,
     /// What goes beside the motion.
-    pub beside: Beside,
+    pub supplements: Supplements,
 }
 
 /// What is integrated, seen or known beside the equations of motion, and has no part in them.
 #[derive(Clone, Debug, Default)]
-pub struct Beside {
+pub struct Supplements {
     /// Numbers that are integrated beside the motion and do not act on it.
-    pub carried: Vec<Carried>,
+    pub auxiliary: Vec<Auxiliary>,
     /// The wrong mechanics beside the right, where the file asks for it.
-    pub twin: Option<Twin>,
+    pub vakonomic: Option<Vakonomic>,
     /// The particles of each frame, as seen from it.
     pub frames: Vec<Vec<Apparent>>,
     /// The body of the file, put together.
@@ -67,11 +67,11 @@ pub struct Beside {
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
 }
 
-impl Beside {
+impl Supplements {
     /// Nothing yet, but for the symbols that the model's attitude has.
-    pub(super) fn of(model: &Model) -> Beside {
+    pub(super) fn of(model: &Model) -> Supplements {
         let attitude_symbols = model.attitude.as_ref().map(|a| a.matrix);
-        Beside { attitude_symbols, ..Beside::default() }
+        Supplements { attitude_symbols, ..Supplements::default() }
     }
 }
 
@@ -107,19 +107,19 @@ pub struct ConstraintRow {
 
 /// Numbers that are integrated beside the motion: functions of the state, of themselves and of t.
 #[derive(Clone, Debug)]
-pub struct Carried {
+pub struct Auxiliary {
     /// What they are called, in the order in which a state carries them.
     pub symbols: Vec<Symbol>,
     /// Their rates of change.
-    pub rates: CarriedRates,
+    pub rates: AuxiliaryRates,
     /// Their values at the start, of the state there and the parameters.
-    pub initial: CarriedRates,
+    pub initial: AuxiliaryRates,
 }
 
 /// As many expressions as there are numbers: some as they stand, then the solution of linear
 /// equations.
 #[derive(Clone, Debug)]
-pub struct CarriedRates {
+pub struct AuxiliaryRates {
     /// The first ones.
     pub plain: Vec<Expr>,
     /// The matrix of the others.
@@ -130,9 +130,9 @@ pub struct CarriedRates {
 
 /// The wrong mechanics beside the right.
 #[derive(Clone, Debug)]
-pub struct Twin {
+pub struct Vakonomic {
     /// L with the constraints put into it.
-    pub lagrangian: Result<Expr, WhyNot>,
+    pub lagrangian: Result<Expr, NoClosedForm>,
 }
 
 /// The equations of motion as they are integrated.
@@ -198,8 +198,8 @@ pub enum Reason {
     Numerically,
     /// The file says so; the drift is what there is to see.
     Declared,
-    /// For this reason, but a blow of the file changes it.
-    BetweenBlows(Box<Reason>),
+    /// For this reason, but an impulse of the file changes it.
+    BetweenImpulses(Box<Reason>),
 }
 
 /// H = T(p) + V(q, t).
@@ -214,7 +214,7 @@ pub struct Separable {
 /// Why something does not exist in closed form, as a sentence for the user.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct WhyNot(pub String);
+pub struct NoClosedForm(pub String);
 
 impl Equations {
     /// Whether the state holds velocities (Lagrangian) or momenta (Hamiltonian).
@@ -241,7 +241,7 @@ impl Reason {
     pub fn is_proved(&self) -> bool {
         match self {
             Reason::Declared | Reason::Numerically => false,
-            Reason::BetweenBlows(reason) => reason.is_proved(),
+            Reason::BetweenImpulses(reason) => reason.is_proved(),
             _ => true,
         }
     }
@@ -250,7 +250,7 @@ impl Reason {
     pub fn is_declared(&self) -> bool {
         match self {
             Reason::Declared => true,
-            Reason::BetweenBlows(reason) => reason.is_declared(),
+            Reason::BetweenImpulses(reason) => reason.is_declared(),
             _ => false,
         }
     }
@@ -272,7 +272,7 @@ impl std::fmt::Display for Reason {
             }
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("declared"),
-            Reason::BetweenBlows(reason) => write!(f, "{reason}, between blows"),
+            Reason::BetweenImpulses(reason) => write!(f, "{reason}, between impulses"),
         }
     }
 }

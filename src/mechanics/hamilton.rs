@@ -1,11 +1,12 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{Beside, CoordinateSymbols, Equations, Flow, Separable, WhyNot};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Separable, Supplements};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use super::legendre;
-use crate::expr::{Expr, Number, Pool, Symbol, Zero};
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
+use crate::num::Number;
 
 /// All that follows from H(q, p, t) and what is added to ṗ, but for the invariants. The pool
 /// field of the result is empty: the caller moves `pool` in.
@@ -62,7 +63,7 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
-        beside: Beside::of(model),
+        supplements: Supplements::of(model),
     }
 }
 
@@ -74,12 +75,13 @@ pub(super) fn separate(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
     time: Symbol,
-    hamiltonian: Result<&Expr, &WhyNot>,
+    hamiltonian: Result<&Expr, &NoClosedForm>,
     others: Option<&str>,
-) -> Result<Separable, WhyNot> {
-    let h = *hamiltonian.map_err(|why| WhyNot(format!("there is no H in closed form: {why}")))?;
+) -> Result<Separable, NoClosedForm> {
+    let h =
+        *hamiltonian.map_err(|why| NoClosedForm(format!("there is no H in closed form: {why}")))?;
     if let Some(why) = others {
-        return Err(WhyNot(why.to_owned()));
+        return Err(NoClosedForm(why.to_owned()));
     }
     let positions: Vec<Symbol> = coordinates.iter().map(|c| c.position).collect();
     let momenta: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
@@ -90,7 +92,7 @@ pub(super) fn separate(
             let mixed = pool.derivative(velocity, *other);
             if pool.is_zero(mixed) != Zero::Proved {
                 let (p, q) = (pool.symbol_info(c.momentum), pool.symbol_info(*other));
-                return Err(WhyNot(format!(
+                return Err(NoClosedForm(format!(
                     "H is not of the form T(p) + V(q, t): ∂²H/∂{}∂{} does not vanish",
                     p.name, q.name
                 )));

@@ -68,16 +68,17 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         name_observable(equations, model, observable, released);
     }
     for i in 0..equations.conserved.len() {
-        if is_struck(equations, model, equations.conserved[i].expression) {
+        if is_changed_by_impulse(equations, model, equations.conserved[i].expression) {
             let reason = Box::new(equations.conserved[i].reason.clone());
-            equations.conserved[i].reason = Reason::BetweenBlows(reason);
+            equations.conserved[i].reason = Reason::BetweenImpulses(reason);
         }
     }
 }
 
-/// Whether a blow of the file may change a quantity.
-fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
-    let struck = |i: usize| model.impulses.iter().any(|blow| blow.change[i] != Expr::ZERO);
+/// Whether an impulse of the file may change a quantity.
+fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -> bool {
+    let after_impulse =
+        |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
     let depends = |i: usize| {
         let c = &equations.coordinates[i];
         let moved = if model.is_poisson() {
@@ -87,7 +88,7 @@ fn is_struck(equations: &Equations, model: &Model, quantity: Expr) -> bool {
         };
         equations.pool.depends_on_any(quantity, &moved)
     };
-    (0..equations.coordinates.len()).any(|i| struck(i) && depends(i))
+    (0..equations.coordinates.len()).any(|i| after_impulse(i) && depends(i))
 }
 
 /// Whether nothing but the law acts: no forces, no dissipation, no constraints.
@@ -281,9 +282,10 @@ impl Equations {
         let g = self.pool.substitute(observable, &map);
         let fast = self.coordinates.iter().flat_map(|c| [c.velocity, c.acceleration]);
         let others = self.constraints.iter().map(|c| c.multiplier);
-        let carried = self.beside.carried.iter().flat_map(|carried| carried.symbols.clone());
+        let auxiliary =
+            self.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
         let others: Vec<Symbol> =
-            fast.chain(others).chain(carried).chain([self.symbols.action]).collect();
+            fast.chain(others).chain(auxiliary).chain([self.symbols.action]).collect();
         if self.pool.depends_on_any(g, &others) {
             return None;
         }
@@ -323,10 +325,10 @@ impl Equations {
             return None;
         }
         let mut seeds = self.along_the_flow();
-        for carried in &self.beside.carried {
-            if carried.rates.plain.len() == carried.symbols.len() {
-                seeds.extend(carried.symbols.iter().copied().zip(carried.rates.plain.clone()));
-            } else if self.pool.depends_on_any(g, &carried.symbols) {
+        for auxiliary in &self.supplements.auxiliary {
+            if auxiliary.rates.plain.len() == auxiliary.symbols.len() {
+                seeds.extend(auxiliary.symbols.iter().copied().zip(auxiliary.rates.plain.clone()));
+            } else if self.pool.depends_on_any(g, &auxiliary.symbols) {
                 return None;
             }
         }

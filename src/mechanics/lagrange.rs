@@ -2,10 +2,11 @@
 //! M q̈ = f + Aᵀλ.
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
-use super::equations::{Beside, CoordinateSymbols, Equations, Flow};
+use super::equations::{CoordinateSymbols, Equations, Flow, Supplements};
 use super::{constrain, hamilton, legendre, linear};
-use crate::expr::{Expr, Number, Pool, Symbol, Zero};
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
+use crate::num::Number;
 
 /// All that follows from L(q, q̇, t), Rayleigh's F(q, q̇, t) and the forces Q, but for the
 /// invariants. The pool field of the result is empty: the caller moves `pool` in.
@@ -51,8 +52,8 @@ pub(super) fn equations(
         ];
         let applied = pool.linear(Number::ZERO, &applied);
         let rate = pool.add(slope, applied);
-        let carried = pool.derivation(momenta[i], &drift);
-        let acting = pool.sub(rate, carried);
+        let auxiliary = pool.derivation(momenta[i], &drift);
+        let acting = pool.sub(rate, auxiliary);
         let held = constrain::force(pool, &constraints, i);
         let rate = pool.add(rate, held);
         momentum_rates.push(pool.simplify(rate));
@@ -108,7 +109,7 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable,
-        beside: Beside::of(model),
+        supplements: Supplements::of(model),
     }
 }
 

@@ -5,13 +5,14 @@ mod root;
 
 use std::collections::HashMap;
 
-use super::equations::{CoordinateSymbols, WhyNot};
+use super::equations::{CoordinateSymbols, NoClosedForm};
 use super::lagrange::tidy_derivative;
 use super::{CLOSED_FORM_LIMIT, linear};
-use crate::expr::{Expr, Number, Pool, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
+use crate::num::Number;
 
 /// A transform and, where it is short enough, the old variables in terms of the new.
-type Transformed = (Expr, Result<Vec<Expr>, WhyNot>);
+type Transformed = (Expr, Result<Vec<Expr>, NoClosedForm>);
 
 /// H(q, p, t) and q̇(q, p, t) from L(q, q̇, t).
 ///
@@ -24,7 +25,7 @@ pub fn lagrangian_to_hamiltonian(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
     lagrangian: Expr,
-) -> Result<Transformed, WhyNot> {
+) -> Result<Transformed, NoClosedForm> {
     let from: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
     let to: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
     let names = ("L", "velocities", "the mass matrix");
@@ -41,7 +42,7 @@ pub fn hamiltonian_to_lagrangian(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
     hamiltonian: Expr,
-) -> Result<Expr, WhyNot> {
+) -> Result<Expr, NoClosedForm> {
     let from: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
     let to: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
     let names = ("H", "momenta", "∂²H/∂p²");
@@ -58,7 +59,7 @@ fn transform(
     to: &[Symbol],
     f: Expr,
     (name, variables, matrix): (&str, &str, &str),
-) -> Result<Transformed, WhyNot> {
+) -> Result<Transformed, NoClosedForm> {
     let slopes: Vec<Expr> = from.iter().map(|&s| tidy_derivative(pool, f, s)).collect();
     let mut hessian = Vec::new();
     for &slope in &slopes {
@@ -67,8 +68,9 @@ fn transform(
     }
     for row in &mut hessian {
         for entry in row.iter_mut() {
-            *entry = constant_in(pool, *entry, from)
-                .ok_or_else(|| WhyNot(format!("{name} is not quadratic in the {variables}")))?;
+            *entry = constant_in(pool, *entry, from).ok_or_else(|| {
+                NoClosedForm(format!("{name} is not quadratic in the {variables}"))
+            })?;
         }
     }
     let zeros: HashMap<Symbol, Expr> = from.iter().map(|&s| (s, Expr::ZERO)).collect();
@@ -78,8 +80,9 @@ fn transform(
         let conjugate = pool.variable(conjugate);
         shifted.push(pool.sub(conjugate, offset));
     }
-    let solution = linear::solve(pool, &hessian, &shifted)
-        .map_err(|why| WhyNot(format!("{variables} cannot be eliminated with {matrix}: {why}")))?;
+    let solution = linear::solve(pool, &hessian, &shifted).map_err(|why| {
+        NoClosedForm(format!("{variables} cannot be eliminated with {matrix}: {why}"))
+    })?;
     let rest = pool.substitute(f, &zeros);
     let mut parts = vec![(Number::MINUS_ONE, rest)];
     match &solution.squares {
@@ -99,7 +102,9 @@ fn transform(
     let transformed = pool.linear(Number::ZERO, &parts);
     let transformed = pool.simplify_terms(transformed);
     if pool.weight(transformed) > CLOSED_FORM_LIMIT {
-        return Err(WhyNot(format!("the closed form has more than {CLOSED_FORM_LIMIT} nodes")));
+        return Err(NoClosedForm(format!(
+            "the closed form has more than {CLOSED_FORM_LIMIT} nodes"
+        )));
     }
     Ok((transformed, solution.x))
 }

@@ -3,13 +3,14 @@
 //! up as soon as it is too long to be read.
 
 use super::CLOSED_FORM_LIMIT;
-use super::equations::WhyNot;
-use crate::expr::{Expr, Number, Pool, Zero};
+use super::equations::NoClosedForm;
+use crate::expr::{Expr, Pool, Zero};
+use crate::num::Number;
 
 /// A x = b, solved.
 pub(super) struct Solution {
     /// x, where it is short enough to be read.
-    pub(super) x: Result<Vec<Expr>, WhyNot>,
+    pub(super) x: Result<Vec<Expr>, NoClosedForm>,
     /// Where every pivot stood on the diagonal: b̃_k and d_k of b·A⁻¹b = Σ b̃_k²/d_k for
     /// symmetric A, the sum of squares that elimination leaves.
     pub(super) squares: Option<Vec<(Expr, Expr)>>,
@@ -19,7 +20,11 @@ pub(super) struct Solution {
 ///
 /// # Errors
 /// Where A is singular, or an entry grows beyond [`CLOSED_FORM_LIMIT`] nodes.
-pub(super) fn solve(pool: &mut Pool, a: &[Vec<Expr>], b: &[Expr]) -> Result<Solution, WhyNot> {
+pub(super) fn solve(
+    pool: &mut Pool,
+    a: &[Vec<Expr>],
+    b: &[Expr],
+) -> Result<Solution, NoClosedForm> {
     let n = b.len();
     let mut a = a.to_vec();
     let mut b = b.to_vec();
@@ -28,7 +33,7 @@ pub(super) fn solve(pool: &mut Pool, a: &[Vec<Expr>], b: &[Expr]) -> Result<Solu
     let mut pivots: Vec<(usize, usize)> = Vec::new();
     while !rows.is_empty() {
         let (r, c) = pivot(pool, &a, &rows, &columns)
-            .ok_or_else(|| WhyNot("the matrix is singular".to_owned()))?;
+            .ok_or_else(|| NoClosedForm("the matrix is singular".to_owned()))?;
         rows.retain(|&i| i != r);
         columns.retain(|&j| j != c);
         pivots.push((r, c));
@@ -55,7 +60,7 @@ fn substitute_back(
     a: &[Vec<Expr>],
     b: &[Expr],
     pivots: &[(usize, usize)],
-) -> Result<Vec<Expr>, WhyNot> {
+) -> Result<Vec<Expr>, NoClosedForm> {
     let mut x = vec![Expr::ZERO; b.len()];
     for (k, &(r, c)) in pivots.iter().enumerate().rev() {
         let mut terms = vec![(Number::ONE, b[r])];
@@ -71,7 +76,7 @@ fn substitute_back(
 }
 
 /// `entry − factor · other`, simplified.
-fn reduced(pool: &mut Pool, entry: Expr, factor: Expr, other: Expr) -> Result<Expr, WhyNot> {
+fn reduced(pool: &mut Pool, entry: Expr, factor: Expr, other: Expr) -> Result<Expr, NoClosedForm> {
     if other == Expr::ZERO {
         return Ok(entry);
     }
@@ -80,10 +85,12 @@ fn reduced(pool: &mut Pool, entry: Expr, factor: Expr, other: Expr) -> Result<Ex
     bounded(pool, difference)
 }
 
-fn bounded(pool: &mut Pool, e: Expr) -> Result<Expr, WhyNot> {
+fn bounded(pool: &mut Pool, e: Expr) -> Result<Expr, NoClosedForm> {
     let simpler = if pool.weight(e) > CLOSED_FORM_LIMIT { e } else { pool.simplify(e) };
     if pool.weight(simpler) > CLOSED_FORM_LIMIT {
-        return Err(WhyNot(format!("the solved form has more than {CLOSED_FORM_LIMIT} nodes")));
+        return Err(NoClosedForm(format!(
+            "the solved form has more than {CLOSED_FORM_LIMIT} nodes"
+        )));
     }
     Ok(simpler)
 }

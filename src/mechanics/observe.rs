@@ -28,8 +28,8 @@ impl Equations {
 
     /// What the entries of an attitude's matrix are by Euler's angles.
     pub fn attitude_map(&self) -> HashMap<Symbol, Expr> {
-        let symbols = self.beside.attitude_symbols.iter().flat_map(|m| m.concat());
-        symbols.zip(self.beside.attitude.iter().flat_map(|m| m.concat())).collect()
+        let symbols = self.supplements.attitude_symbols.iter().flat_map(|m| m.concat());
+        symbols.zip(self.supplements.attitude.iter().flat_map(|m| m.concat())).collect()
     }
 
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a

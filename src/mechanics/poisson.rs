@@ -1,7 +1,7 @@
 //! Motion by brackets of variables that are no coordinates and momenta: ẋ = {x, H} + force.
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
-use super::equations::{Beside, CoordinateSymbols, Equations, Flow, WhyNot};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Supplements};
 use super::lagrange::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;
@@ -33,7 +33,8 @@ pub(super) fn equations(
     }
     let energy_rate = pool.sum(&power);
     let energy_rate = zero_if_proved(pool, energy_rate);
-    let none = |what: &str| WhyNot(format!("variables given by their brackets have no {what}"));
+    let none =
+        |what: &str| NoClosedForm(format!("variables given by their brackets have no {what}"));
     Equations {
         pool: Pool::new(),
         coordinates,
@@ -52,6 +53,6 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),
-        beside: Beside::of(model),
+        supplements: Supplements::of(model),
     }
 }

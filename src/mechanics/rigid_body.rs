@@ -8,9 +8,10 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use super::structure::Flaw;
-use crate::expr::{Double, Expr, FunctionId, Number, Pool, Symbol};
+use super::poisson_structure::StructureError;
+use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
+use crate::num::{DoubleDouble, Number};
 
 /// A body as a whole.
 #[derive(Clone, Debug)]
@@ -220,9 +221,9 @@ pub fn matrix<T: Copy>(inertia: &[T; 6]) -> [[T; 3]; 3] {
 /// The moments of a diagonal tensor are its entries. Others are found by an eigen-decomposition
 /// and made exact to the last digit of an `f64` by Rayleigh's quotient v·Iv / v·v, whose error is
 /// the square of the axis's.
-pub fn principal(inertia: &[Double; 6]) -> ([Double; 3], [[f64; 3]; 3]) {
+pub fn principal(inertia: &[DoubleDouble; 6]) -> ([DoubleDouble; 3], [[f64; 3]; 3]) {
     let tensor = matrix(inertia);
-    let mut found: Vec<(Double, [f64; 3])> = Vec::new();
+    let mut found: Vec<(DoubleDouble, [f64; 3])> = Vec::new();
     if inertia[3..].iter().all(|x| x.high == 0.0) {
         for i in 0..3 {
             found.push((tensor[i][i], [0, 1, 2].map(|j| f64::from(u8::from(i == j)))));
@@ -234,7 +235,7 @@ pub fn principal(inertia: &[Double; 6]) -> ([Double; 3], [[f64; 3]; 3]) {
             found.push((quotient(&tensor, axis), axis));
         }
     } else {
-        let nothing = Double::from(f64::NAN);
+        let nothing = DoubleDouble::from(f64::NAN);
         return ([nothing; 3], [[f64::NAN; 3]; 3]);
     }
     found.sort_by(|a, b| a.0.high.total_cmp(&b.0.high).then(a.0.low.total_cmp(&b.0.low)));
@@ -248,9 +249,9 @@ pub fn principal(inertia: &[Double; 6]) -> ([Double; 3], [[f64; 3]; 3]) {
 }
 
 /// v·Iv / v·v.
-fn quotient(tensor: &[[Double; 3]; 3], axis: [f64; 3]) -> Double {
-    let v = axis.map(Double::from);
-    let (mut above, mut below) = (Double::ZERO, Double::ZERO);
+fn quotient(tensor: &[[DoubleDouble; 3]; 3], axis: [f64; 3]) -> DoubleDouble {
+    let v = axis.map(DoubleDouble::from);
+    let (mut above, mut below) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
     for i in 0..3 {
         below = below + v[i] * v[i];
         for j in 0..3 {
@@ -283,7 +284,7 @@ pub fn body_values(
     };
     let value = |e: Expr| pool.evaluate(e, &at);
     let inertia = body.inertia.map(value);
-    let (moments, _) = principal(&inertia.map(Double::from));
+    let (moments, _) = principal(&inertia.map(DoubleDouble::from));
     let moments = moments.map(|m| m.high);
     let single = [value(body.mass)];
     let all = [&inertia[..], &moments, &single, &body.centre.map(value)].concat();
@@ -307,7 +308,7 @@ pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
 
 /// What is senseless in a body at the file's parameters: negative sizes, no mass, an axis without
 /// direction.
-pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<Flaw> {
+pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<StructureError> {
     let (Some(body), Some(whole)) = (&model.body, whole) else { return Vec::new() };
     let at = |symbol: Symbol| {
         let parameter = model.parameters.iter().find(|p| p.symbol == symbol);
@@ -315,8 +316,8 @@ pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Ve
     };
     let value = |e: Expr| pool.evaluate(e, &at);
     let mut flaws = Vec::new();
-    let mut flaw = |place: &crate::model::Place, message: String, help: &str| {
-        flaws.push(Flaw { place: place.clone(), message, help: help.to_owned() });
+    let mut flaw = |place: &crate::diagnostic::SourceRange, message: String, help: &str| {
+        flaws.push(StructureError { place: place.clone(), message, help: help.to_owned() });
     };
     for piece in &body.pieces {
         let sizes: Vec<Expr> = match piece.solid {

@@ -6,8 +6,9 @@
 use std::collections::BTreeMap;
 
 use super::equations::{Conserved, Equations, Reason};
-use crate::expr::{Expr, Number, Zero};
+use crate::expr::{Expr, Zero};
 use crate::model::{Coordinate, Model};
+use crate::num::Number;
 
 /// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.
 pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {

@@ -1,6 +1,6 @@
 //! A rigid body put together from pieces, how it stands, and the frames it is seen from.
 
-use super::{Place, Point};
+use super::{Point, SourceRange};
 use crate::expr::{Expr, Symbol};
 
 /// A rigid body.
@@ -11,7 +11,7 @@ pub struct Body {
     /// What follows from the pieces, as names that stand wherever a parameter may.
     pub names: BodyNames,
     /// Where the table stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// The names a body defines. They have values of their own at every set of parameters.
@@ -64,7 +64,7 @@ pub struct Piece {
     /// How it is turned; not at all where the file says nothing.
     pub turn: Turn,
     /// Where it stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// The standard solids, in axes of their own: edges are full edges, lengths full lengths.
@@ -131,7 +131,7 @@ pub struct Attitude {
     /// Where A comes from.
     pub source: AttitudeSource,
     /// Where the table stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 impl Attitude {
@@ -162,7 +162,7 @@ pub struct Comparison {
     /// `other_x` of each coordinate, and `other_x'`.
     pub symbols: Vec<(Symbol, Symbol)>,
     /// Where the table stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// Axes a picture in space may be seen from.

@@ -3,7 +3,7 @@
 use crate::expr::Expr;
 
 /// A range of bytes in the file, to point at when a claim turns out false.
-pub type Place = std::ops::Range<usize>;
+pub type SourceRange = std::ops::Range<usize>;
 
 /// A named quantity to be watched.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub struct Observable {
     /// Whether the file claims that it is conserved (`true`) or that it is not (`false`).
     pub conserved: Option<bool>,
     /// Where the claim stands.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// The file's own test.
@@ -23,10 +23,10 @@ pub struct Observable {
 pub struct Expect {
     /// What is claimed to be conserved: `energy`, a momentum `p_x`, or an observable's name, each
     /// with its place.
-    pub conserves: Vec<(String, Expr, Place)>,
+    pub conserves: Vec<(String, Expr, SourceRange)>,
     /// Values the motion is to have.
     pub values: Vec<ExpectedValue>,
-    /// When events and blows are to happen.
+    /// When events and impulses are to happen.
     pub events: Vec<ExpectedEvent>,
     /// How often they are to happen.
     pub counts: Vec<ExpectedCount>,
@@ -48,7 +48,7 @@ pub struct ExpectedEvent {
     /// Where the number comes from.
     pub source: String,
     /// Where the claim stands.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// How often something is to have happened.
@@ -63,7 +63,7 @@ pub struct ExpectedCount {
     /// Where the number comes from.
     pub source: String,
     /// Where the claim stands.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// \[f, g\] = is.
@@ -80,7 +80,7 @@ pub struct ExpectedBracket {
     /// Where it comes from.
     pub source: String,
     /// Where the claim stands.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// A number the motion is to give.
@@ -99,5 +99,5 @@ pub struct ExpectedValue {
     /// Where the number comes from.
     pub source: String,
     /// Where the claim stands.
-    pub place: Place,
+    pub place: SourceRange,
 }

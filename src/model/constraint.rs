@@ -1,6 +1,6 @@
 //! A condition on the motion, kept by a force of its own.
 
-use super::Place;
+use super::SourceRange;
 use crate::expr::{Expr, Pool, Rank, Symbol};
 
 /// expression = 0, kept by λ times its gradient.
@@ -17,7 +17,7 @@ pub struct Constraint {
     /// What λ is, in words; empty where the file does not say.
     pub about: String,
     /// Where the expression stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// How the multiplier of a constraint is written: `lambda_no_slip`.

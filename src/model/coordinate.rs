@@ -1,6 +1,6 @@
 //! A generalised coordinate with its four symbols.
 
-use super::Place;
+use super::SourceRange;
 use crate::expr::{Expr, Pool, Rank, Symbol, latex_of_unicode, unicode_name};
 
 /// A generalised coordinate.
@@ -30,7 +30,7 @@ pub struct Coordinate {
     /// After what the coordinate repeats, in parameters; for drawing only.
     pub period: Option<Expr>,
     /// Where its name stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 impl Coordinate {
@@ -98,8 +98,8 @@ impl Coordinate {
 
 /// The name with a dot (or two) over its first letter.
 fn dotted(shown: &str, mark: char) -> String {
-    let mut letters = shown.chars();
-    let first = letters.next().unwrap_or(' ');
+    let mut messages = shown.chars();
+    let first = messages.next().unwrap_or(' ');
     let precomposed = match (first, mark) {
         ('x', '\u{307}') => Some('ẋ'),
         ('y', '\u{307}') => Some('ẏ'),
@@ -112,8 +112,8 @@ fn dotted(shown: &str, mark: char) -> String {
         _ => None,
     };
     match precomposed {
-        Some(c) => format!("{c}{}", letters.as_str()),
-        None => format!("{first}{mark}{}", letters.as_str()),
+        Some(c) => format!("{c}{}", messages.as_str()),
+        None => format!("{first}{mark}{}", messages.as_str()),
     }
 }
 

@@ -1,10 +1,10 @@
-//! What happens to a motion at single moments: blows that are given, and crossings that are looked
+//! What happens to a motion at single moments: impulses that are given, and crossings that are looked
 //! for.
 
-use super::Place;
+use super::SourceRange;
 use crate::expr::Expr;
 
-/// A blow: p jumps, q does not.
+/// An impulse: p jumps, q does not.
 #[derive(Clone, Debug)]
 pub struct Impulse {
     /// As written in the file.
@@ -13,13 +13,13 @@ pub struct Impulse {
     pub times: Vec<Expr>,
     /// And at every multiple of this interval after the start, in parameters.
     pub period: Option<Expr>,
-    /// The applied blow Q̂ on each coordinate (the jump of each variable of a Poisson system), of
+    /// The applied impulse Q̂ on each coordinate (the jump of each variable of a Poisson system), of
     /// the state before it; zero where there is none.
     pub change: Vec<Expr>,
     /// What it is, in words.
     pub about: String,
     /// Where it stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// A crossing to be located on the motion.
@@ -34,7 +34,7 @@ pub struct Event {
     /// What follows.
     pub action: Action,
     /// Where it stands in the file.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// The sense of a crossing of zero.

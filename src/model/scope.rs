@@ -6,9 +6,8 @@ mod allowed;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
-use crate::expr::{
-    Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, nearest, parse,
-};
+use crate::diagnostic::nearest;
+use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse};
 
 pub use allowed::Allowed;
 
@@ -18,7 +17,7 @@ use allowed::Kind;
 /// nest, with a call, a sum, a product and a power in each.
 const DEPTH_LIMIT: usize = 4 * 256;
 
-/// More mistakes than these in one place are not told.
+/// More mistakes than these in one place are not reported.
 const MOST_MISTAKES: usize = 100;
 
 /// The names of a model as one place of use sees them, and the mistakes met there.
@@ -35,7 +34,7 @@ pub struct Scope {
     poisson: bool,
     /// The mistakes found so far, to be taken out by whoever tells them.
     pub mistakes: Vec<SyntaxError>,
-    /// The names used, so that unused ones can be told.
+    /// The names used, so that unused ones can be reported.
     pub used: BTreeSet<String>,
 }
 

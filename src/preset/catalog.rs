@@ -16,8 +16,8 @@ use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
 use include_dir::{Dir, DirEntry, include_dir};
 
-use super::Document;
-use crate::expr::nearest;
+use crate::diagnostic::Document;
+use crate::diagnostic::nearest;
 use crate::printable;
 
 pub use entry::{Entry, Origin};

@@ -22,10 +22,10 @@ mod run;
 
 use std::collections::BTreeSet;
 
-use super::Mistakes;
 use super::draft::{Draft, Formula, Law};
-use super::mistake::Mistake;
 use crate::cancel::Cancel;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
 use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};
 use names::Names;
@@ -36,7 +36,7 @@ pub(super) fn check(
     file: &str,
     draft: &Draft,
     cancel: &Cancel,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Model> {
     let mut model = Model::new(&draft.info.title);
     model.pool.set_cancel(cancel.clone());
@@ -88,7 +88,7 @@ pub(super) fn check(
 struct Check<'c> {
     /// The file's text, to find a place inside an expression.
     file: &'c str,
-    mistakes: &'c mut Mistakes,
+    mistakes: &'c mut Diagnostics,
     model: Model,
     /// Every name that some expression uses.
     used: BTreeSet<String>,
@@ -104,7 +104,7 @@ impl Check<'_> {
         let e = scope.at(called).read(&mut self.model.pool, formula.get_ref());
         for slip in scope.mistakes.drain(..) {
             let place = place::within(self.file, formula, slip.span);
-            let mut mistake = Mistake::error(place, slip.message);
+            let mut mistake = Diagnostic::error(place, slip.message);
             mistake.help = slip.help;
             self.mistakes.push(mistake);
         }
@@ -113,7 +113,7 @@ impl Check<'_> {
     }
 
     fn error(&mut self, at: std::ops::Range<usize>, message: impl Into<String>) {
-        self.mistakes.push(Mistake::error(at, message));
+        self.mistakes.push(Diagnostic::error(at, message));
     }
 
     /// Definitions in order, each in the names above it.
@@ -137,7 +137,7 @@ impl Check<'_> {
         let named = |places: Vec<std::ops::Range<usize>>, most: usize, what: &str| {
             places.get(most).map(|place| {
                 let message = format!("there are {} {what}; {most} are allowed", places.len());
-                Mistake::error(place.clone(), message)
+                Diagnostic::error(place.clone(), message)
             })
         };
         let coordinates = draft.moving.all.iter().map(|c| c.name.span()).collect();
@@ -206,7 +206,7 @@ impl Check<'_> {
         for (name, kind) in parameters.chain(definitions) {
             if !self.used.contains(name.get_ref()) {
                 let message = format!("the {kind} `{}` is not used", name.get_ref());
-                self.mistakes.push(Mistake::warning(name.span(), message));
+                self.mistakes.push(Diagnostic::warning(name.span(), message));
             }
         }
     }

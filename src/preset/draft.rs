@@ -21,9 +21,10 @@ mod vector;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::Mistakes;
-use super::mistake::Mistake;
-use crate::model::{Info, Place};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::SourceRange;
+use crate::model::Info;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
 pub(super) use claims::{
@@ -58,7 +59,7 @@ pub(super) struct Draft {
     pub(super) mechanics: Vec<DraftMechanics>,
     /// What the motion is held to.
     pub(super) constraints: Vec<DraftConstraint>,
-    /// Blows.
+    /// Impulses.
     pub(super) impulses: Vec<DraftImpulse>,
     /// Crossings to be located.
     pub(super) events: Vec<DraftEvent>,
@@ -96,13 +97,13 @@ const NOT_YET: [&str; 3] = ["transformations", "generators", "hamilton_jacobi"];
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
 /// Walks the whole file.
-pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draft {
+pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref());
     let info = read_info(&mut top, mistakes);
     for table in NOT_YET {
         if let Some((key, _)) = top.take(table) {
             let message = format!("the table `{table}` is not supported yet by this version");
-            mistakes.push(Mistake::error(key, message));
+            mistakes.push(Diagnostic::error(key, message));
         }
     }
     let draft = Draft {
@@ -131,20 +132,20 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Mistakes) -> Draf
 /// The words at the head of the file alone: what a list of presets shows. Mistakes are passed over.
 pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
     let mut top = Table::new("the file", 0..0, file.get_ref());
-    read_info(&mut top, &mut Mistakes::default())
+    read_info(&mut top, &mut Diagnostics::default())
 }
 
-fn read_info(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Info {
-    let line = |found: Option<Spanned<String>>, mistakes: &mut Mistakes| match found {
+fn read_info(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Info {
+    let line = |found: Option<Spanned<String>>, mistakes: &mut Diagnostics| match found {
         Some(text) => value::one_line(&text, mistakes).unwrap_or_default(),
         None => String::new(),
     };
     let title = top.text("title", mistakes);
     if let Some(blank) = title.as_ref().filter(|t| t.get_ref().trim().is_empty()) {
-        mistakes.push(Mistake::error(blank.span(), "the title is empty"));
+        mistakes.push(Diagnostic::error(blank.span(), "the title is empty"));
     }
     if title.is_none() && !top.has("title") {
-        let missing = Mistake::error(0..0, "the file has no title");
+        let missing = Diagnostic::error(0..0, "the file has no title");
         top.lacks("title", missing.with_help("begin it with title = \"...\""));
     }
     let notes = top.text("notes", mistakes);

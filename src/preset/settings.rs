@@ -7,9 +7,10 @@
 use toml::de::DeValue;
 
 use super::draft::Table;
-use super::mistake::{Mistake, Mistakes};
-use super::{Document, grammar};
-use crate::model::Place;
+use super::toml_errors;
+use crate::diagnostic::Document;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// One key of the file and what stands at it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -17,7 +18,7 @@ pub struct Entry {
     /// The key.
     pub key: &'static str,
     /// Where its value stands, as bytes of the file.
-    pub place: Place,
+    pub place: SourceRange,
     /// Its value.
     pub value: Plain,
 }
@@ -42,12 +43,12 @@ impl Document {
         &self,
         called: &str,
         keys: &'static [&'static str],
-    ) -> (Vec<Entry>, Vec<Mistake>) {
+    ) -> (Vec<Entry>, Vec<Diagnostic>) {
         if let Some(mistake) = self.unreadable() {
             return (Vec::new(), vec![mistake.clone()]);
         }
-        let mut mistakes = Mistakes::default();
-        let file = grammar::parse(&self.text, &mut mistakes);
+        let mut mistakes = Diagnostics::default();
+        let file = toml_errors::parse(&self.text, &mut mistakes);
         let mut entries = Vec::new();
         if !mistakes.lost_track() {
             let mut table = Table::new(called, 0..0, file.get_ref());

@@ -4,10 +4,10 @@
 //! speaks of what is not there. Never here: when it is asked.
 
 use crate::app::{App, Lab};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
 use crate::experiment::{Snapshot, Status};
-use crate::expr::nearest;
 use crate::model::{Allowed, Scope};
-use crate::preset::Mistake;
 
 use super::script::{Assert, Measure, Relation, Text};
 
@@ -21,7 +21,7 @@ pub(super) struct Finding {
 }
 
 /// Holds a claim against the present; `screen` is the screen's rows.
-pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Finding, Mistake> {
+pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Finding, Diagnostic> {
     match claim {
         Assert::Screen(text) => {
             let holds = screen.iter().any(|row| row.contains(text.as_str()));
@@ -115,20 +115,20 @@ fn status(status: &Status) -> &'static str {
         Status::Running => "running",
         Status::Paused => "paused",
         Status::Ended(_) => "ended",
-        Status::Faulted(_) => "stopped",
+        Status::Failed(_) => "stopped",
     }
 }
 
-fn seen<'a>(app: &'a App, at: &Text) -> Result<(&'a Lab, &'a Snapshot), Mistake> {
+fn seen<'a>(app: &'a App, at: &Text) -> Result<(&'a Lab, &'a Snapshot), Diagnostic> {
     let lab = app.lab.as_ref().and_then(|lab| Some((lab, lab.seen()?)));
-    lab.ok_or_else(|| Mistake::error(at.place.clone(), "there is no system in motion here"))
+    lab.ok_or_else(|| Diagnostic::error(at.place.clone(), "there is no system in motion here"))
 }
 
 fn gauge<'a>(
     lab: &Lab,
     snapshot: &'a Snapshot,
     name: &Text,
-) -> Result<&'a crate::experiment::Gauge, Mistake> {
+) -> Result<&'a crate::experiment::Gauge, Diagnostic> {
     let named = |g: &&crate::experiment::Gauge| g.name == name.text || g.shown == name.text;
     snapshot.gauges.iter().find(named).ok_or_else(|| {
         let names = snapshot.gauges.iter().map(|g| g.name.as_str());
@@ -136,7 +136,7 @@ fn gauge<'a>(
     })
 }
 
-fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
+fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
     if measure == Measure::Value {
         return value(app, of);
     }
@@ -154,9 +154,9 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
             events.chain(model.impulses.iter().map(|impulse| impulse.name.as_str()))
         };
         if names().any(|name| name == of.text) {
-            return Ok(snapshot.happenings.tallies().iter().find(|t| t.name == of.text));
+            return Ok(snapshot.occurrences.tallies().iter().find(|t| t.name == of.text));
         }
-        Err(missing("event or blow", of, names(), &lab.loaded.name))
+        Err(missing("event or impulse", of, names(), &lab.loaded.name))
     };
     Ok(match measure {
         Measure::Value => f64::NAN,
@@ -165,13 +165,13 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Mistake> {
         Measure::Greatest => snapshot.bounds[channel()?].1,
         Measure::Count => tally()?.map_or(0.0, |tally| tally.count as f64),
         Measure::Time => tally()?.map(|tally| tally.last).ok_or_else(|| {
-            Mistake::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
+            Diagnostic::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
         })?,
     })
 }
 
 /// The present value of an expression.
-pub(super) fn value(app: &App, written: &Text) -> Result<f64, Mistake> {
+pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
     // a number needs no system
     if let Ok(number) = written.text.parse::<f64>()
         && number.is_finite()
@@ -189,11 +189,11 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Mistake> {
     let Some(e) = scope.read(&mut pool, &written.text) else {
         let mistake = scope.mistakes.into_iter().next();
         return Err(mistake.map_or_else(
-            || Mistake::error(written.place.clone(), "this is no expression"),
+            || Diagnostic::error(written.place.clone(), "this is no expression"),
             |mistake| {
                 let start = written.place.start;
                 let place = start + mistake.span.start..start + mistake.span.end;
-                Mistake { help: mistake.help, ..Mistake::error(place, mistake.message) }
+                Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
             },
         ));
     };
@@ -202,7 +202,7 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Mistake> {
         return Ok(value);
     }
     let message = format!("`{}` has no value here", written.text);
-    Err(Mistake::error(written.place.clone(), message))
+    Err(Diagnostic::error(written.place.clone(), message))
 }
 
 /// What is not there, and the nearest that is.
@@ -211,9 +211,9 @@ pub(super) fn missing<'a>(
     name: &Text,
     names: impl Iterator<Item = &'a str> + Clone,
     system: &str,
-) -> Mistake {
+) -> Diagnostic {
     let message = format!("{system} has no {kind} `{}`", name.text);
-    let mistake = Mistake::error(name.place.clone(), message);
+    let mistake = Diagnostic::error(name.place.clone(), message);
     match nearest(&name.text, names.clone()) {
         Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
         None => {

@@ -9,11 +9,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::clock::Micros;
-use super::laboratory::Budget;
-use super::performance::{Beat, Performance};
+use super::headless_lab::Budget;
 use super::script::{Script, Step};
-use crate::preset::{Document, Mistake};
-use crate::view::Look;
+use super::script_runner::{RunnerEvent, ScriptRunner};
+use crate::diagnostic::{Diagnostic, Document};
+use crate::view::RenderStyle;
 use crate::view::frame::Frames;
 
 /// What came of a script.
@@ -30,7 +30,7 @@ pub struct Recording {
     /// When it ends.
     pub end: Micros,
     /// How it looks.
-    pub look: Look,
+    pub look: RenderStyle,
     /// What is to be shown when: bytes for a terminal, and the names of chapters.
     pub events: Vec<(Micros, Event)>,
     /// The chapters.
@@ -40,7 +40,7 @@ pub struct Recording {
     /// What was done and found.
     pub log: Vec<(Micros, Entry)>,
     /// The claims that turned out false.
-    pub false_claims: Vec<Mistake>,
+    pub false_claims: Vec<Diagnostic>,
 }
 
 /// Something in a recording.
@@ -85,7 +85,7 @@ pub fn play(
     document: &Document,
     called: &str,
     size: (u16, u16),
-) -> Result<Recording, Vec<Mistake>> {
+) -> Result<Recording, Vec<Diagnostic>> {
     let size = script.head.size.unwrap_or(size);
     let mistakes = too_long(script, size.0);
     if !mistakes.is_empty() {
@@ -94,7 +94,7 @@ pub fn play(
     let area = Size::from(size);
     let (fps, title) = (script.head.fps, script.head.title.clone());
     let alone = |mistake| vec![mistake];
-    let performance = Performance::new(script.clone(), document, called, area, Budget::RECORDED);
+    let performance = ScriptRunner::new(script.clone(), document, called, area, Budget::RECORDED);
     let mut take = Take {
         performance: performance.map_err(alone)?,
         screen: Frames::new(false),
@@ -128,52 +128,52 @@ pub fn play(
 }
 
 /// Captions that have no room on a screen of this width.
-fn too_long(script: &Script, width: u16) -> Vec<Mistake> {
+fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
     let room = Script::caption_room(width);
     let long = script.steps.iter().filter(|(_, step)| match step {
         Step::Caption(text) => text.chars().count() > room,
         _ => false,
     });
     let message = format!("a caption may have {room} characters at this size");
-    long.map(|(place, _)| Mistake::error(place.clone(), message.clone())).collect()
+    long.map(|(place, _)| Diagnostic::error(place.clone(), message.clone())).collect()
 }
 
 /// A performance being taken down.
 struct Take {
-    performance: Performance,
+    performance: ScriptRunner,
     screen: Frames,
-    look: Look,
+    look: RenderStyle,
     area: Size,
     events: Vec<(Micros, Event)>,
     markers: Vec<Marker>,
     log: Vec<(Micros, Entry)>,
-    false_claims: Vec<Mistake>,
+    false_claims: Vec<Diagnostic>,
 }
 
 impl Take {
     /// Takes the next beat down; whether there are more to come.
-    fn goes_on(&mut self) -> Result<bool, Mistake> {
+    fn goes_on(&mut self) -> Result<bool, Diagnostic> {
         let beat = self.performance.beat()?;
         let now = self.performance.now();
         match beat {
-            Beat::Frame => self.draw(now),
-            Beat::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
-            Beat::Claim(place, claim) => {
+            RunnerEvent::Frame => self.draw(now),
+            RunnerEvent::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
+            RunnerEvent::Claim(place, claim) => {
                 let screen = rows(&self.performance.picture(&self.look));
                 let finding = self.performance.find(&claim, &screen)?;
                 if !finding.holds {
                     let message = format!("this is false: {}", finding.sentence);
-                    self.false_claims.push(Mistake::error(place, message));
+                    self.false_claims.push(Diagnostic::error(place, message));
                 }
                 self.log.push((now, Entry::Claimed(finding.holds, finding.sentence)));
             }
-            Beat::Marker(name) => {
+            RunnerEvent::Marker(name) => {
                 let screen = self.performance.picture(&self.look);
                 self.events.push((now, Event::Marker(name.clone())));
                 self.log.push((now, Entry::Marker(self.markers.len())));
                 self.markers.push(Marker { name, time: now, screen });
             }
-            Beat::Over => return Ok(false),
+            RunnerEvent::Overlay => return Ok(false),
         }
         Ok(true)
     }

@@ -11,10 +11,10 @@ mod line;
 use std::collections::HashMap;
 
 use crate::app::Key;
-use crate::expr::nearest;
-use crate::model::Place;
-use crate::preset::{Document, Mistake};
-use crate::view::Look;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Document};
+use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
@@ -33,7 +33,7 @@ pub struct Script {
     /// What is said before anything happens.
     pub head: Head,
     /// What happens, in order.
-    pub steps: Vec<(Place, Step)>,
+    pub steps: Vec<(SourceRange, Step)>,
 }
 
 /// What holds for the whole demo.
@@ -71,9 +71,12 @@ impl Default for Head {
 
 impl Head {
     /// How the screen looks: by the script alone, whatever the environment.
-    pub fn look(&self) -> Look {
+    pub fn look(&self) -> RenderStyle {
         let theme = Theme::named(self.theme, self.colour);
-        Look { theme: theme.unwrap_or_else(|| Theme::dark(self.colour)), glyphs: self.glyphs }
+        RenderStyle {
+            theme: theme.unwrap_or_else(|| Theme::dark(self.colour)),
+            glyphs: self.glyphs,
+        }
     }
 }
 
@@ -83,12 +86,12 @@ pub struct Text {
     /// As written, without quotes.
     pub text: String,
     /// Where.
-    pub place: Place,
+    pub place: SourceRange,
 }
 
 /// How one value goes in a sweep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct SweepPath {
     /// Which.
     pub name: Text,
     /// From where; from its present value otherwise.
@@ -113,7 +116,7 @@ pub enum Step {
     /// Parameters and initial values go evenly to others while time passes.
     Sweep {
         /// Which, all at once.
-        ways: Vec<Way>,
+        ways: Vec<SweepPath>,
         /// In what time.
         time: Micros,
     },
@@ -165,7 +168,7 @@ pub enum Measure {
     Least,
     /// The greatest.
     Greatest,
-    /// How often an event or a blow has happened.
+    /// How often an event or an impulse has happened.
     Count,
     /// When it last happened.
     Time,
@@ -187,7 +190,7 @@ impl Script {
     ///
     /// # Errors
     /// Every mistake, in its place.
-    pub fn read(document: &Document) -> Result<Script, Vec<Mistake>> {
+    pub fn read(document: &Document) -> Result<Script, Vec<Diagnostic>> {
         if let Some(mistake) = document.unreadable() {
             return Err(vec![mistake.clone()]);
         }
@@ -236,10 +239,10 @@ pub const PACE: Micros = 150_000;
 #[derive(Default)]
 struct Reading {
     head: Head,
-    said: HashMap<&'static str, Place>,
-    steps: Vec<(Place, Step)>,
-    markers: HashMap<String, Place>,
-    mistakes: Vec<Mistake>,
+    said: HashMap<&'static str, SourceRange>,
+    steps: Vec<(SourceRange, Step)>,
+    markers: HashMap<String, SourceRange>,
+    mistakes: Vec<Diagnostic>,
 }
 
 /// What a line says.
@@ -250,7 +253,7 @@ pub(super) enum Said {
     Step(Step),
 }
 
-/// More mistakes than these are not told.
+/// More mistakes than these are not reported.
 const MOST_MISTAKES: usize = 100;
 
 impl Reading {
@@ -265,7 +268,7 @@ impl Reading {
         }
     }
 
-    fn command(&mut self, word: &Text, line: &mut Line<'_>) -> Result<(), Mistake> {
+    fn command(&mut self, word: &Text, line: &mut Line<'_>) -> Result<(), Diagnostic> {
         let command = COMMANDS.iter().find(|command| command.name == word.text);
         let command = command.ok_or_else(|| unknown(word))?;
         let said = (command.read)(line)?;
@@ -276,11 +279,11 @@ impl Reading {
                 if !self.steps.is_empty() {
                     let message = format!("`{}` comes too late: the demo has begun", word.text);
                     let help = "what holds for the whole demo stands before what happens";
-                    return Err(Mistake::error(word.place.clone(), message).with_help(help));
+                    return Err(Diagnostic::error(word.place.clone(), message).with_help(help));
                 }
                 if let Some(first) = self.said.insert(command.name, word.place.clone()) {
                     let message = format!("`{}` is said twice", word.text);
-                    let mistake = Mistake::error(word.place.clone(), message);
+                    let mistake = Diagnostic::error(word.place.clone(), message);
                     return Err(mistake.with_also(first, "it was said here"));
                 }
                 say(&mut self.head);
@@ -291,7 +294,7 @@ impl Reading {
                 {
                     let message = format!("there are two markers `{name}`");
                     let help = "a player finds a chapter by its name: give each its own";
-                    let mistake = Mistake::error(place, message).with_help(help);
+                    let mistake = Diagnostic::error(place, message).with_help(help);
                     return Err(mistake.with_also(first, "the first one"));
                 }
                 self.steps.push((place, step));
@@ -300,7 +303,7 @@ impl Reading {
         Ok(())
     }
 
-    fn conclude(mut self, end: usize) -> Result<Script, Vec<Mistake>> {
+    fn conclude(mut self, end: usize) -> Result<Script, Vec<Diagnostic>> {
         let script = Script { head: self.head, steps: self.steps };
         if let Some((width, _)) = script.head.size {
             let room = Script::caption_room(width);
@@ -312,27 +315,27 @@ impl Reading {
                     let message = format!(
                         "a caption may have {room} characters at this size; this one has {many}"
                     );
-                    self.mistakes.push(Mistake::error(place.clone(), message));
+                    self.mistakes.push(Diagnostic::error(place.clone(), message));
                 }
             }
         }
         let length = script.length();
         if self.mistakes.is_empty() && length > LONGEST * SECOND {
             let message = format!("a demo may last an hour; this one lasts {} s", length / SECOND);
-            self.mistakes.push(Mistake::error(end..end, message));
+            self.mistakes.push(Diagnostic::error(end..end, message));
         }
         if self.mistakes.is_empty() && length.saturating_mul(script.head.fps.into()) < SECOND {
             let message = "nothing is to be seen: no time passes in this script";
             let help = "let it pass with `Wait 2s`";
-            self.mistakes.push(Mistake::error(end..end, message).with_help(help));
+            self.mistakes.push(Diagnostic::error(end..end, message).with_help(help));
         }
         if self.mistakes.is_empty() { Ok(script) } else { Err(self.mistakes) }
     }
 }
 
-fn unknown(word: &Text) -> Mistake {
+fn unknown(word: &Text) -> Diagnostic {
     let message = format!("there is no command `{}`", word.text);
-    let mistake = Mistake::error(word.place.clone(), message);
+    let mistake = Diagnostic::error(word.place.clone(), message);
     let names = COMMANDS.iter().map(|command| command.name);
     match nearest(&word.text, names.clone()) {
         Some(near) => mistake.with_help(format!("did you mean `{near}`?")),

@@ -19,7 +19,7 @@ const LEAST: u32 = 1024;
 /// Why a bandwidth is none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is no bandwidth: write bytes a second from 1k on, such as `16k` or `1M`, or `off`")]
-pub struct NotBandwidth(String);
+pub struct BandwidthError(String);
 
 impl Bandwidth {
     /// Bytes in a second; `None` for no limit.
@@ -32,10 +32,10 @@ impl Bandwidth {
 }
 
 impl FromStr for Bandwidth {
-    type Err = NotBandwidth;
+    type Err = BandwidthError;
 
     /// Bytes in a second, with `k` for 1024 and `M` for 1024² of them, or `off`.
-    fn from_str(text: &str) -> Result<Self, NotBandwidth> {
+    fn from_str(text: &str) -> Result<Self, BandwidthError> {
         if text == "off" {
             return Ok(Self::Unlimited);
         }
@@ -47,7 +47,10 @@ impl FromStr for Bandwidth {
         let plain = digits.bytes().all(|b| b.is_ascii_digit());
         let number = digits.parse().ok().filter(|_| plain);
         let bytes = number.and_then(|number: u32| number.checked_mul(unit));
-        bytes.filter(|b| *b >= LEAST).map(Self::Bytes).ok_or_else(|| NotBandwidth(text.to_owned()))
+        bytes
+            .filter(|b| *b >= LEAST)
+            .map(Self::Bytes)
+            .ok_or_else(|| BandwidthError(text.to_owned()))
     }
 }
 

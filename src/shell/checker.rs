@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use super::loader::{STACK, defect};
 use crate::cancel::Cancel;
-use crate::experiment::Ready;
-use crate::preset::{Document, Mistake};
+use crate::diagnostic::{Diagnostic, Document};
+use crate::experiment::Prepared;
 
 /// Checks texts.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Answer {
     /// Which check it was.
     pub(super) ticket: u64,
     /// The experiment it makes, or what is wrong with it.
-    pub(super) outcome: Result<Box<Ready>, Vec<Mistake>>,
+    pub(super) outcome: Result<Box<Prepared>, Vec<Diagnostic>>,
     /// How long that took.
     pub(super) took: Duration,
 }
@@ -54,7 +54,7 @@ impl Checker {
         let sender = self.sender.clone();
         let begun = Instant::now();
         let work = move || {
-            let made = catch_unwind(AssertUnwindSafe(|| Ready::with(&document, &cancel)));
+            let made = catch_unwind(AssertUnwindSafe(|| Prepared::with(&document, &cancel)));
             if cancel.is_cancelled() {
                 // nobody waits for it, and it is large
                 return;
@@ -62,7 +62,7 @@ impl Checker {
             let outcome = match made {
                 Ok(Ok(ready)) => Ok(Box::new(ready)),
                 Ok(Err(unready)) => Err(unready.mistakes),
-                Err(panic) => Err(vec![Mistake::error(0..0, defect(panic.as_ref()))]),
+                Err(panic) => Err(vec![Diagnostic::error(0..0, defect(panic.as_ref()))]),
             };
             // The program may have ended meanwhile.
             let _ = sender.send(Answer { ticket, outcome, took: begun.elapsed() });
@@ -71,7 +71,7 @@ impl Checker {
             thread::Builder::new().name("checker".to_owned()).stack_size(STACK).spawn(work);
         if let Err(error) = started {
             let mistake =
-                Mistake::error(0..0, format!("there is no thread to check it on: {error}"));
+                Diagnostic::error(0..0, format!("there is no thread to check it on: {error}"));
             let answer = Answer { ticket, outcome: Err(vec![mistake]), took: begun.elapsed() };
             let _ = self.sender.send(answer);
         }

@@ -12,7 +12,8 @@ use etcetera::base_strategy::Xdg;
 
 use super::options::{Choice, Kind, NAMES, OPTIONS, Options};
 use super::regular;
-use crate::preset::{Document, Mistake, Plain, Setting};
+use crate::diagnostic::{Diagnostic, Document};
+use crate::preset::{Plain, Setting};
 
 /// Where the configuration stands, whether it is there or not; `None` without a home.
 pub fn path() -> Option<PathBuf> {
@@ -38,7 +39,7 @@ pub fn find() -> io::Result<Option<Document>> {
 ///
 /// # Errors
 /// All its mistakes, in the order of their places.
-pub fn read(document: &Document) -> Result<Options, Vec<Mistake>> {
+pub fn read(document: &Document) -> Result<Options, Vec<Diagnostic>> {
     let mut options = Options::default();
     let (entries, mut mistakes) = document.settings("the configuration", NAMES);
     for entry in entries {
@@ -53,8 +54,8 @@ pub fn read(document: &Document) -> Result<Options, Vec<Mistake>> {
 }
 
 /// The value as a word that the option accepts.
-fn word(choice: &Choice, entry: &Setting) -> Result<String, Mistake> {
-    let at = |message: String| Mistake::error(entry.place.clone(), message);
+fn word(choice: &Choice, entry: &Setting) -> Result<String, Diagnostic> {
+    let at = |message: String| Diagnostic::error(entry.place.clone(), message);
     // `color = 256` and `color = true` mean what they say
     let word = match &entry.value {
         Plain::Flag(flag) => flag.to_string(),

@@ -1,6 +1,6 @@
 //! The demo: a script performed on the terminal while one watches, from its beginning to its end.
 //!
-//! In: a [`Performance`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this terminal.
+//! In: a [`ScriptRunner`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this terminal.
 //! It ends by itself, so that a program that records terminals can record it. Never here: what a script says.
 
 use std::time::Duration;
@@ -8,12 +8,12 @@ use std::time::Duration;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
+use super::frame_loop::{Screen, ScreenRequest};
 use super::input::Input;
-use super::stage::{Page, Wish};
 use crate::app::{Code, Key};
-use crate::preset::Mistake;
-use crate::record::Performance;
-use crate::view::{Detail, Look};
+use crate::diagnostic::Diagnostic;
+use crate::record::ScriptRunner;
+use crate::view::{Detail, RenderStyle};
 
 /// The most that one frame lets pass. Where the terminal or the machine cannot keep up the demo waits for it, so that
 /// nothing is missed.
@@ -21,43 +21,43 @@ const LONGEST: Duration = Duration::from_secs(1);
 
 /// A script being performed on the terminal.
 pub(super) struct Demo {
-    performance: Performance,
-    look: Look,
+    performance: ScriptRunner,
+    look: RenderStyle,
     detail: Detail,
     /// Since its beginning, without what it was held.
     time: Duration,
     held: bool,
     /// Nothing more comes, or it was left; with what is wrong with the script, if that is why.
-    end: Option<Result<(), Mistake>>,
+    end: Option<Result<(), Diagnostic>>,
 }
 
 impl Demo {
     /// At its beginning.
-    pub(super) fn new(performance: Performance, look: Look) -> Self {
+    pub(super) fn new(performance: ScriptRunner, look: RenderStyle) -> Self {
         let (detail, time) = (Detail::default(), Duration::ZERO);
         Self { performance, look, detail, time, held: false, end: None }
     }
 
     /// The last picture of a demo that was not left before; or what is wrong with the script.
-    pub(super) fn outcome(self) -> Result<Option<Buffer>, Mistake> {
+    pub(super) fn outcome(self) -> Result<Option<Buffer>, Diagnostic> {
         let Self { performance, look, end, .. } = self;
         Ok(end.transpose()?.map(|()| performance.picture(&look)))
     }
 }
 
-impl Page for Demo {
-    fn input(&mut self, input: Input) -> Wish {
+impl Screen for Demo {
+    fn input(&mut self, input: Input) -> ScreenRequest {
         match input {
-            Input::Key(Key { ctrl: true, code: Code::Char('c'), .. }) => Wish::Quit,
-            Input::Key(Key { ctrl: true, code: Code::Char('z'), .. }) => Wish::Suspend,
-            Input::Key(Key { ctrl: true, code: Code::Char('l'), .. }) => Wish::Repaint,
-            Input::Key(Key { code: Code::Char('q') | Code::Esc, .. }) => Wish::Quit,
+            Input::Key(Key { ctrl: true, code: Code::Char('c'), .. }) => ScreenRequest::Quit,
+            Input::Key(Key { ctrl: true, code: Code::Char('z'), .. }) => ScreenRequest::Suspend,
+            Input::Key(Key { ctrl: true, code: Code::Char('l'), .. }) => ScreenRequest::Repaint,
+            Input::Key(Key { code: Code::Char('q') | Code::Esc, .. }) => ScreenRequest::Quit,
             Input::Key(Key { code: Code::Char(' '), .. }) => {
                 self.held = !self.held;
                 self.performance.hold(self.held);
-                Wish::Nothing
+                ScreenRequest::Nothing
             }
-            _ => Wish::Nothing,
+            _ => ScreenRequest::Nothing,
         }
     }
 

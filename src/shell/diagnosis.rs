@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn what_decides_is_told() {
+    fn what_decides_is_reported() {
         let check = |environment: &[(&str, &str)], what: &str, expected: [&str; 2]| {
             let (is, why) = found(environment, what);
             assert_eq!([is.as_str(), why.as_str()], expected, "{environment:?}");

@@ -10,19 +10,19 @@ use std::time::{Duration, SystemTime};
 
 use super::regular;
 use super::whole::Whole;
-use crate::app::NotSaved;
+use crate::app::SaveError;
 use crate::preset::{Catalog, TEXT_LIMIT, is_path};
 
 /// How often a watched file is looked at.
 const LOOKS: Duration = Duration::from_millis(500);
 
 /// Writes a text over a file, if that still holds what is known of it. Returns the file.
-pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), NotSaved> {
+pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), SaveError> {
     if let Some(known) = known {
         match regular::read(place, TEXT_LIMIT) {
-            Ok(bytes) if bytes != known.as_bytes() => return Err(NotSaved::Changed),
+            Ok(bytes) if bytes != known.as_bytes() => return Err(SaveError::Changed),
             Err(error) if error.kind() == io::ErrorKind::FileTooLarge => {
-                return Err(NotSaved::Changed);
+                return Err(SaveError::Changed);
             }
             // a file that is gone is written anew
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -33,24 +33,24 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
     }
     if fs::metadata(place).is_ok_and(|about| about.permissions().readonly()) {
         let told = format!("{} is read-only, and stays as it is", place.display());
-        return Err(NotSaved::Refused(told));
+        return Err(SaveError::Refused(told));
     }
     write_whole(place, text.as_bytes()).map_err(|error| refused("write", place, &error))
 }
 
 /// Writes a text to a file that is not there yet: a preset of the user's by its name, or a path. Returns the file.
-pub(super) fn save_copy(name: &str, text: &str) -> Result<PathBuf, NotSaved> {
+pub(super) fn save_copy(name: &str, text: &str) -> Result<PathBuf, SaveError> {
     let place = if is_path(name) {
         let toml = Path::new(name).extension().is_some();
         PathBuf::from(if toml { name.to_owned() } else { format!("{name}.toml") })
     } else {
         let none = "there is no home folder for presets; give the copy a path, ./pendulum.toml";
-        let folder = Catalog::user_folder().ok_or_else(|| NotSaved::Refused(none.to_owned()))?;
+        let folder = Catalog::user_folder().ok_or_else(|| SaveError::Refused(none.to_owned()))?;
         fs::create_dir_all(&folder).map_err(|error| refused("make", &folder, &error))?;
         folder.join(format!("{name}.toml"))
     };
     if place.symlink_metadata().is_ok() {
-        return Err(NotSaved::Exists(place));
+        return Err(SaveError::Exists(place));
     }
     write_whole(&place, text.as_bytes()).map_err(|error| refused("write", &place, &error))?;
     Ok(place)
@@ -62,8 +62,8 @@ fn write_whole(place: &Path, bytes: &[u8]) -> io::Result<()> {
     file.finish_on_disk()
 }
 
-fn refused(what: &str, place: &Path, error: &io::Error) -> NotSaved {
-    NotSaved::Refused(format!("cannot {what} {}: {error}", place.display()))
+fn refused(what: &str, place: &Path, error: &io::Error) -> SaveError {
+    SaveError::Refused(format!("cannot {what} {}: {error}", place.display()))
 }
 
 /// The text of a file.
@@ -89,7 +89,7 @@ pub(super) struct Watch {
 
 /// What has become of a watched file.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum News {
+pub(super) enum FileChange {
     /// It has changed, and holds this text now; or it was gone and is there again.
     Text { text: String, back: bool },
     /// It is not there any more.
@@ -110,13 +110,13 @@ impl Watch {
     }
 
     /// Time has passed: what has become of the file since it was looked at last, each once.
-    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<News> {
+    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<FileChange> {
         if self.place.as_deref() != Some(place) {
             let place = place.to_owned();
             *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
             // it may have changed between its loading and now
             let text = read(self.place.as_deref()?).ok()?;
-            return Some(News::Text { text, back: false });
+            return Some(FileChange::Text { text, back: false });
         }
         self.since = self.since.saturating_sub(elapsed);
         if !self.since.is_zero() {
@@ -125,7 +125,7 @@ impl Watch {
         self.since = LOOKS;
         let Some(stamp) = stamp(place) else {
             self.missed = self.missed.saturating_add(1);
-            return (self.missed == GONE).then_some(News::Gone);
+            return (self.missed == GONE).then_some(FileChange::Gone);
         };
         let back = self.missed >= GONE;
         if self.stamp == Some(stamp) && !back {
@@ -134,7 +134,7 @@ impl Watch {
         }
         let text = read(place).ok()?;
         (self.stamp, self.missed) = (Some(stamp), 0);
-        Some(News::Text { text, back })
+        Some(FileChange::Text { text, back })
     }
 }
 
@@ -155,7 +155,7 @@ mod tests {
         fs::write(&place, "one").expect("it is written");
         assert_eq!(save(&place, "two", Some("one")), Ok(()));
         assert_eq!(fs::read_to_string(&place).expect("it is there"), "two");
-        assert_eq!(save(&place, "three", Some("one")), Err(NotSaved::Changed));
+        assert_eq!(save(&place, "three", Some("one")), Err(SaveError::Changed));
         assert_eq!(fs::read_to_string(&place).expect("it is there"), "two");
         assert_eq!(save(&place, "three", None), Ok(()));
         assert_eq!(fs::read_to_string(&place).expect("it is there"), "three");
@@ -172,7 +172,7 @@ mod tests {
         fs::set_permissions(&place, fs::Permissions::from_mode(0o444)).expect("it is mine");
         let why = save(&place, "two", Some("one"));
         assert!(
-            matches!(&why, Err(NotSaved::Refused(why)) if why.contains("system.toml")),
+            matches!(&why, Err(SaveError::Refused(why)) if why.contains("system.toml")),
             "{why:?}"
         );
         assert_eq!(fs::read_to_string(&place).expect("it is there"), "one");
@@ -200,7 +200,7 @@ mod tests {
         let name = folder.path().join("copy").display().to_string();
         let place = folder.path().join("copy.toml");
         assert_eq!(save_copy(&name, "one"), Ok(place.clone()));
-        assert_eq!(save_copy(&name, "two"), Err(NotSaved::Exists(place.clone())));
+        assert_eq!(save_copy(&name, "two"), Err(SaveError::Exists(place.clone())));
         assert_eq!(fs::read_to_string(&place).expect("it is there"), "one");
     }
 
@@ -210,7 +210,7 @@ mod tests {
         let place = folder.path().join("system.toml");
         fs::write(&place, "one").expect("it is written");
         let mut watch = Watch::default();
-        let text = |text: &str, back| Some(News::Text { text: text.to_owned(), back });
+        let text = |text: &str, back| Some(FileChange::Text { text: text.to_owned(), back });
         assert_eq!(watch.look(&place, Duration::ZERO), text("one", false));
         fs::write(&place, "longer").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS / 2), None, "it is not looked at all the time");
@@ -224,7 +224,7 @@ mod tests {
         // gone for long
         fs::remove_file(&place).expect("it goes");
         let looks: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
-        assert_eq!(looks, [News::Gone], "it is told once");
+        assert_eq!(looks, [FileChange::Gone], "it is reported once");
         fs::write(&place, "again").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS), text("again", true));
         assert_eq!(watch.look(&place, LOOKS), None);

@@ -30,7 +30,7 @@ pub enum Input {
     Resize(u16, u16),
 }
 
-/// The most that one paste brings, in bytes: a character more than is taken of it, so that it is told where it was cut.
+/// The most that one paste brings, in bytes: a character more than is taken of it, so that it is reported where it was cut.
 pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
 
 const ESC: u8 = 0x1b;
@@ -472,7 +472,7 @@ mod tests {
     }
 
     #[test]
-    fn focus_is_told_where_it_was_asked_for() {
+    fn focus_is_reported_where_it_was_asked_for() {
         let expected = [false, true].map(Input::Focus);
         assert_eq!(decode_with(Mode::Focus, b"\x1b[O\x1b[I"), expected);
         assert_eq!(decode_with(Mode::Mouse, b"\x1b[O\x1b[I"), []);

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn there_is_one_at_a_time_and_it_is_told_once() {
+    fn there_is_one_at_a_time_and_it_is_reported_once() {
         let (go, wait) = channel::<()>();
         let mut job = Job::default();
         let work = move || wait.recv().map(|()| "done".to_owned()).map_err(|why| why.to_string());

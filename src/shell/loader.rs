@@ -10,9 +10,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
 use super::regular;
-use crate::app::LoadFailure;
+use crate::app::LoadError;
 use crate::cancel::Cancel;
-use crate::experiment::Ready;
+use crate::experiment::Prepared;
 use crate::preset::Catalog;
 
 /// A derivation goes as deep as its expressions are nested, and a stranger's file may nest them far.
@@ -30,7 +30,7 @@ pub(super) struct Loader {
 }
 
 /// What was asked for and what was made of it.
-type Outcome = Result<(String, Box<Ready>), LoadFailure>;
+type Outcome = Result<(String, Box<Prepared>), LoadError>;
 
 impl Loader {
     /// A loader that knows these presets.
@@ -54,7 +54,7 @@ impl Loader {
         self.cancel = Some(cancel.clone());
         let (ticket, sender, catalog) =
             (self.newest, self.sender.clone(), Arc::clone(&self.catalog));
-        let failed = LoadFailure { name: name.clone(), message: String::new() };
+        let failed = LoadError { name: name.clone(), message: String::new() };
         let work = move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| prepare(&catalog, &name, &cancel)));
             if cancel.is_cancelled() {
@@ -64,7 +64,7 @@ impl Loader {
             let outcome = outcome.unwrap_or_else(|panic| Err(defect(panic.as_ref())));
             let outcome = match outcome {
                 Ok(ready) => Ok((name, Box::new(ready))),
-                Err(message) => Err(LoadFailure { name, message }),
+                Err(message) => Err(LoadError { name, message }),
             };
             // The program may have ended meanwhile.
             let _ = sender.send((ticket, outcome));
@@ -73,7 +73,7 @@ impl Loader {
             thread::Builder::new().name("loader".to_owned()).stack_size(STACK).spawn(work);
         if let Err(error) = started {
             let message = format!("there is no thread to load it on: {error}");
-            let _ = self.sender.send((ticket, Err(LoadFailure { message, ..failed })));
+            let _ = self.sender.send((ticket, Err(LoadError { message, ..failed })));
         }
     }
 
@@ -93,12 +93,12 @@ impl Drop for Loader {
     }
 }
 
-fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Ready, String> {
+fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Prepared, String> {
     let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
-    Ready::with(&document, cancel).map_err(|unready| unready.report)
+    Prepared::with(&document, cancel).map_err(|unready| unready.report)
 }
 
-/// What is told of a panic of a stage.
+/// What is reported of a panic of a stage.
 pub(super) fn defect(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let reason =

@@ -1,7 +1,7 @@
 //! The log: what happened and when, in a file, for whoever wants to know it afterwards.
 //!
 //! In: sentences. Out: lines of a file, each with its time. Never here: the terminal; waiting. Lines are written by a
-//! thread of their own; where the disk is slower than what happens, some are left out and their number is told.
+//! thread of their own; where the disk is slower than what happens, some are left out and their number is reported.
 
 use std::fmt::Display;
 use std::fs::{self, File};
@@ -28,7 +28,7 @@ pub enum LogFile {
 /// Why there is no log, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write the log {}: {reason}", .path.display())]
-pub struct NoLog {
+pub struct LogError {
     /// The file.
     path: PathBuf,
     /// What the system says.
@@ -58,15 +58,15 @@ struct Writer {
 
 impl Log {
     /// A log in a file, to which it adds; the folder is made where there is none.
-    pub(super) fn open(place: &LogFile) -> Result<Self, NoLog> {
+    pub(super) fn open(place: &LogFile) -> Result<Self, LogError> {
         let path = match place {
             LogFile::At(path) => path.clone(),
-            LogFile::Usual => usual().ok_or_else(|| NoLog {
+            LogFile::Usual => usual().ok_or_else(|| LogError {
                 path: "phaselab.log".into(),
                 reason: io::Error::new(io::ErrorKind::NotFound, "there is no home folder"),
             })?,
         };
-        Self::at(&path).map_err(|reason| NoLog { path, reason })
+        Self::at(&path).map_err(|reason| LogError { path, reason })
     }
 
     fn at(path: &Path) -> io::Result<Self> {
@@ -79,7 +79,7 @@ impl Log {
         let (finished, done) = sync_channel(1);
         thread::Builder::new().name("log".to_owned()).spawn(move || {
             for line in waiting {
-                // There is nobody to be told that it cannot be written.
+                // There is nobody to be reported that it cannot be written.
                 let _ = written.write_all(line.as_bytes());
             }
             let _ = finished.send(());
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_stands_in_the_file_in_order_and_after_what_was_there() {
+    fn what_is_reported_stands_in_the_file_in_order_and_after_what_was_there() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("new/own.log");
         for count in [2, 3] {
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_cannot_be_written_is_told_with_its_name() {
+    fn a_place_that_cannot_be_written_is_reported_with_its_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let error = Log::open(&LogFile::At(folder.path().to_owned())).expect_err("it is a folder");
         let told = error.to_string();

@@ -5,7 +5,7 @@
 //! or what an option does.
 
 use super::bandwidth::Bandwidth;
-use crate::expr::nearest;
+use crate::diagnostic::nearest;
 use crate::view::theme::PALETTES;
 
 /// One option: `--name` on the command line, `name` in the configuration, `PHASELAB_NAME` in the environment.
@@ -21,7 +21,7 @@ pub struct Choice {
     pub usual: &'static str,
     /// What it is for, a sentence.
     pub about: &'static str,
-    /// Variables by which other programs are told the same, and which win over the configuration.
+    /// Variables by which other programs are reported the same, and which win over the configuration.
     pub overruled_by: &'static [&'static str],
     /// Whether it says what is opened, so that no name can stand beside it.
     pub excludes_name: bool,
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variable_that_cannot_be_used_is_told() {
+    fn a_variable_that_cannot_be_used_is_reported() {
         let check = |name: &str, word: &str, told: &str| {
             let variable = |asked: &str| (asked == name).then(|| word.to_owned());
             assert_eq!(Options::of_environment(&variable), Err(told.to_owned()));

@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::fresh::{Fresh, NOTHING};
-use crate::record::cast::{Cast, Version};
+use crate::record::cast_writer::{Cast, Version};
 use crate::record::plain;
 use crate::view::frame::Frames;
 use crate::view::theme::Palette;
@@ -72,7 +72,7 @@ impl Recorder {
         }
     }
 
-    /// Ends a cast that cannot go on, for that reason; what is to be told.
+    /// Ends a cast that cannot go on, for that reason; what is to be reported.
     pub(super) fn give_up(self, why: &io::Error) -> String {
         match self.cast.into_inner().finish() {
             Ok(name) if name == NOTHING => format!("nothing is recorded: {why}"),

@@ -9,8 +9,9 @@ use std::path::Path;
 
 use rustix::fs::{Mode, OFlags};
 
+use crate::diagnostic::Document;
 use crate::file;
-use crate::preset::{Catalog, Document, NotFound};
+use crate::preset::{Catalog, NotFound};
 
 /// Opens a file to be locked, and makes it where there is none.
 ///

@@ -3,17 +3,17 @@
 //! In: [`Options`]. Out: the look and the pace. Never here: where options come from; a question put to the terminal.
 
 use crate::preset::NotFound;
-use crate::view::Look;
+use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
 use super::bandwidth::Bandwidth;
-use super::log::{LogFile, NoLog};
+use super::frame_loop::Pace;
+use super::log::{LogError, LogFile};
 use super::options::Options;
-use super::stage::Pace;
-use super::store::NoSession;
-use super::terminal::NoTerminal;
+use super::store::SessionError;
+use super::terminal::TerminalError;
 
 /// Frames in a second where the terminal is near.
 const NEAR: u16 = 30;
@@ -62,22 +62,22 @@ pub struct Request {
 
 /// Why the laboratory does not open.
 #[derive(Debug, thiserror::Error)]
-pub enum Refusal {
+pub enum LabError {
     /// There is no terminal.
     #[error(transparent)]
-    NoTerminal(#[from] NoTerminal),
+    TerminalError(#[from] TerminalError),
     /// What was asked for is not there.
     #[error(transparent)]
     NotFound(#[from] NotFound),
     /// There is no session to go on with.
     #[error(transparent)]
-    NoSession(#[from] NoSession),
+    SessionError(#[from] SessionError),
     /// The laboratory was left, and its session could not be saved.
     #[error("the session is not saved: {0}")]
     Unsaved(std::io::Error),
     /// The log cannot be written.
     #[error(transparent)]
-    NoLog(#[from] NoLog),
+    LogError(#[from] LogError),
     /// The laboratory was left, and what it recorded could not be saved.
     #[error("the recording is not whole: {0}")]
     Unrecorded(std::io::Error),
@@ -121,7 +121,7 @@ impl Request {
     }
 
     /// How the screen looks, `variable` being the environment.
-    pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> Look {
+    pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> RenderStyle {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
         let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
         let named = self.theme.as_deref().and_then(|name| Theme::named(name, depth));
@@ -130,7 +130,7 @@ impl Request {
             Theme::named(name, depth).unwrap_or_else(|| Theme::dark(depth))
         });
         let theme = if self.reduced_motion { theme.with_ages(1) } else { theme };
-        Look { theme, glyphs }
+        RenderStyle { theme, glyphs }
     }
 
     /// The most frames in a second that may be asked for.

@@ -12,7 +12,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::checker::Checker;
-use super::files::{self, News, Watch};
+use super::files::{self, FileChange, Watch};
+use super::frame_loop::{Pace, Page, ScreenRequest};
 use super::fresh;
 use super::input::Input;
 use super::job::{Job, Told};
@@ -21,24 +22,24 @@ use super::log::Log;
 use super::product;
 use super::recorder::Recorder;
 use super::request::Request;
-use super::stage::{Pace, Page, Wish};
-use super::store::{NoStore, Store};
+use super::store::{Store, StoreError};
 use crate::app::{
-    Act, App, Checked, Effect, Event, LoadFailure, Loaded, Mouse, Notice, Saved, Unsaved,
+    Act, App, Checked, Effect, Event, LoadError, Loaded, Mouse, Notification, Saved, Unsaved,
 };
-use crate::experiment::{Export, Ready, Snapshot, Status};
-use crate::preset::{Catalog, Document, Origin, is_path};
-use crate::record::{data, plain, still};
+use crate::diagnostic::Document;
+use crate::experiment::{Export, Prepared, Snapshot, Status};
+use crate::preset::{Catalog, Origin, is_path};
+use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{PALETTES, Palette, Theme};
-use crate::view::{self, Detail, Look};
+use crate::view::{self, Detail, RenderStyle};
 use crate::worker::Worker;
 
 /// The laboratory as it runs.
 pub(super) struct Session {
     app: App,
-    look: Look,
+    look: RenderStyle,
     /// What is left out of the look on a slow line.
     detail: Detail,
     worker: Worker,
@@ -53,7 +54,7 @@ pub(super) struct Session {
     kept_texts: u64,
     /// The file being written that a key asked for.
     job: Job,
-    /// Told once more when the first system is there, for its loading ends what was told before.
+    /// Told once more when the first system is there, for its loading ends what was reported before.
     warning: Option<String>,
     /// What happens is written there.
     pub(super) log: Log,
@@ -99,7 +100,7 @@ impl Session {
     pub(super) fn new(
         catalog: Catalog,
         request: &Request,
-        look: Look,
+        look: RenderStyle,
         pace: Pace,
         log: Log,
     ) -> io::Result<Self> {
@@ -142,8 +143,8 @@ impl Session {
     }
 
     /// Keeps the session in a store from now on, and takes the texts up that are kept there; `open` is what was asked
-    /// for. What is not kept the user is told.
-    pub(super) fn keep_in(&mut self, store: Result<Store, NoStore>, open: Option<&str>) {
+    /// for. What is not kept the user is reported.
+    pub(super) fn keep_in(&mut self, store: Result<Store, StoreError>, open: Option<&str>) {
         let mut troubles = match store {
             Err(why) => vec![why.to_string()],
             Ok(mut store) => {
@@ -166,7 +167,7 @@ impl Session {
         }
         if !troubles.is_empty() {
             let told = troubles.join("; ");
-            self.app.notice = Some(Notice::error(&told));
+            self.app.notice = Some(Notification::error(&told));
             self.warning = Some(told);
         }
     }
@@ -203,7 +204,7 @@ impl Session {
         self.since.texts = Duration::ZERO;
         self.kept_texts = self.app.workbench.revision();
         let Some(store) = &mut self.store else { return };
-        // one whose place cannot be told is kept by the name it has
+        // one whose place cannot be reported is kept by the name it has
         let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
         store.keep_texts(self.app.unsaved().into_iter().map(place).collect(), last);
     }
@@ -217,7 +218,7 @@ impl Session {
         first.map_or(Ok(()), Err)
     }
 
-    /// Whether the program may end: not where a text would be lost by it, before that was told.
+    /// Whether the program may end: not where a text would be lost by it, before that was reported.
     fn may_end(&mut self) -> bool {
         if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
             return true;
@@ -231,7 +232,7 @@ impl Session {
         self.app.workbench.keeps
     }
 
-    /// Has the session and the texts saved now and then. What goes wrong is told once; it will go wrong again at the end.
+    /// Has the session and the texts saved now and then. What goes wrong is reported once; it will go wrong again at the end.
     fn keep_now_and_then(&mut self, elapsed: Duration) {
         let since = &mut self.since;
         for time in [&mut since.saved, &mut since.texts, &mut since.looked] {
@@ -254,7 +255,7 @@ impl Session {
         if let Some(error) = errors.first() {
             let told = error.to_string();
             if self.warning.as_ref() != Some(&told) {
-                self.app.notice = Some(Notice::error(&told));
+                self.app.notice = Some(Notification::error(&told));
                 self.warning = Some(told);
             }
         }
@@ -268,20 +269,20 @@ impl Session {
         let mut told = vec!["The other phaselab has ended; this one saves the session now.".into()];
         told.extend(troubles);
         self.log.info(told.join(" "));
-        self.app.notice = Some(Notice::info(told.join(" ")));
+        self.app.notice = Some(Notification::info(told.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
         self.keep_texts(false);
     }
 
-    fn update(&mut self, event: Event) -> Wish {
+    fn update(&mut self, event: Event) -> ScreenRequest {
         let effects = self.app.update(event);
         self.perform(effects)
     }
 
     /// Does what the application asks for; what concerns the terminal is the stage's to do.
-    fn perform(&mut self, effects: Vec<Effect>) -> Wish {
-        let mut wish = Wish::Nothing;
+    fn perform(&mut self, effects: Vec<Effect>) -> ScreenRequest {
+        let mut wish = ScreenRequest::Nothing;
         for effect in effects {
             match effect {
                 Effect::Tell(command) => {
@@ -313,17 +314,17 @@ impl Session {
                     Ok(text) => {
                         self.update(Event::FileRead { text, asked: true });
                     }
-                    Err(why) => self.app.notice = Some(Notice::error(why.to_string())),
+                    Err(why) => self.app.notice = Some(Notification::error(why.to_string())),
                 },
-                Effect::Repaint => wish = Wish::Repaint,
-                Effect::Frames(count) => wish = Wish::Frames(count),
-                Effect::Mouse(on) => wish = Wish::Mouse(on),
+                Effect::Repaint => wish = ScreenRequest::Repaint,
+                Effect::Frames(count) => wish = ScreenRequest::Frames(count),
+                Effect::Mouse(on) => wish = ScreenRequest::Mouse(on),
                 Effect::Still => self.still(),
                 Effect::Data => self.data(),
                 Effect::Record(true) => self.record(),
                 Effect::Record(false) => self.end_recording(),
-                Effect::Suspend => wish = Wish::Suspend,
-                Effect::Quit if self.may_end() => return Wish::Quit,
+                Effect::Suspend => wish = ScreenRequest::Suspend,
+                Effect::Quit if self.may_end() => return ScreenRequest::Quit,
                 Effect::Quit => {}
             }
         }
@@ -351,7 +352,7 @@ impl Session {
         Some((lab.loaded.clone(), Arc::clone(lab.snapshot.as_ref()?)))
     }
 
-    /// Has a file written that a key asked for; what becomes of it is told.
+    /// Has a file written that a key asked for; what becomes of it is reported.
     fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
         if let Err(why) = self.job.begin(work) {
             self.told(Err(why));
@@ -370,7 +371,7 @@ impl Session {
             && let Some(name) = self.app.loading().filter(|name| is_path(name))
         {
             // what is being loaded is no longer what stands there
-            if let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) {
+            if let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) {
                 self.log.info(format!("load {name} again"));
                 self.loader.load(name.to_owned());
             }
@@ -380,7 +381,7 @@ impl Session {
             && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
         {
             // a file that was wrong from the beginning
-            let Some(News::Text { .. }) = watch.look(Path::new(name), elapsed) else {
+            let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) else {
                 return false;
             };
             let effects = self.app.again();
@@ -393,11 +394,11 @@ impl Session {
         };
         match watch.look(&place, elapsed) {
             None => return false,
-            Some(News::Gone) => {
+            Some(FileChange::Gone) => {
                 self.log.info(format!("{} is gone", place.display()));
                 self.update(Event::FileThere(false));
             }
-            Some(News::Text { text, back }) => {
+            Some(FileChange::Text { text, back }) => {
                 if back {
                     self.update(Event::FileThere(true));
                 }
@@ -419,9 +420,9 @@ impl Session {
     }
 
     /// Writes why the motion cannot go on, once.
-    fn tell_of_faults(&mut self) {
+    fn report_faults(&mut self) {
         let fault = match self.app.snapshot().map(|snapshot| &snapshot.status) {
-            Some(Status::Faulted(fault)) => {
+            Some(Status::Failed(fault)) => {
                 Some(format!("at t = {}: {}", fault.time, fault.message))
             }
             _ => None,
@@ -447,7 +448,8 @@ impl Session {
     /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
     fn still(&mut self) {
         let palette = self.palette();
-        let look = Look { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
+        let look =
+            RenderStyle { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
         let area = Rect::from(self.size);
         let mut screen = Buffer::empty(area);
         view::draw(&self.app, &look, area, &mut screen);
@@ -471,7 +473,7 @@ impl Session {
         });
     }
 
-    /// Begins to record; where that cannot be it is told, and nothing is recorded.
+    /// Begins to record; where that cannot be it is reported, and nothing is recorded.
     fn record(&mut self) {
         let palette = self.palette();
         match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
@@ -486,7 +488,7 @@ impl Session {
         let told = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
         self.log.error(&told);
         self.app.recording = false;
-        self.app.notice = Some(Notice::error(format!("{told}.")));
+        self.app.notice = Some(Notification::error(format!("{told}.")));
     }
 
     /// Ends a recording, and tells its name.
@@ -500,7 +502,7 @@ impl Session {
 
     /// What became of the recording and of the session when it ended; writes both down if that was not done yet.
     pub(super) fn left(&mut self) -> Left {
-        self.last_words(true);
+        self.on_exit(true);
         self.left.take().unwrap_or(Left { recorded: Ok(()), kept: Ok(()) })
     }
 
@@ -511,7 +513,7 @@ impl Session {
     }
 
     /// Adds where a text of a system that cannot be loaded is found.
-    fn with_text_kept(&self, mut failure: LoadFailure) -> LoadFailure {
+    fn with_text_kept(&self, mut failure: LoadError) -> LoadError {
         let place = self.store.as_ref().and_then(Store::place_of_texts);
         let kept = self.app.unsaved().iter().any(|text| text.name == failure.name);
         if let Some(place) = place.filter(|_| kept) {
@@ -522,8 +524,8 @@ impl Session {
     }
 
     /// Sets a loaded system in motion.
-    fn begin(&mut self, name: String, ready: Ready) -> Loaded {
-        let Ready { document, model, equations, system, experiment } = ready;
+    fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
+        let Prepared { document, model, equations, system, experiment } = ready;
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, document, model, equations, system }
     }
@@ -581,7 +583,7 @@ fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
 }
 
 impl Page for Session {
-    fn input(&mut self, input: Input) -> Wish {
+    fn input(&mut self, input: Input) -> ScreenRequest {
         if let Input::Mouse(Mouse { act: Act::Press, .. }) = input {
             // Not every terminal says that the button came up.
             self.app.drop_hold();
@@ -593,7 +595,7 @@ impl Page for Session {
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::spot(&self.app, &self.look, area, column, row) {
                     Some(spot) => Event::Mouse(act, spot),
-                    None => return Wish::Nothing,
+                    None => return ScreenRequest::Nothing,
                 }
             }
             Input::Focus(gained) => Event::Focus(gained),
@@ -603,7 +605,7 @@ impl Page for Session {
 
     /// Time by itself changes nothing that is worth a frame, except that a notice goes.
     fn advance(&mut self, elapsed: Duration) -> bool {
-        self.tell_of_faults();
+        self.report_faults();
         self.keep_now_and_then(elapsed);
         let noticed = self.app.notice.is_some();
         self.update(Event::Tick(elapsed));
@@ -620,7 +622,7 @@ impl Page for Session {
                 .map_err(|failure| self.with_text_kept(failure));
             self.update(Event::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
-                self.app.notice = Some(Notice::error(warning));
+                self.app.notice = Some(Notification::error(warning));
             }
             changed = true;
         }
@@ -655,7 +657,7 @@ impl Page for Session {
         self.app.is_typing()
     }
 
-    fn last_words(&mut self, hurried: bool) {
+    fn on_exit(&mut self, hurried: bool) {
         if self.left.is_some() {
             return;
         }
@@ -693,33 +695,33 @@ mod tests {
 
     use super::super::governor::Governor;
     use super::*;
-    use crate::experiment::{Experiment, Ready};
+    use crate::experiment::{Experiment, Prepared};
     use crate::view::colour::ColourDepth;
     use crate::view::frame::Frames;
     use crate::view::glyphs::Glyphs;
     use crate::view::theme::Theme;
 
     /// A system in motion, and the terminal that shows it.
-    struct Motion {
+    struct OpenSystem {
         app: App,
         experiment: Experiment,
-        look: Look,
+        look: RenderStyle,
         screen: Frames,
         size: Size,
     }
 
-    impl Motion {
+    impl OpenSystem {
         fn of(name: &str, depth: ColourDepth, (width, height): (u16, u16)) -> Self {
             let catalog = Catalog::with_folder(None);
             let document = catalog.find(name).expect("a shipped preset");
-            let ready = Ready::of(&document).expect("a preset without mistakes");
-            let Ready { document, model, equations, system, mut experiment } = ready;
+            let ready = Prepared::of(&document).expect("a preset without mistakes");
+            let Prepared { document, model, equations, system, mut experiment } = ready;
             let name = name.to_owned();
             experiment.set_epoch(1);
             let (mut app, _) = App::new(&catalog, Some(&name));
             let loaded = Loaded { name, epoch: 1, document, model, equations, system };
             app.update(Event::Loaded(Ok(loaded)));
-            let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+            let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
             Self { app, experiment, look, screen: Frames::new(true), size: Size { width, height } }
         }
 
@@ -738,7 +740,7 @@ mod tests {
 
     /// The bytes of so many frames, 30 in a second, after the first two seconds: their mean and the greatest.
     fn frames(name: &str, count: u32) -> (usize, usize) {
-        let mut motion = Motion::of(name, ColourDepth::Ansi256, (80, 24));
+        let mut motion = OpenSystem::of(name, ColourDepth::Ansi256, (80, 24));
         let frame =
             |frame: u32| motion.frame(f64::from(frame) / 30.0, usize::MAX, Detail::default());
         let bytes = (0..count + 60).map(frame).collect::<Vec<_>>().split_off(60);
@@ -768,7 +770,7 @@ mod tests {
     fn a_limit_of_the_line_is_kept_to() {
         const BUDGET: u32 = 16 * 1024;
         for size in [(80, 24), (200, 60)] {
-            let mut motion = Motion::of("double-pendulum", ColourDepth::True, size);
+            let mut motion = OpenSystem::of("double-pendulum", ColourDepth::True, size);
             let start = Instant::now();
             let mut governor = Governor::new(15, Some(BUDGET), start);
             let (mut now, mut sum, mut count) = (start, 0, 0);

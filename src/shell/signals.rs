@@ -27,7 +27,7 @@ use super::terminal::Terminal;
 const LAST_WORDS: Duration = Duration::from_millis(150);
 const SAVING: Duration = Duration::from_millis(1500);
 
-/// What ends a program that does not catch it. A thread that is to be told of SIGSEGV, SIGILL or SIGFPE would be told too
+/// What ends a program that does not catch it. A thread that is to be reported of SIGSEGV, SIGILL or SIGFPE would be reported too
 /// late, so they cannot be caught here, and SIGKILL nowhere; a real abort ends the program before the thread is awake.
 const FATAL: [i32; 15] = [
     SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
@@ -41,7 +41,7 @@ const OTHERS: [i32; 4] = [SIGTSTP, SIGCONT, SIGWINCH, SIGXFSZ];
 /// The way from the signal thread to the frame loop.
 #[derive(Debug)]
 pub(super) struct Signals {
-    posted: Arc<Mutex<Notes>>,
+    posted: Arc<Mutex<PendingSignals>>,
     wake: UnixStream,
     /// The frame loop has heard that it is to end.
     answered: Arc<AtomicBool>,
@@ -49,7 +49,7 @@ pub(super) struct Signals {
 
 /// What has happened since the last look.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Notes {
+pub(super) struct PendingSignals {
     /// The program was asked to stop (SIGTSTP).
     pub(super) stop: bool,
     /// It was stopped and goes on (SIGCONT).
@@ -66,7 +66,7 @@ impl Signals {
         let (wake, mut bell) = UnixStream::pair()?;
         wake.set_nonblocking(true)?;
         bell.set_nonblocking(true)?;
-        let posted = Arc::new(Mutex::new(Notes::default()));
+        let posted = Arc::new(Mutex::new(PendingSignals::default()));
         let board = Arc::clone(&posted);
         let heard = Arc::new(AtomicBool::new(false));
         let answered = Arc::clone(&heard);
@@ -105,11 +105,11 @@ impl Signals {
     }
 
     /// Takes the notes.
-    pub(super) fn take(&self) -> Notes {
+    pub(super) fn take(&self) -> PendingSignals {
         while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
         let mut posted = self.posted.lock().unwrap_or_else(PoisonError::into_inner);
         self.answered.fetch_or(posted.fatal.is_some(), Ordering::Release);
-        let left = Notes { fatal: posted.fatal, ..Notes::default() };
+        let left = PendingSignals { fatal: posted.fatal, ..PendingSignals::default() };
         mem::replace(&mut *posted, left)
     }
 
@@ -118,7 +118,10 @@ impl Signals {
     pub(super) fn stop(&self) -> io::Result<()> {
         // Not SIGTSTP: that is caught here, and by default it does nothing in a group that has no shell.
         kill_current_process_group(Signal::STOP)?;
-        while !matches!(self.take(), Notes { resumed: true, .. } | Notes { fatal: Some(_), .. }) {
+        while !matches!(
+            self.take(),
+            PendingSignals { resumed: true, .. } | PendingSignals { fatal: Some(_), .. }
+        ) {
             let mut fds = [PollFd::new(&self.wake, PollFlags::IN)];
             match poll(&mut fds, None) {
                 Ok(_) | Err(rustix::io::Errno::INTR) => {}

@@ -18,8 +18,8 @@ use etcetera::base_strategy::Xdg;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::file_writer::{self, FileWriter};
 use super::regular;
-use super::scribe::{self, Scribe};
 use crate::app::{Saved, Unsaved};
 
 /// The place where sessions are kept, held for as long as this lives.
@@ -37,7 +37,7 @@ pub(super) struct Store {
     waits_for: Option<PathBuf>,
     /// The file in which the texts were kept before the place of the first was taken.
     former: Option<PathBuf>,
-    scribe: Scribe,
+    file_writer: FileWriter,
     /// What is not kept and why, in sentences.
     pub(super) troubles: Vec<String>,
     /// Let go by the system, whatever becomes of the program.
@@ -64,7 +64,7 @@ const PROGRAMS: u32 = 64;
 
 /// Why sessions are not kept, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum NoStore {
+pub(super) enum StoreError {
     /// There is no place for it.
     #[error("the session will not be saved: there is no home folder to save it in")]
     NoHome,
@@ -83,7 +83,7 @@ pub(super) enum NoStore {
 
 /// Why there is no session to go on with.
 #[derive(Debug, thiserror::Error)]
-pub enum NoSession {
+pub enum SessionError {
     /// There is no home folder.
     #[error("there is no session to resume: there is no home folder it could be in")]
     NoHome,
@@ -124,29 +124,29 @@ fn place() -> Option<PathBuf> {
 
 impl Store {
     /// The usual place.
-    pub(super) fn open() -> Result<Self, NoStore> {
-        Self::at(place().ok_or(NoStore::NoHome)?)
+    pub(super) fn open() -> Result<Self, StoreError> {
+        Self::at(place().ok_or(StoreError::NoHome)?)
     }
 
-    fn at(path: PathBuf) -> Result<Self, NoStore> {
-        let refused = |reason| NoStore::Refused { path: path.clone(), reason };
+    fn at(path: PathBuf) -> Result<Self, StoreError> {
+        let refused = |reason| StoreError::Refused { path: path.clone(), reason };
         let folder = path.parent().unwrap_or(Path::new("."));
         fs::create_dir_all(folder).map_err(refused)?;
-        let scribe = Scribe::new().map_err(refused)?;
+        let file_writer = FileWriter::new().map_err(refused)?;
         if let Some(lock) = lock(&path.with_extension("lock")).map_err(refused)? {
-            return Ok(Self::first(&path, lock, scribe));
+            return Ok(Self::first(&path, lock, file_writer));
         }
         for number in 2..=PROGRAMS {
             let texts = numbered(&path, number);
             if let Some(lock) = lock(&texts.with_extension("lock")).map_err(refused)? {
-                return Ok(Self::another(path, texts, lock, scribe));
+                return Ok(Self::another(path, texts, lock, file_writer));
             }
         }
-        Err(NoStore::Taken)
+        Err(StoreError::Taken)
     }
 
     /// The store of the program that keeps the session.
-    fn first(session: &Path, lock: File, scribe: Scribe) -> Self {
+    fn first(session: &Path, lock: File, file_writer: FileWriter) -> Self {
         let mut troubles = Vec::new();
         let what = "the session will not be saved";
         let readable =
@@ -161,7 +161,7 @@ impl Store {
             failed: false,
             waits_for: None,
             former: None,
-            scribe,
+            file_writer,
             troubles,
             _lock: lock,
         };
@@ -170,7 +170,7 @@ impl Store {
     }
 
     /// The store of a program that runs beside that.
-    fn another(session: PathBuf, texts: PathBuf, lock: File, scribe: Scribe) -> Self {
+    fn another(session: PathBuf, texts: PathBuf, lock: File, file_writer: FileWriter) -> Self {
         let told = "the session will not be saved: another phaselab is running and saves its own";
         let mut troubles = vec![told.to_owned()];
         let what = "texts that are left unsaved will not be kept";
@@ -182,7 +182,7 @@ impl Store {
             failed: false,
             waits_for: Some(session),
             former: None,
-            scribe,
+            file_writer,
             troubles,
             _lock: lock,
         }
@@ -204,7 +204,7 @@ impl Store {
                 }
             }
             // theirs goes only once it stands here
-            match form(&self.known).and_then(|text| scribe::write(&texts, &text)) {
+            match form(&self.known).and_then(|text| file_writer::write(&texts, &text)) {
                 Ok(()) => {
                     // one that stays is taken up once more, which does no harm
                     let _ = fs::remove_file(&theirs);
@@ -218,11 +218,11 @@ impl Store {
     pub(super) fn take_over(&mut self) -> Option<Vec<Unsaved>> {
         let session = self.waits_for.as_ref()?;
         let lock = lock(&session.with_extension("lock")).ok().flatten()?;
-        let scribe = Scribe::new().ok()?;
+        let file_writer = FileWriter::new().ok()?;
         let session = self.waits_for.take()?;
-        let mut own = std::mem::replace(self, Self::first(&session, lock, scribe));
+        let mut own = std::mem::replace(self, Self::first(&session, lock, file_writer));
         // one that still has something to write goes on
-        std::mem::swap(&mut self.scribe, &mut own.scribe);
+        std::mem::swap(&mut self.file_writer, &mut own.file_writer);
         let found = self.known.clone();
         // what this program kept so far stands in its old file until it stands in the new one
         self.former = own.texts;
@@ -232,7 +232,7 @@ impl Store {
     /// Has a session put in the place of the last one. What goes wrong leaves that as it was.
     pub(super) fn save(&mut self, saved: Saved) {
         let Some(path) = &self.session else { return };
-        self.scribe.write(path, move || toml::to_string(&saved).map_err(io::Error::other));
+        self.file_writer.write(path, move || toml::to_string(&saved).map_err(io::Error::other));
     }
 
     /// The texts that were not saved, as they were kept last.
@@ -258,27 +258,27 @@ impl Store {
         let Some(path) = self.texts.as_ref().filter(|_| needed) else { return false };
         self.known.clone_from(&texts);
         if texts.is_empty() {
-            self.scribe.remove(path);
+            self.file_writer.remove(path);
         } else {
-            self.scribe.write(path, move || form(&texts));
+            self.file_writer.write(path, move || form(&texts));
         }
         true
     }
 
     /// There is no time any more to wait for a disk.
     pub(super) fn hurry(&self) {
-        self.scribe.hurry();
+        self.file_writer.hurry();
     }
 
     /// What went wrong since this was asked last; each error names its file.
     pub(super) fn errors(&mut self) -> Vec<io::Error> {
-        let outcomes = self.scribe.outcomes();
+        let outcomes = self.file_writer.outcomes();
         self.hear(outcomes)
     }
 
     /// The same of all that is under way, waited for no longer than that.
     pub(super) fn settle(&mut self, time: Duration) -> Vec<io::Error> {
-        let outcomes = self.scribe.settle(time);
+        let outcomes = self.file_writer.settle(time);
         self.hear(outcomes)
     }
 
@@ -291,7 +291,7 @@ impl Store {
             if done.is_ok()
                 && let Some(former) = self.former.take()
             {
-                self.scribe.remove(&former);
+                self.file_writer.remove(&former);
             }
         }
         outcomes.into_iter().filter_map(|(_, done)| done.err()).collect()
@@ -321,14 +321,14 @@ fn read_or_put_aside<T>(
     path: &Path,
     what: &str,
     troubles: &mut Vec<String>,
-    read: impl FnOnce(&Path) -> Result<T, NoSession>,
+    read: impl FnOnce(&Path) -> Result<T, SessionError>,
 ) -> Result<Option<T>, Untouchable> {
     let why = match read(path) {
         Ok(found) => return Ok(Some(found)),
         Err(why) if why.is_missing() => return Ok(None),
         Err(why) => why,
     };
-    if let NoSession::Malformed { .. } = why
+    if let SessionError::Malformed { .. } = why
         && let Some(place) = put_aside(path)
     {
         let (was, place) = (path.display(), place.display());
@@ -355,20 +355,20 @@ fn form(texts: &[Unsaved]) -> io::Result<String> {
 }
 
 /// The last session.
-pub(super) fn read() -> Result<Saved, NoSession> {
-    read_from(&place().ok_or(NoSession::NoHome)?)
+pub(super) fn read() -> Result<Saved, SessionError> {
+    read_from(&place().ok_or(SessionError::NoHome)?)
 }
 
-fn read_from(path: &Path) -> Result<Saved, NoSession> {
+fn read_from(path: &Path) -> Result<Saved, SessionError> {
     read_form(path, Saved::VERSION)
 }
 
-fn read_texts(path: &Path) -> Result<Vec<Unsaved>, NoSession> {
+fn read_texts(path: &Path) -> Result<Vec<Unsaved>, SessionError> {
     read_form(path, TEXTS_VERSION).map(|form: Kept| form.texts)
 }
 
-fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, NoSession> {
-    let unread = |reason| NoSession::Unread { path: path.to_owned(), reason };
+fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, SessionError> {
+    let unread = |reason| SessionError::Unread { path: path.to_owned(), reason };
     let text = regular::read_text(path, LONGEST).map_err(unread)?;
     // a disk without power leaves zeros, or nothing
     if text.bytes().all(|byte| byte == 0 || byte.is_ascii_whitespace()) {
@@ -378,13 +378,15 @@ fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, NoSess
     // Another form may have other keys, so its number is looked at first.
     let number = text.parse::<toml::Table>().ok().and_then(|t| t.get("version")?.as_integer());
     if let Some(found) = number.filter(|found| *found > i64::from(version)) {
-        return Err(NoSession::Newer { path: path.to_owned(), found });
+        return Err(SessionError::Newer { path: path.to_owned(), found });
     }
-    toml::from_str(&text)
-        .map_err(|error| NoSession::Malformed { path: path.to_owned(), reason: error.to_string() })
+    toml::from_str(&text).map_err(|error| SessionError::Malformed {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })
 }
 
-impl NoSession {
+impl SessionError {
     /// Whether there is nothing at all.
     fn is_missing(&self) -> bool {
         matches!(self, Self::Unread { reason, .. } if reason.kind() == io::ErrorKind::NotFound)
@@ -409,7 +411,7 @@ impl NoSession {
 mod tests {
     use super::*;
     use crate::app::{Page, Pane, Selection};
-    use crate::experiment::{Changed, Moment};
+    use crate::experiment::{Changed, Checkpoint};
 
     fn session() -> Saved {
         let g = Changed { name: "g".to_owned(), value: 1.0 / 3.0, of_file: 9.81 };
@@ -423,7 +425,11 @@ mod tests {
             selection: Selection::default(),
             edited: true,
             plots: Vec::new(),
-            moment: Moment { parameters: vec![g], speed: Some(f64::INFINITY), ..Moment::default() },
+            moment: Checkpoint {
+                parameters: vec![g],
+                speed: Some(f64::INFINITY),
+                ..Checkpoint::default()
+            },
         }
     }
 
@@ -518,7 +524,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pipe_in_the_place_of_a_file_is_told_and_not_waited_for() {
+    fn a_pipe_in_the_place_of_a_file_is_reported_and_not_waited_for() {
         use rustix::fs::{CWD, FileType, Mode, mknodat};
         let pipe = |path: &Path| {
             mknodat(CWD, path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
@@ -533,7 +539,7 @@ mod tests {
         drop(store);
         fs::remove_file(path.with_extension("lock")).expect("it goes");
         pipe(&path.with_extension("lock"));
-        assert!(matches!(Store::at(path), Err(NoStore::Refused { .. })));
+        assert!(matches!(Store::at(path), Err(StoreError::Refused { .. })));
     }
 
     #[test]
@@ -602,7 +608,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_session_is_told_in_its_place() {
+    fn what_is_no_session_is_reported_in_its_place() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("session.toml");
         let told = |text: &str| {

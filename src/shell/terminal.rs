@@ -31,7 +31,7 @@ const USUAL: (u16, u16) = (80, 24);
 
 /// Why there is no terminal to work with, as a sentence for the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoTerminal {
+pub enum TerminalError {
     /// Standard input or output is a file or a pipe.
     #[error("the laboratory needs a terminal for its input and output; {HEADLESS}")]
     Redirected,
@@ -45,14 +45,14 @@ pub enum NoTerminal {
 /// What can be done without one.
 const HEADLESS: &str = "`phaselab run PRESET` integrates without one";
 
-impl NoTerminal {
+impl TerminalError {
     /// Whether there is a terminal to work with.
-    pub(super) fn check() -> Result<(), NoTerminal> {
+    pub(super) fn check() -> Result<(), TerminalError> {
         if !isatty(rustix::stdio::stdin()) || !isatty(rustix::stdio::stdout()) {
-            return Err(NoTerminal::Redirected);
+            return Err(TerminalError::Redirected);
         }
         let dumb = env::var_os("TERM").as_deref() == Some(OsStr::new("dumb"));
-        if dumb { Err(NoTerminal::Dumb) } else { Ok(()) }
+        if dumb { Err(TerminalError::Dumb) } else { Ok(()) }
     }
 }
 
@@ -67,7 +67,7 @@ pub(super) enum Mode {
     Paste,
     /// Buttons, drags and the wheel are reported, in decimal numbers.
     Mouse,
-    /// It is told when the window gets the keyboard and loses it.
+    /// It is reported when the window gets the keyboard and loses it.
     Focus,
 }
 

@@ -4,7 +4,7 @@
 //! A changes in time.
 
 use super::{State, System};
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 
 impl System {
     /// Moves the attitude a state carries, if it carries one, to the nearest rotation, by one step
@@ -14,12 +14,13 @@ impl System {
         let Some(first) = self.attitude_place() else { return };
         let a = |i: usize, j: usize| state.exact(first + 3 * i + j);
         let product =
-            |i: usize, j: usize| (0..3).fold(Double::ZERO, |sum, k| sum + a(k, i) * a(k, j));
-        let mut turned = [[Double::ZERO; 3]; 3];
+            |i: usize, j: usize| (0..3).fold(DoubleDouble::ZERO, |sum, k| sum + a(k, i) * a(k, j));
+        let mut turned = [[DoubleDouble::ZERO; 3]; 3];
         for (i, row) in turned.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let carried = (0..3).fold(Double::ZERO, |sum, k| sum + a(i, k) * product(k, j));
-                *entry = (a(i, j) * 3.0 - carried) * 0.5;
+                let auxiliary =
+                    (0..3).fold(DoubleDouble::ZERO, |sum, k| sum + a(i, k) * product(k, j));
+                *entry = (a(i, j) * 3.0 - auxiliary) * 0.5;
             }
         }
         for (place, entry) in turned.iter().flatten().enumerate() {

@@ -3,13 +3,13 @@
 //! In: states (q, q̇). Out: whether they lie on the branch of the first. Two branches meet where
 //! det ∂²L/∂q̇² vanishes, and it has another sign beyond. Never here: velocities found from momenta.
 
-use super::value::Values;
+use super::value::Evaluator;
 use super::{Form, State, System};
 
 /// The branch of the state it was asked for; holds its own registers.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    momenta: Values<f64>,
+    momenta: Evaluator<f64>,
     degrees: usize,
     numbers: Vec<f64>,
     positive: bool,
@@ -17,12 +17,12 @@ pub struct Branch {
 
 impl System {
     /// The branch of a state (q, q̇); `None` where momenta have one velocity only, or where it
-    /// cannot be told.
+    /// cannot be reported.
     pub fn branch(&self, state: &State, parameters: &[f64]) -> Option<Branch> {
         if !self.has_branches() || state.form != Form::Velocity {
             return None;
         }
-        let mut momenta = Values::new(self.legendre_program());
+        let mut momenta = Evaluator::new(self.legendre_program());
         momenta.set_parameters(&self.inputs(parameters));
         let degrees = self.degrees();
         let numbers = vec![0.0; 2 * degrees];

@@ -2,29 +2,30 @@
 
 use std::sync::Arc;
 
-use super::beginning::Known;
-use super::constrained::{Constrained, Holding};
-use super::fault::{Fault, FaultKind};
-use super::hold::Hold;
-use super::legendre::{self, Legendre, Unsolved};
-use super::moments::Moments;
-use super::motion::{Quadratures, Split, Writer};
+use super::consistent_initial::Known;
+use super::constrained::{ActiveSet, Constrained};
+use super::error::{MotionError, MotionErrorKind};
+use super::inertia::Inertia;
+use super::kkt::ConstraintSystem;
+use super::legendre::{self, Legendre, LegendreError};
+use super::observables::{ObservableList, Observables};
 use super::program::{Program, Singular};
+use super::rhs::{ProgramBuilder, Quadratures, Split};
 use super::terms::{Quantities, TermWatch, Terms};
-use super::value::Values;
-use super::watch::{List, Watch};
-use super::{Channel, Form, Given, Observer, Occasions, State};
+use super::value::Evaluator;
+use super::{Channel, Discontinuities, Form, InitialOverride, Observer, State};
 use crate::cancel::Cancel;
-use crate::expr::{Double, Expr, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{self, Model};
+use crate::num::DoubleDouble;
 
 /// A model lowered to numbers. Immutable and cheap to clone: steppers and observers share it and
 /// hold their own registers.
 #[derive(Clone, Debug)]
 pub struct System {
     shared: Arc<Shared>,
-    holding: Holding,
+    holding: ActiveSet,
     cancel: Cancel,
 }
 
@@ -34,16 +35,16 @@ struct Shared {
     /// How many coordinates or variables there are.
     degrees: usize,
     quadratures: Quadratures,
-    motion: Motion,
-    watch: Watch,
+    motion: MotionPrograms,
+    watch: Observables,
     terms: Terms,
-    occasions: Occasions,
-    moments: Option<Moments>,
+    discontinuities: Discontinuities,
+    inertia: Option<Inertia>,
     legendre: Arc<Program>,
     /// Where among the numbers carried along an attitude begins.
     attitude: Option<usize>,
     /// Of a state in the native form: the numbers carried along, as they start.
-    carried: Arc<Program>,
+    auxiliary: Arc<Program>,
     /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
     initial: Arc<Program>,
     constraints: Option<Constrained>,
@@ -55,7 +56,7 @@ struct Shared {
 
 /// The equations of motion, in every form a method may ask for.
 #[derive(Debug)]
-pub(super) struct Motion {
+pub(super) struct MotionPrograms {
     /// Of a state in the native form.
     pub(super) native: Arc<Program>,
     /// Of a state (q, p); where the flag is false, of (q, q̇).
@@ -66,7 +67,7 @@ pub(super) struct Motion {
 
 /// What the file says of a rate at the start.
 fn known(coordinate: &model::Coordinate) -> Known {
-    if coordinate.rate_given { Known::Given } else { Known::LeftOut }
+    if coordinate.rate_given { Known::InitialOverride } else { Known::LeftOut }
 }
 
 /// Why a model cannot be compiled.
@@ -89,33 +90,34 @@ impl System {
         extra: &[model::Channel],
     ) -> Result<System, CompileError> {
         let mut equations = equations.clone();
-        let list = List::of(model, &mut equations, extra);
+        let list = ObservableList::of(model, &mut equations, extra);
         let quantities = Quantities::of(&mut equations);
         let quadratures = Quadratures {
             action: list.depends(&equations, equations.symbols.action),
             work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
         };
-        let mut writer = Writer {
+        let mut builder = ProgramBuilder {
             pool: equations.pool.clone(),
             parameters: model.parameters.iter().map(|p| p.symbol).collect(),
             equations: &equations,
             quadratures,
-            hold: Hold::default(),
+            kkt: ConstraintSystem::default(),
         };
         let unknown =
             |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
-        let moments = Moments::of(model, &mut writer).map_err(unknown)?;
-        writer.parameters.extend(moments.iter().flat_map(|m| m.names().to_vec()));
-        let constraints = Constrained::of(model, &mut writer, moments.as_ref()).map_err(unknown)?;
+        let inertia = Inertia::of(model, &mut builder).map_err(unknown)?;
+        builder.parameters.extend(inertia.iter().flat_map(|m| m.names().to_vec()));
+        let constraints =
+            Constrained::of(model, &mut builder, inertia.as_ref()).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
         let shared =
-            Self::write(model, &mut writer, (list, quantities), constraints).map_err(unknown)?;
-        if writer.pool.is_full() {
+            Self::write(model, &mut builder, (list, quantities), constraints).map_err(unknown)?;
+        if builder.pool.is_full() {
             return Err(CompileError::TooLarge);
         }
         let holding = holding.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
-        Ok(System { shared: Arc::new(Shared { moments, ..shared }), holding, cancel })
+        Ok(System { shared: Arc::new(Shared { inertia, ..shared }), holding, cancel })
     }
 
     /// The token by which work with this system is stopped: that of the pool it was made from.
@@ -125,46 +127,49 @@ impl System {
 
     fn write(
         model: &Model,
-        writer: &mut Writer<'_>,
-        (list, quantities): (List, Quantities),
+        builder: &mut ProgramBuilder<'_>,
+        (list, quantities): (ObservableList, Quantities),
         constraints: Option<Constrained>,
     ) -> Result<Shared, Symbol> {
-        let split = match writer.split() {
+        let split = match builder.split() {
             Some(split) => Ok(split?),
-            None => Err(match (&writer.equations.hamiltonian, &writer.equations.separable) {
+            None => Err(match (&builder.equations.hamiltonian, &builder.equations.separable) {
                 (_, Err(why)) | (Err(why), _) => why.to_string(),
                 _ => String::new(),
             }),
         };
-        let motion =
-            Motion { native: writer.native_rates()?, canonical: writer.canonical_rates()?, split };
-        let mut lowering = writer.lowering();
+        let motion = MotionPrograms {
+            native: builder.native_rates()?,
+            canonical: builder.canonical_rates()?,
+            split,
+        };
+        let mut lowering = builder.lowering();
         let coordinates = &model.coordinates;
         let mut outputs: Vec<_> = coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
         outputs.extend(coordinates.iter().map(|c| lowering.lower(c.initial_rate)));
         let periods = coordinates.iter().map(|c| c.period.unwrap_or(Expr::ZERO));
         outputs.extend(periods.map(|e| lowering.lower(e)));
         let initial = lowering.finish(outputs)?;
-        let energy = writer.equations.energy;
-        let mut lowering = writer.on_native_state();
+        let energy = builder.equations.energy;
+        let mut lowering = builder.on_native_state();
         let outputs = vec![lowering.lower(energy)];
         let energy = lowering.finish(outputs)?;
         Ok(Shared {
-            native: writer.native(),
+            native: builder.native(),
             degrees: coordinates.len(),
-            quadratures: writer.quadratures,
+            quadratures: builder.quadratures,
             motion,
-            legendre: legendre::program(writer)?,
+            legendre: legendre::program(builder)?,
             initial,
             constraints,
-            attitude: writer.attitude(),
-            carried: writer.carried_start()?,
+            attitude: builder.attitude(),
+            auxiliary: builder.auxiliary_start()?,
             known: coordinates.iter().map(known).collect(),
             energy,
-            occasions: Occasions::of(model, writer)?,
-            watch: list.compile(writer)?,
-            terms: quantities.compile(writer)?,
-            moments: None,
+            discontinuities: Discontinuities::of(model, builder)?,
+            watch: list.compile(builder)?,
+            terms: quantities.compile(builder)?,
+            inertia: None,
         })
     }
 
@@ -181,13 +186,13 @@ impl System {
 
     /// The same and the numbers that are carried along beside the motion: all that rates of change
     /// depend on.
-    pub fn driven(&self) -> usize {
-        self.moving() + self.shared.carried.outputs()
+    pub fn driven_len(&self) -> usize {
+        self.moving() + self.shared.auxiliary.outputs()
     }
 
     /// How many numbers a state has: those that rates depend on, and the integrals.
     pub fn state_len(&self) -> usize {
-        self.driven() + self.shared.quadratures.count()
+        self.driven_len() + self.shared.quadratures.count()
     }
 
     /// Whether the rates of change have kinks or jumps: of `abs`, `sign`, `min`, `max`.
@@ -235,20 +240,25 @@ impl System {
         (0..self.moving()).map(|i| values.output(i).high).collect()
     }
 
-    fn initial_program(&self, parameters: &[Double]) -> Values<Double> {
-        let mut values = Values::new(Arc::clone(&self.shared.initial));
+    fn initial_program(&self, parameters: &[DoubleDouble]) -> Evaluator<DoubleDouble> {
+        let mut values = Evaluator::new(Arc::clone(&self.shared.initial));
         values.set_parameters(parameters);
         values
     }
 
     /// The initial state at these parameters; `given` values take the place of the file's.
-    pub fn initial(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    pub fn initial(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let mut state = self.begin(start, parameters, given)?;
-        let program = &self.shared.carried;
+        let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
-            let mut values: Values<Double> = Values::new(Arc::clone(program));
+            let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
             values.set_parameters(&self.inputs(parameters));
-            let numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+            let numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
             let found = values.evaluate(state.exact_time(), &numbers);
             found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
             for i in 0..program.outputs() {
@@ -260,32 +270,37 @@ impl System {
     }
 
     /// The initial state but for the numbers carried along.
-    fn begin(&self, start: f64, parameters: &[f64], given: &[Given]) -> Result<State, Fault> {
+    fn begin(
+        &self,
+        start: f64,
+        parameters: &[f64],
+        given: &[InitialOverride],
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let inputs = self.inputs(parameters);
         let values = self.initial_program(&inputs);
-        let mut state: Vec<Double> = (0..self.moving()).map(|i| values.output(i)).collect();
+        let mut state: Vec<DoubleDouble> = (0..self.moving()).map(|i| values.output(i)).collect();
         let mut targets = vec![None; n];
         let mut known = self.shared.known.clone();
         for &given in given {
             match (given, self.form()) {
-                (Given::Position(i, x), _) => state[i] = Double::written(x),
-                (Given::Velocity(i, x), Form::Velocity)
-                | (Given::Momentum(i, x), Form::Momentum) => {
-                    (state[n + i], targets[i]) = (Double::written(x), None);
-                    known[i] = Known::Given;
+                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::written(x),
+                (InitialOverride::Velocity(i, x), Form::Velocity)
+                | (InitialOverride::Momentum(i, x), Form::Momentum) => {
+                    (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
+                    known[i] = Known::InitialOverride;
                 }
-                (Given::Velocity(i, x) | Given::Momentum(i, x), _) => {
-                    targets[i] = Some(Double::written(x));
-                    known[i] = Known::Momentum(Double::written(x));
+                (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
+                    targets[i] = Some(DoubleDouble::written(x));
+                    known[i] = Known::Momentum(DoubleDouble::written(x));
                 }
             }
         }
-        let time = Double::written(start);
+        let time = DoubleDouble::written(start);
         if self.constraints() > 0 {
             let state = self.state_of(time, self.form(), &state);
             self.check_finite(&state)?;
-            return self.begin_held(state, &known, parameters);
+            return self.begin_on_constraints(state, &known, parameters);
         }
         if targets.iter().any(Option::is_some) {
             let mut legendre = self.legendre(&inputs);
@@ -304,7 +319,12 @@ impl System {
 
     /// The same state in another form. Where several velocities belong to the momenta, those are
     /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
-    pub fn convert(&self, state: &State, form: Form, parameters: &[f64]) -> Result<State, Fault> {
+    pub fn convert(
+        &self,
+        state: &State,
+        form: Form,
+        parameters: &[f64],
+    ) -> Result<State, MotionError> {
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
         if state.form != form && self.has_branches() && form == self.form() {
@@ -320,11 +340,11 @@ impl System {
         &self,
         legendre: &mut Legendre,
         state: &State,
-        rates: Vec<Double>,
-    ) -> Result<State, Fault> {
+        rates: Vec<DoubleDouble>,
+    ) -> Result<State, MotionError> {
         let n = self.degrees();
         let targets: Vec<_> = (n..2 * n).map(|i| Some(state.exact(i))).collect();
-        let mut numbers: Vec<Double> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..n).map(|i| state.exact(i)).chain(rates).collect();
         let outcome = legendre.solve(state.exact_time(), &mut numbers, &targets);
         outcome.map_err(|why| self.unsolved(why, state.time, &numbers))?;
         let mut result = state.clone();
@@ -350,18 +370,18 @@ impl System {
         state: &State,
         old: &[f64],
         new: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form != Form::Velocity {
             return Ok(state.clone());
         }
         let mut legendre = self.legendre(&self.inputs(old));
         let canonical = self.convert_by(&mut legendre, state, Form::Momentum, None)?;
-        if let Some(mut keeper) = self.keeper(new) {
+        if let Some(mut projector) = self.projector(new) {
             let n = self.degrees();
-            let target: Vec<Double> = (n..2 * n).map(|i| canonical.exact(i)).collect();
+            let target: Vec<DoubleDouble> = (n..2 * n).map(|i| canonical.exact(i)).collect();
             let mut after = state.clone();
-            keeper.project(&mut after)?;
-            return Ok(self.strike(&after, &target, new)?.0);
+            projector.project(&mut after)?;
+            return Ok(self.impulse_outcome(&after, &target, new)?.0);
         }
         legendre.set_parameters(&self.inputs(new));
         self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
@@ -374,7 +394,7 @@ impl System {
         state: &State,
         form: Form,
         guess: Option<&State>,
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         if state.form == form {
             return Ok(state.clone());
         }
@@ -382,18 +402,18 @@ impl System {
         let time = state.exact_time();
         let mut result = state.clone();
         result.form = form;
-        let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let outcome = if form == legendre.native() {
             let targets: Vec<_> = numbers[n..].iter().copied().map(Some).collect();
             for i in n..2 * n {
-                numbers[i] = guess.map_or(Double::ZERO, |guess| guess.exact(i));
+                numbers[i] = guess.map_or(DoubleDouble::ZERO, |guess| guess.exact(i));
             }
             match guess {
                 Some(_) => legendre.follow(time, &mut numbers, &targets),
                 None => legendre.solve(time, &mut numbers, &targets),
             }
         } else {
-            let mut other = vec![Double::ZERO; n];
+            let mut other = vec![DoubleDouble::ZERO; n];
             let outcome = legendre.other_rates(time, &numbers, &mut other);
             numbers[n..].copy_from_slice(&other);
             outcome
@@ -413,23 +433,25 @@ impl System {
         state: &State,
         near: &State,
         parameters: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let mut legendre = self.legendre(&self.inputs(parameters));
         self.convert_by(&mut legendre, state, self.form(), Some(near))
     }
 
     /// The inputs of programs that look at states: a state in the system's own form, then action
     /// and work, zero where they are not carried.
-    pub(super) fn inputs_of(&self, state: &State, out: &mut [Double]) {
-        let driven = self.driven();
-        for (i, x) in out[..driven].iter_mut().enumerate() {
+    pub(super) fn inputs_of(&self, state: &State, out: &mut [DoubleDouble]) {
+        let driven_len = self.driven_len();
+        for (i, x) in out[..driven_len].iter_mut().enumerate() {
             *x = state.exact(i);
         }
         let quadratures = self.quadratures();
-        let mut next = driven;
-        for (carried, place) in [(quadratures.action, driven), (quadratures.work, driven + 1)] {
-            out[place] = Double::ZERO;
-            if carried {
+        let mut next = driven_len;
+        for (auxiliary, place) in
+            [(quadratures.action, driven_len), (quadratures.work, driven_len + 1)]
+        {
+            out[place] = DoubleDouble::ZERO;
+            if auxiliary {
                 out[place] = state.exact(next);
                 next += 1;
             }
@@ -450,15 +472,19 @@ impl System {
     /// Where a state carries the work done on it.
     pub(super) fn work_place(&self) -> Option<usize> {
         let quadratures = self.quadratures();
-        quadratures.work.then(|| self.driven() + usize::from(quadratures.action))
+        quadratures.work.then(|| self.driven_len() + usize::from(quadratures.action))
     }
 
     /// The energy of a state in the system's own form.
-    pub(super) fn energy_of(&self, state: &State, parameters: &[f64]) -> Result<Double, Fault> {
+    pub(super) fn energy_of(
+        &self,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<DoubleDouble, MotionError> {
         let program = self.energy_program();
-        let mut values: Values<Double> = Values::new(Arc::clone(&program));
+        let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&program));
         values.set_parameters(&self.inputs(parameters));
-        let numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let found = values.evaluate(state.exact_time(), &numbers);
         found.map_err(|why| self.singular(&program, why, state.time, &state.values))?;
         Ok(values.output(0))
@@ -466,17 +492,21 @@ impl System {
 
     /// A fault where a state in the system's own form has no finite energy: where its Lagrangian
     /// or Hamiltonian has no value, though its derivatives may have.
-    pub(crate) fn check_energy(&self, state: &State, parameters: &[f64]) -> Result<(), Fault> {
+    pub(crate) fn check_energy(
+        &self,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<(), MotionError> {
         if self.energy_of(state, parameters)?.is_finite() {
             return Ok(());
         }
-        let kind = FaultKind::NotFinite("the energy".to_owned());
+        let kind = MotionErrorKind::NotFinite("the energy".to_owned());
         Err(self.fault(kind, state.time, &state.values))
     }
 
     /// What may happen to its motions.
-    pub fn occasions(&self) -> &Occasions {
-        &self.shared.occasions
+    pub fn discontinuities(&self) -> &Discontinuities {
+        &self.shared.discontinuities
     }
 
     /// What looks at states of this system.
@@ -493,21 +523,22 @@ impl System {
         self.shared.constraints.as_ref()
     }
 
-    pub(super) fn holding(&self) -> &Holding {
+    pub(super) fn holding(&self) -> &ActiveSet {
         &self.holding
     }
 
     /// The same system with other constraints held.
-    pub(super) fn with_holding(&self, holding: Holding) -> System {
+    pub(super) fn with_holding(&self, holding: ActiveSet) -> System {
         System { shared: Arc::clone(&self.shared), holding, cancel: self.cancel.clone() }
     }
 
     /// What programs are given for parameters: their values as the decimals they are written as,
     /// and what follows from them.
-    pub fn inputs(&self, parameters: &[f64]) -> Vec<Double> {
-        let mut inputs: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
-        if let Some(moments) = &self.shared.moments {
-            inputs.extend(moments.values(&inputs));
+    pub fn inputs(&self, parameters: &[f64]) -> Vec<DoubleDouble> {
+        let mut inputs: Vec<DoubleDouble> =
+            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+        if let Some(inertia) = &self.shared.inertia {
+            inputs.extend(inertia.values(&inputs));
         }
         if let Some(constraints) = self.constrained().filter(|c| c.switched) {
             inputs.extend(self.holding.switches(constraints.names.len()));
@@ -518,17 +549,18 @@ impl System {
     /// What the names of the file's body stand for at these parameters; nothing where there is no
     /// body.
     pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
-        let Some(moments) = &self.shared.moments else { return Vec::new() };
-        let written: Vec<Double> = parameters.iter().map(|&x| Double::written(x)).collect();
-        let values = moments.values(&written).into_iter().map(|x| x.high);
-        moments.names().iter().copied().zip(values).collect()
+        let Some(inertia) = &self.shared.inertia else { return Vec::new() };
+        let written: Vec<DoubleDouble> =
+            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+        let values = inertia.values(&written).into_iter().map(|x| x.high);
+        inertia.names().iter().copied().zip(values).collect()
     }
 
-    pub(super) fn watch(&self) -> &Watch {
+    pub(super) fn watch(&self) -> &Observables {
         &self.shared.watch
     }
 
-    pub(super) fn motion(&self) -> &Motion {
+    pub(super) fn motion(&self) -> &MotionPrograms {
         &self.shared.motion
     }
 
@@ -545,7 +577,7 @@ impl System {
     }
 
     /// The relation between velocities and momenta at these parameters.
-    pub(super) fn legendre(&self, parameters: &[Double]) -> Legendre {
+    pub(super) fn legendre(&self, parameters: &[DoubleDouble]) -> Legendre {
         let mut legendre = self.blank_legendre();
         legendre.set_parameters(parameters);
         legendre
@@ -556,7 +588,7 @@ impl System {
         Legendre::new(Arc::clone(&self.shared.legendre), self.form())
     }
 
-    fn state_of(&self, time: Double, form: Form, numbers: &[Double]) -> State {
+    fn state_of(&self, time: DoubleDouble, form: Form, numbers: &[DoubleDouble]) -> State {
         let mut state = State::new(time.high, form, vec![0.0; self.state_len()]);
         state.time_carry = time.low;
         for (i, &x) in numbers.iter().enumerate() {
@@ -566,11 +598,11 @@ impl System {
     }
 
     /// A fault where a number of a state is not finite.
-    pub fn check_finite(&self, state: &State) -> Result<(), Fault> {
+    pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
         match state.values.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
             Some(i) => {
-                let name = FaultKind::NotFinite(self.name_of(i, state.form));
+                let name = MotionErrorKind::NotFinite(self.name_of(i, state.form));
                 Err(self.fault(name, state.time, &state.values))
             }
         }
@@ -591,10 +623,10 @@ impl System {
     }
 
     /// A fault at a state, told with its coordinates.
-    pub fn fault(&self, kind: FaultKind, time: f64, values: &[f64]) -> Fault {
+    pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
         let named = self.channels().iter().zip(values).take(self.degrees().min(4));
         let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
-        Fault { time, kind, place: place.collect() }
+        MotionError { time, kind, place: place.collect() }
     }
 
     /// The fault of a singular matrix, told with the coordinates the matrix depends on.
@@ -604,36 +636,49 @@ impl System {
         singular: Singular,
         time: f64,
         values: &[f64],
-    ) -> Fault {
+    ) -> MotionError {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
         let held = self.constraints() > 0;
-        let kind =
-            if held { FaultKind::SingularConstraints(None) } else { FaultKind::SingularMass };
-        Fault { time, kind, place: place.take(4).collect() }
+        let kind = if held {
+            MotionErrorKind::SingularConstraints(None)
+        } else {
+            MotionErrorKind::SingularMass
+        };
+        MotionError { time, kind, place: place.take(4).collect() }
     }
 
     /// The fault of given momenta (or velocities) that do not say with which rates the motion
     /// starts.
-    fn several(&self, time: f64, solutions: &[Vec<Double>], targets: &[Option<Double>]) -> Fault {
+    fn several(
+        &self,
+        time: f64,
+        solutions: &[Vec<DoubleDouble>],
+        targets: &[Option<DoubleDouble>],
+    ) -> MotionError {
         let n = self.degrees();
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         let first = if self.form() == Form::Momentum { 2 * n } else { n };
-        let told = |solution: &Vec<Double>| {
+        let told = |solution: &Vec<DoubleDouble>| {
             let rate = |&i: &usize| {
                 format!("{} = {}", self.channels()[first + i].name, solution[n + i].high)
             };
             unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
         };
-        let kind = FaultKind::SeveralStarts(solutions.iter().map(told).collect());
-        Fault { time, kind, place: Vec::new() }
+        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(told).collect());
+        MotionError { time, kind, place: Vec::new() }
     }
 
     /// The fault of a relation between velocities and momenta that was not solved.
-    pub(super) fn unsolved(&self, why: Unsolved, time: f64, numbers: &[Double]) -> Fault {
+    pub(super) fn unsolved(
+        &self,
+        why: LegendreError,
+        time: f64,
+        numbers: &[DoubleDouble],
+    ) -> MotionError {
         let kind = match why {
-            Unsolved::Singular => FaultKind::SingularMass,
-            Unsolved::NotConverging => FaultKind::NoVelocities,
+            LegendreError::Singular => MotionErrorKind::SingularMass,
+            LegendreError::NotConverging => MotionErrorKind::NoVelocities,
         };
         let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
         self.fault(kind, time, &values)

@@ -5,11 +5,12 @@
 
 use std::sync::Arc;
 
-use super::motion::Writer;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::solve::Factored;
-use super::value::Values;
-use crate::expr::{Double, Expr, Symbol};
+use super::value::Evaluator;
+use crate::expr::{Expr, Symbol};
+use crate::num::DoubleDouble;
 
 /// A row whose part independent of the rows before it is smaller than this, measured by the row,
 /// says nothing new.
@@ -35,23 +36,23 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    pub(super) fn of(writer: &mut Writer<'_>) -> Result<Programs, Symbol> {
+    pub(super) fn of(builder: &mut ProgramBuilder<'_>) -> Result<Programs, Symbol> {
         let mut values = Vec::new();
-        for row in &writer.equations.constraints {
+        for row in &builder.equations.constraints {
             values.extend_from_slice(&row.row);
             values.push(row.rate);
             values.push(row.position.unwrap_or(Expr::ZERO));
         }
-        let pool = &mut writer.pool;
-        let sizes = values.iter().flat_map(|&e| [pool.size_of_terms(e), pool.size_of_inputs(e)]);
+        let pool = &mut builder.pool;
+        let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
         let sizes: Vec<Expr> = sizes.collect();
-        Ok(Programs { values: program(writer, &values)?, sizes: program(writer, &sizes)? })
+        Ok(Programs { values: program(builder, &values)?, sizes: program(builder, &sizes)? })
     }
 }
 
-fn program(writer: &mut Writer<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
-    let equations = writer.equations;
-    let mut lowering = writer.lowering();
+fn program(builder: &mut ProgramBuilder<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
+    let equations = builder.equations;
+    let mut lowering = builder.lowering();
     for c in &equations.coordinates {
         let register = lowering.input();
         lowering.bind(c.position, register);
@@ -63,7 +64,7 @@ fn program(writer: &mut Writer<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Sy
 /// A residual, and what it is to be measured by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residual {
-    pub(super) value: Double,
+    pub(super) value: DoubleDouble,
     /// The size of the terms it is the sum of.
     pub(super) size: f64,
     /// How much its inputs move it, by as much as they are: Σ |s ∂/∂s|. It is large also where all
@@ -88,8 +89,8 @@ impl Residual {
 /// The constraints of one system at one set of parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Conditions {
-    values: Values<Double>,
-    sizes: Values<f64>,
+    values: Evaluator<DoubleDouble>,
+    sizes: Evaluator<f64>,
     rounded: Vec<f64>,
     degrees: usize,
     count: usize,
@@ -99,15 +100,15 @@ impl Conditions {
     pub(super) fn new(programs: &Programs, count: usize) -> Conditions {
         let degrees = programs.values.inputs();
         Conditions {
-            values: Values::new(Arc::clone(&programs.values)),
-            sizes: Values::new(Arc::clone(&programs.sizes)),
+            values: Evaluator::new(Arc::clone(&programs.values)),
+            sizes: Evaluator::new(Arc::clone(&programs.sizes)),
             rounded: vec![0.0; degrees],
             degrees,
             count,
         }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.values.set_parameters(parameters);
         self.sizes.set_parameters(parameters);
     }
@@ -122,8 +123,8 @@ impl Conditions {
         self.count
     }
 
-    /// Looks at a time and coordinates; all else is told of these.
-    pub(super) fn look(&mut self, time: Double, positions: &[Double]) {
+    /// Looks at a time and coordinates; all else is reported of these.
+    pub(super) fn look(&mut self, time: DoubleDouble, positions: &[DoubleDouble]) {
         let positions = &positions[..self.degrees];
         self.rounded.iter_mut().zip(positions).for_each(|(rounded, x)| *rounded = x.high);
         // the programs hold no equations to be solved, so they cannot meet a singular matrix
@@ -131,7 +132,7 @@ impl Conditions {
         let _regular = self.sizes.evaluate(time.high, &self.rounded);
     }
 
-    fn output(&self, constraint: usize, place: usize) -> Double {
+    fn output(&self, constraint: usize, place: usize) -> DoubleDouble {
         self.values.output(constraint * (self.degrees + 2) + place)
     }
 
@@ -140,7 +141,7 @@ impl Conditions {
         self.sizes.output(2 * (constraint * (self.degrees + 2) + place))
     }
 
-    /// How much the inputs of what stands at this place move it; zero where that cannot be told, as
+    /// How much the inputs of what stands at this place move it; zero where that cannot be reported, as
     /// at the tip of a root.
     fn inputs(&self, constraint: usize, place: usize) -> f64 {
         let inputs = self.sizes.output(2 * (constraint * (self.degrees + 2) + place) + 1);
@@ -148,12 +149,12 @@ impl Conditions {
     }
 
     /// A of one constraint and one coordinate.
-    pub(super) fn entry(&self, constraint: usize, coordinate: usize) -> Double {
+    pub(super) fn entry(&self, constraint: usize, coordinate: usize) -> DoubleDouble {
         self.output(constraint, coordinate)
     }
 
     /// A₀ of one constraint.
-    pub(super) fn rate(&self, constraint: usize) -> Double {
+    pub(super) fn rate(&self, constraint: usize) -> DoubleDouble {
         self.output(constraint, self.degrees)
     }
 
@@ -168,7 +169,7 @@ impl Conditions {
     }
 
     /// A q̇ + A₀.
-    pub(super) fn velocity(&self, constraint: usize, velocities: &[Double]) -> Residual {
+    pub(super) fn velocity(&self, constraint: usize, velocities: &[DoubleDouble]) -> Residual {
         let mut value = self.output(constraint, self.degrees);
         let mut size = self.size(constraint, self.degrees);
         let mut inputs = self.inputs(constraint, self.degrees);
@@ -182,13 +183,13 @@ impl Conditions {
     }
 
     /// The multipliers of least norm of all `active` constraints that do what those of the `held`
-    /// ones do: λ = B (BᵀB)⁻¹ G ν, as in `hold`.
+    /// ones do: λ = B (BᵀB)⁻¹ G ν, as in `kkt`.
     pub(super) fn least(
         &self,
         active: &[bool],
         held: &[bool],
-        held_only: Vec<Double>,
-    ) -> Vec<Double> {
+        held_only: Vec<DoubleDouble>,
+    ) -> Vec<DoubleDouble> {
         if active == held {
             return held_only;
         }
@@ -196,20 +197,22 @@ impl Conditions {
         let (all, independent) = (rows(active), rows(held));
         let product = |a: usize, b: usize| {
             let terms = (0..self.degrees).map(|i| self.entry(a, i) * self.entry(b, i));
-            terms.fold(Double::ZERO, |sum, x| sum + x)
+            terms.fold(DoubleDouble::ZERO, |sum, x| sum + x)
         };
-        let sum = |terms: &mut dyn Iterator<Item = Double>| terms.fold(Double::ZERO, |s, x| s + x);
-        let b: Vec<Vec<Double>> =
+        let sum = |terms: &mut dyn Iterator<Item = DoubleDouble>| {
+            terms.fold(DoubleDouble::ZERO, |s, x| s + x)
+        };
+        let b: Vec<Vec<DoubleDouble>> =
             all.iter().map(|&k| independent.iter().map(|&j| product(k, j)).collect()).collect();
         let force =
             |&j: &usize| sum(&mut independent.iter().map(|&k| product(j, k) * held_only[k]));
-        let mut weights: Vec<Double> = independent.iter().map(force).collect();
+        let mut weights: Vec<DoubleDouble> = independent.iter().map(force).collect();
         let mut factored = Factored::new(independent.len());
         if !factored.factor(|i, j| sum(&mut b.iter().map(|row| row[i] * row[j]))) {
             return held_only;
         }
         factored.solve(&mut weights);
-        let mut least = vec![Double::ZERO; self.count];
+        let mut least = vec![DoubleDouble::ZERO; self.count];
         for (&k, row) in all.iter().zip(&b) {
             least[k] = sum(&mut row.iter().zip(&weights).map(|(&x, &w)| x * w));
         }

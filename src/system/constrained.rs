@@ -1,20 +1,21 @@
 //! The constraints of a compiled system: which are held, and states that keep them.
 //!
-//! In: states, blows, the wish to let a constraint go. Out: states on the constraints, reactions,
+//! In: states, impulses, the wish to let a constraint go. Out: states on the constraints, reactions,
 //! residuals. Never here: the forces of constraint along the motion; these are outputs of the
 //! programs.
 
-use super::beginning::{self, Known, NoBeginning};
 use super::conditions::{Conditions, Programs, Span};
-use super::fault::{Fault, FaultKind};
-use super::hold::Hold;
-use super::kept::{Failure, Kept};
-use super::moments::Moments;
-use super::motion::Writer;
-use super::value::Values;
+use super::consistent_initial::{self, InconsistentStart, Known};
+use super::error::{MotionError, MotionErrorKind};
+use super::inertia::Inertia;
+use super::kkt::ConstraintSystem;
+use super::projection::{Projection, ProjectionError};
+use super::rhs::ProgramBuilder;
+use super::value::Evaluator;
 use super::{Form, State, System};
-use crate::expr::{Double, Expr, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Model};
+use crate::num::DoubleDouble;
 
 /// What is known of the constraints before any state.
 #[derive(Clone, Debug)]
@@ -29,43 +30,43 @@ pub(super) struct Constrained {
 
 /// Which constraints are held.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub(super) struct Holding {
+pub(super) struct ActiveSet {
     /// Those that were not released.
     active: Vec<bool>,
     /// Those of them whose multipliers are solved for; the others repeat what these say.
     held: Vec<bool>,
 }
 
-impl Holding {
+impl ActiveSet {
     /// The switches of the programs: held and active, of each constraint.
-    pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = Double> {
-        let number = |on: bool| if on { Double::ONE } else { Double::ZERO };
+    pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = DoubleDouble> {
+        let number = |on: bool| if on { DoubleDouble::ONE } else { DoubleDouble::ZERO };
         (0..count).flat_map(move |k| [number(self.held[k]), number(self.active[k])])
     }
 }
 
 impl Constrained {
-    /// Looks at the constraints where the file starts the motion, and has `writer` write their
+    /// Looks at the constraints where the file starts the motion, and has `builder` write their
     /// multipliers accordingly.
     pub(super) fn of(
         model: &Model,
-        writer: &mut Writer<'_>,
-        moments: Option<&Moments>,
-    ) -> Result<Option<(Constrained, Holding)>, Symbol> {
-        let rows = &writer.equations.constraints;
+        builder: &mut ProgramBuilder<'_>,
+        inertia: Option<&Inertia>,
+    ) -> Result<Option<(Constrained, ActiveSet)>, Symbol> {
+        let rows = &builder.equations.constraints;
         if rows.is_empty() {
             // the mass matrix alone
-            writer.hold = Hold::of(&mut writer.pool, writer.equations, false, false);
+            builder.kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, false, false);
             return Ok(None);
         }
-        let programs = Programs::of(writer)?;
-        let held = independent_at_start(model, writer, &programs, moments)?;
+        let programs = Programs::of(builder)?;
+        let held = independent_at_start(model, builder, &programs, inertia)?;
         let redundant = held.contains(&false);
         let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
         let switched = redundant || released;
-        let hold = Hold::of(&mut writer.pool, writer.equations, switched, redundant);
-        writer.parameters.extend(hold.switches.iter().flat_map(|s| [s.held, s.active]));
-        writer.hold = hold;
+        let kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, switched, redundant);
+        builder.parameters.extend(kkt.switches.iter().flat_map(|s| [s.held, s.active]));
+        builder.kkt = kkt;
         let constrained = Constrained {
             programs,
             touched: (0..model.coordinates.len())
@@ -75,32 +76,33 @@ impl Constrained {
             switched,
         };
         let active = vec![true; rows.len()];
-        Ok(Some((constrained, Holding { active, held })))
+        Ok(Some((constrained, ActiveSet { active, held })))
     }
 }
 
 /// Which constraints are independent of those before them where the file starts the motion.
 fn independent_at_start(
     model: &Model,
-    writer: &mut Writer<'_>,
+    builder: &mut ProgramBuilder<'_>,
     programs: &Programs,
-    moments: Option<&Moments>,
+    inertia: Option<&Inertia>,
 ) -> Result<Vec<bool>, Symbol> {
-    let count = writer.equations.constraints.len();
-    let mut lowering = writer.lowering();
+    let count = builder.equations.constraints.len();
+    let mut lowering = builder.lowering();
     let outputs = model.coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
     let start = lowering.finish(outputs)?;
-    let mut parameters: Vec<Double> =
-        model.parameters.iter().map(|p| Double::written(p.value)).collect();
-    if let Some(moments) = moments {
-        parameters.extend(moments.values(&parameters));
+    let mut parameters: Vec<DoubleDouble> =
+        model.parameters.iter().map(|p| DoubleDouble::written(p.value)).collect();
+    if let Some(inertia) = inertia {
+        parameters.extend(inertia.values(&parameters));
     }
-    let mut values: Values<Double> = Values::new(start);
+    let mut values: Evaluator<DoubleDouble> = Evaluator::new(start);
     values.set_parameters(&parameters);
-    let positions: Vec<Double> = (0..model.coordinates.len()).map(|i| values.output(i)).collect();
+    let positions: Vec<DoubleDouble> =
+        (0..model.coordinates.len()).map(|i| values.output(i)).collect();
     let mut conditions = Conditions::new(programs, count);
     conditions.set_parameters(&parameters);
-    conditions.look(Double::written(model.run.start), &positions);
+    conditions.look(DoubleDouble::written(model.run.start), &positions);
     Ok(conditions.independent(&vec![true; count]))
 }
 
@@ -130,13 +132,13 @@ impl Directions {
 /// Keeps the states of one system on its constraints, at one set of parameters; holds its own
 /// registers.
 #[derive(Clone, Debug)]
-pub struct Keeper {
+pub struct ConstraintProjector {
     system: System,
-    kept: Kept,
-    numbers: Vec<Double>,
+    kept: Projection,
+    numbers: Vec<DoubleDouble>,
 }
 
-impl Keeper {
+impl ConstraintProjector {
     /// Takes these parameters from now on.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.kept.set_parameters(&self.system.inputs(parameters));
@@ -153,23 +155,23 @@ impl Keeper {
     ///
     /// # Errors
     /// Where no state nearby keeps them, or their directions coincide.
-    pub fn project(&mut self, state: &mut State) -> Result<(), Fault> {
+    pub fn project(&mut self, state: &mut State) -> Result<(), MotionError> {
         self.load(state);
         let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
         if let Err(why) = outcome {
             let singular = self.is_nearly_singular(state, None);
-            let why = if singular { Failure::Singular } else { why };
+            let why = if singular { ProjectionError::Singular } else { why };
             return Err(self.system.lost(why, state));
         }
         // one that repeated the others where the motion began may have come to contradict them
-        let Holding { active, held } = self.system.holding();
+        let ActiveSet { active, held } = self.system.holding();
         let conditions = self.kept.conditions();
         let velocities = &self.numbers[self.system.degrees()..];
         for k in (0..active.len()).filter(|&k| active[k] && !held[k]) {
             let off = conditions.position(k).relative();
             let off = off.max(conditions.velocity(k, velocities).relative());
-            if off.is_nan() || off > beginning::GIVEN_WITHIN {
-                return Err(self.system.lost(Failure::Parted(k), state));
+            if off.is_nan() || off > consistent_initial::GIVEN_WITHIN {
+                return Err(self.system.lost(ProjectionError::Parted(k), state));
             }
         }
         for (i, &x) in self.numbers.iter().enumerate() {
@@ -230,7 +232,7 @@ impl System {
     /// the motion. Their multipliers are those of least norm.
     pub fn redundant(&self) -> Vec<&str> {
         let Some(constrained) = self.constrained() else { return Vec::new() };
-        let Holding { active, held } = self.holding();
+        let ActiveSet { active, held } = self.holding();
         let names = constrained.names.iter().enumerate();
         names.filter(|&(k, _)| active[k] && !held[k]).map(|(_, name)| name.as_str()).collect()
     }
@@ -258,14 +260,14 @@ impl System {
     fn holding_only(&self, active: Vec<bool>, state: &State, parameters: &[f64]) -> System {
         let Some(conditions) = self.conditions(parameters, state) else { return self.clone() };
         let held = conditions.independent(&active);
-        self.with_holding(Holding { active, held })
+        self.with_holding(ActiveSet { active, held })
     }
 
     /// The same system with others of its constraints held, where those that are have come to
     /// depend on each other and others do not; `None` where there is nothing to be gained.
     #[must_use]
     pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
-        let Holding { active, held } = self.holding();
+        let ActiveSet { active, held } = self.holding();
         if active == held {
             return None;
         }
@@ -278,120 +280,131 @@ impl System {
         let better = conditions.most_independent(active, count)?;
         let gained = conditions.strength(active, &better) > GAINED * now;
         let active = active.clone();
-        gained.then(|| self.with_holding(Holding { active, held: better }))
+        gained.then(|| self.with_holding(ActiveSet { active, held: better }))
     }
 
     fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
         let constrained = self.constrained()?;
         let mut conditions = Conditions::new(&constrained.programs, self.constraints());
         conditions.set_parameters(&self.inputs(parameters));
-        let positions: Vec<Double> = (0..self.degrees()).map(|i| state.exact(i)).collect();
+        let positions: Vec<DoubleDouble> = (0..self.degrees()).map(|i| state.exact(i)).collect();
         conditions.look(state.exact_time(), &positions);
         Some(conditions)
     }
 
     /// What keeps states on the constraints; `None` where there are none.
-    pub fn keeper(&self, parameters: &[f64]) -> Option<Keeper> {
+    pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
         let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
-        let momenta = Values::new(self.legendre_program());
-        let kept = Kept::new(conditions, momenta, &self.holding().held);
-        let numbers = vec![Double::ZERO; self.moving()];
-        let mut keeper = Keeper { system: self.clone(), kept, numbers };
-        keeper.set_parameters(parameters);
-        Some(keeper)
+        let momenta = Evaluator::new(self.legendre_program());
+        let kept = Projection::new(conditions, momenta, &self.holding().held);
+        let numbers = vec![DoubleDouble::ZERO; self.moving()];
+        let mut projector = ConstraintProjector { system: self.clone(), kept, numbers };
+        projector.set_parameters(parameters);
+        Some(projector)
     }
 
     /// A₀ of each constraint at a state.
-    pub(super) fn constraint_rates(&self, state: &State, parameters: &[f64]) -> Vec<Double> {
+    pub(super) fn constraint_rates(&self, state: &State, parameters: &[f64]) -> Vec<DoubleDouble> {
         let conditions = self.conditions(parameters, state);
         conditions.map_or(Vec::new(), |c| (0..c.count()).map(|k| c.rate(k)).collect())
     }
 
     /// The state that momenta `target` and the constraints give, with q kept and q̇ of `state` as
     /// the first guess, and the reactions Λ of the constraints (none where there are none).
-    pub(super) fn strike(
+    pub(super) fn impulse_outcome(
         &self,
         state: &State,
-        target: &[Double],
+        target: &[DoubleDouble],
         parameters: &[f64],
-    ) -> Result<(State, Vec<f64>), Fault> {
-        let Some(mut keeper) = self.keeper(parameters) else { return Ok((state.clone(), vec![])) };
-        keeper.load(state);
-        let outcome = keeper.kept.strike(state.exact_time(), &mut keeper.numbers, target);
-        let reactions = outcome.map_err(|why| self.unsolved(why, state.time, &keeper.numbers))?;
-        let Holding { active, held } = self.holding();
-        let reactions = keeper.kept.conditions().least(active, held, reactions);
+    ) -> Result<(State, Vec<f64>), MotionError> {
+        let Some(mut projector) = self.projector(parameters) else {
+            return Ok((state.clone(), vec![]));
+        };
+        projector.load(state);
+        let outcome =
+            projector.kept.impulse_outcome(state.exact_time(), &mut projector.numbers, target);
+        let reactions =
+            outcome.map_err(|why| self.unsolved(why, state.time, &projector.numbers))?;
+        let ActiveSet { active, held } = self.holding();
+        let reactions = projector.kept.conditions().least(active, held, reactions);
         let mut after = state.clone();
         after.form = Form::Velocity;
-        for (i, &x) in keeper.numbers.iter().enumerate() {
+        for (i, &x) in projector.numbers.iter().enumerate() {
             after.set(i, x);
         }
         Ok((after, reactions.iter().map(|x| x.high).collect()))
     }
 
     /// The velocities of a state that begins under constraints, by what is known of them.
-    pub(super) fn begin_held(
+    pub(super) fn begin_on_constraints(
         &self,
         mut state: State,
         known: &[Known],
         parameters: &[f64],
-    ) -> Result<State, Fault> {
+    ) -> Result<State, MotionError> {
         let Some(constrained) = self.constrained() else { return Ok(state) };
         let Some(conditions) = self.conditions(parameters, &state) else { return Ok(state) };
         let missed = |k: usize, part: f64| {
-            let kind = FaultKind::ConstraintMissed(constrained.names[k].clone(), part);
+            let kind = MotionErrorKind::ConstraintMissed(constrained.names[k].clone(), part);
             self.fault(kind, state.time, &state.values)
         };
         for k in 0..self.constraints() {
             let part = conditions.position(k).missed();
-            if part.is_nan() || part > beginning::GIVEN_WITHIN {
+            if part.is_nan() || part > consistent_initial::GIVEN_WITHIN {
                 return Err(missed(k, part));
             }
         }
         if conditions.independence(&self.holding().held) == 0.0 {
-            return Err(self.lost(Failure::Singular, &state));
+            return Err(self.lost(ProjectionError::Singular, &state));
         }
-        let mut momenta = Values::new(self.legendre_program());
+        let mut momenta = Evaluator::new(self.legendre_program());
         momenta.set_parameters(&self.inputs(parameters));
-        let mut numbers: Vec<Double> = (0..self.moving()).map(|i| state.exact(i)).collect();
+        let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let time = state.exact_time();
         // what no constraint speaks of rests, as it would without any
         let known: Vec<Known> = known
             .iter()
             .zip(&constrained.touched)
             .map(|(&known, &touched)| match known {
-                Known::LeftOut if !touched => Known::Given,
+                Known::LeftOut if !touched => Known::InitialOverride,
                 other => other,
             })
             .collect();
-        let found = beginning::begin(&conditions, &mut momenta, time, &mut numbers, &known);
+        let found =
+            consistent_initial::begin(&conditions, &mut momenta, time, &mut numbers, &known);
         found.map_err(|why| match why {
-            NoBeginning::Missed(k, part) => missed(k, part),
-            NoBeginning::Free(free) => {
+            InconsistentStart::Missed(k, part) => missed(k, part),
+            InconsistentStart::Free(free) => {
                 let n = self.degrees();
                 let names = free.iter().map(|i| self.channels()[n + i].name.clone()).collect();
-                let kind = FaultKind::FreeVelocities(names);
-                Fault { time: state.time, kind, place: Vec::new() }
+                let kind = MotionErrorKind::FreeVelocities(names);
+                MotionError { time: state.time, kind, place: Vec::new() }
             }
-            NoBeginning::Contradiction => {
-                self.fault(FaultKind::Contradiction, state.time, &state.values)
+            InconsistentStart::Contradiction => {
+                self.fault(MotionErrorKind::Contradiction, state.time, &state.values)
             }
-            NoBeginning::Unsolved(why) => self.unsolved(why, state.time, &numbers),
+            InconsistentStart::LegendreError(why) => self.unsolved(why, state.time, &numbers),
         })?;
         for (i, &x) in numbers.iter().enumerate() {
             state.set(i, x);
         }
-        if let Some(mut keeper) = self.keeper(parameters) {
-            keeper.project(&mut state)?;
+        if let Some(mut projector) = self.projector(parameters) {
+            projector.project(&mut state)?;
         }
         Ok(state)
     }
 
-    fn lost(&self, why: Failure, state: &State) -> Fault {
+    fn lost(&self, why: ProjectionError, state: &State) -> MotionError {
         let kind = match (why, self.constrained()) {
-            (Failure::Lost(k), Some(c)) => FaultKind::ConstraintLost(c.names[k].clone()),
-            (Failure::Parted(k), Some(c)) => FaultKind::ConstraintParted(c.names[k].clone()),
-            (Failure::Singular, _) | (_, None) => FaultKind::SingularConstraints(None),
+            (ProjectionError::Lost(k), Some(c)) => {
+                MotionErrorKind::ConstraintLost(c.names[k].clone())
+            }
+            (ProjectionError::Parted(k), Some(c)) => {
+                MotionErrorKind::ConstraintParted(c.names[k].clone())
+            }
+            (ProjectionError::Singular, _) | (_, None) => {
+                MotionErrorKind::SingularConstraints(None)
+            }
         };
         self.fault(kind, state.time, &state.values)
     }

@@ -5,36 +5,40 @@
 use std::sync::Arc;
 
 use super::program::Program;
-use super::value::Values;
-use super::{Fault, System};
-use crate::expr::Double;
+use super::value::Evaluator;
+use super::{MotionError, System};
+use crate::num::DoubleDouble;
 
 /// The rates of change of states in the native form of a system. Holds its own registers.
 #[derive(Clone, Debug)]
 pub struct ExactRates {
     system: System,
     program: Arc<Program>,
-    values: Values<Double>,
+    values: Evaluator<DoubleDouble>,
 }
 
 impl System {
     /// Rates of change of states in [`System::form`], in double-double.
     pub fn exact_rates(&self) -> ExactRates {
         let program = Arc::clone(&self.motion().native);
-        let values = Values::new(Arc::clone(&program));
+        let values = Evaluator::new(Arc::clone(&program));
         ExactRates { system: self.clone(), program, values }
     }
 }
 
 impl ExactRates {
     /// Sets the parameters; to be called once at least.
-    pub fn set_parameters(&mut self, parameters: &[Double]) {
+    pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.values.set_parameters(parameters);
     }
 
     /// Evaluates at a time and at the numbers of a state.
-    pub fn evaluate(&mut self, time: Double, numbers: &[Double]) -> Result<(), Fault> {
-        let outcome = self.values.evaluate(time, &numbers[..self.system.driven()]);
+    pub fn evaluate(
+        &mut self,
+        time: DoubleDouble,
+        numbers: &[DoubleDouble],
+    ) -> Result<(), MotionError> {
+        let outcome = self.values.evaluate(time, &numbers[..self.system.driven_len()]);
         outcome.map_err(|singular| {
             let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
             self.system.singular(&self.program, singular, time.high, &values)
@@ -47,7 +51,7 @@ impl ExactRates {
     }
 
     /// The rate of a number of the state.
-    pub fn rate(&self, i: usize) -> Double {
+    pub fn rate(&self, i: usize) -> DoubleDouble {
         self.values.output(i)
     }
 

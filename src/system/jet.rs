@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use super::program::{LIVE_POWER_BITS, Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::expr::{Double, FunctionId, Real, Rule};
+use crate::expr::{FunctionId, Rule};
+use crate::num::{DoubleDouble, Real};
 
 /// Which branch the functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,7 +61,7 @@ impl<R: Real> Jet<R> {
     }
 
     /// Sets the parameters and evaluates everything that depends on them alone.
-    pub fn set_parameters(&mut self, parameters: &[Double]) {
+    pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         let program = Arc::clone(&self.program);
         for &r in &program.prologue {
             match program.ops[r as usize] {
@@ -192,7 +193,7 @@ impl<R: Real> Jet<R> {
             Op::Divide(a, b) => quotient(series(a)[k], series(b), own, k),
             Op::Root(a) => root(series(a), own, k),
             Op::Power(a, exponent) => power(series(a), constant(exponent), own, k),
-            Op::LivePower(a, exponent) => {
+            Op::ParametricPower(a, exponent) => {
                 live_power(series(a), series(exponent)[0].double(), own, k, stride)
             }
             Op::Call(function, [a, b]) => {
@@ -297,7 +298,7 @@ fn root<R: Real>(a: &[R], y: &[R], k: usize) -> R {
 }
 
 /// `y = a^α`: `y_k = Σ_{j=0}^{k−1} (α (k − j) − j) a_{k−j} y_j / (k a_0)`.
-fn power<R: Real>(a: &[R], exponent: Double, y: &[R], k: usize) -> R {
+fn power<R: Real>(a: &[R], exponent: DoubleDouble, y: &[R], k: usize) -> R {
     if k == 0 {
         return a[0].power(exponent);
     }
@@ -320,7 +321,13 @@ fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
 /// `y = a^n` with `n` known at run time. An integer is taken by repeated squares, which is good
 /// at the zeros of `a` too: behind `y` stand, bit by bit of the exponent, the square and the
 /// product of those wanted so far.
-fn live_power<R: Real>(a: &[R], exponent: Double, own: &mut [R], k: usize, stride: usize) -> R {
+fn live_power<R: Real>(
+    a: &[R],
+    exponent: DoubleDouble,
+    own: &mut [R],
+    k: usize,
+    stride: usize,
+) -> R {
     let n = exponent.high;
     if exponent.low != 0.0 || n.fract() != 0.0 || n.abs() >= f64::from(1 << LIVE_POWER_BITS) {
         return power(a, exponent, own, k);

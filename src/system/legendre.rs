@@ -7,13 +7,14 @@
 
 use std::sync::Arc;
 
-use super::motion::Writer;
 use super::program::{Program, Singular};
+use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::state::Form;
-use super::value::Values;
-use crate::expr::{Double, Expr, Symbol, portable};
+use super::value::Evaluator;
+use crate::expr::{Expr, Symbol};
 use crate::mechanics::Flow;
+use crate::num::{DoubleDouble, math};
 
 /// How often a step may be halved, and how many steps there may be.
 const HALVINGS: u32 = 60;
@@ -48,8 +49,8 @@ const ELSEWHERE: [f64; 10] = [-1.0, 0.5, -0.5, 2.0, -2.0, 0.1, -0.1, 10.0, -10.0
 
 /// The relation's program: of a state in the native form, the other rates, then the matrix of
 /// their derivatives with respect to the native ones.
-pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
-    let equations = writer.equations;
+pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
+    let equations = builder.equations;
     let (rates, matrix): (Vec<Expr>, Vec<Expr>) = match &equations.flow {
         Flow::Lagrange { mass, .. } => {
             (equations.momenta.clone(), mass.iter().flatten().copied().collect())
@@ -59,13 +60,13 @@ pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
             let mut matrix = Vec::new();
             for &v in velocities {
                 for c in &equations.coordinates {
-                    matrix.push(writer.pool.derivative(v, c.momentum));
+                    matrix.push(builder.pool.derivative(v, c.momentum));
                 }
             }
             (velocities.clone(), matrix)
         }
     };
-    let mut lowering = writer.on_native_state();
+    let mut lowering = builder.on_native_state();
     let mut outputs = lowering.lower_all(&rates);
     outputs.extend(lowering.lower_all(&matrix));
     lowering.finish(outputs)
@@ -73,16 +74,16 @@ pub(super) fn program(writer: &mut Writer<'_>) -> Result<Arc<Program>, Symbol> {
 
 /// Why no solution was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Unsolved {
+pub(super) enum LegendreError {
     /// The matrix of derivatives is singular.
     Singular,
     /// The iteration does not come to rest.
     NotConverging,
 }
 
-impl From<Singular> for Unsolved {
-    fn from(_: Singular) -> Unsolved {
-        Unsolved::Singular
+impl From<Singular> for LegendreError {
+    fn from(_: Singular) -> LegendreError {
+        LegendreError::Singular
     }
 }
 
@@ -90,20 +91,20 @@ impl From<Singular> for Unsolved {
 #[derive(Clone, Debug)]
 pub(super) struct Legendre {
     native: Form,
-    values: Values<Double>,
+    values: Evaluator<DoubleDouble>,
     degrees: usize,
     /// (q, native rates).
-    state: Vec<Double>,
+    state: Vec<DoubleDouble>,
 }
 
 impl Legendre {
     pub(super) fn new(program: Arc<Program>, native: Form) -> Legendre {
         let degrees = program.inputs() / 2;
-        let state = vec![Double::ZERO; 2 * degrees];
-        Legendre { native, values: Values::new(program), degrees, state }
+        let state = vec![DoubleDouble::ZERO; 2 * degrees];
+        Legendre { native, values: Evaluator::new(program), degrees, state }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.values.set_parameters(parameters);
     }
 
@@ -115,10 +116,10 @@ impl Legendre {
     /// The other rates of a state (q, native rates), into `out`.
     pub(super) fn other_rates(
         &mut self,
-        time: Double,
-        state: &[Double],
-        out: &mut [Double],
-    ) -> Result<(), Unsolved> {
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+        out: &mut [DoubleDouble],
+    ) -> Result<(), LegendreError> {
         self.values.evaluate(time, &state[..2 * self.degrees])?;
         for (i, x) in out[..self.degrees].iter_mut().enumerate() {
             *x = self.values.output(i);
@@ -131,10 +132,10 @@ impl Legendre {
     /// does not lead to a solution, rest is tried.
     pub(super) fn solve(
         &mut self,
-        time: Double,
-        state: &mut [Double],
-        targets: &[Option<Double>],
-    ) -> Result<(), Unsolved> {
+        time: DoubleDouble,
+        state: &mut [DoubleDouble],
+        targets: &[Option<DoubleDouble>],
+    ) -> Result<(), LegendreError> {
         let n = self.degrees;
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         self.state.copy_from_slice(&state[..2 * n]);
@@ -142,11 +143,12 @@ impl Legendre {
         if found.is_err() {
             self.state.copy_from_slice(&state[..2 * n]);
             for &i in &unknown {
-                self.state[n + i] = Double::ZERO;
+                self.state[n + i] = DoubleDouble::ZERO;
             }
             found = self.iterate(time, targets, &unknown);
         }
-        if let (Err(Unsolved::NotConverging | Unsolved::Singular), [only]) = (&found, &unknown[..])
+        if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only]) =
+            (&found, &unknown[..])
         {
             found = self.between_signs(time, state, targets, *only);
         }
@@ -159,22 +161,22 @@ impl Legendre {
     /// there. It is looked for on both sides of zero and of the guess, far and near.
     fn between_signs(
         &mut self,
-        time: Double,
-        state: &[Double],
-        targets: &[Option<Double>],
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+        targets: &[Option<DoubleDouble>],
         i: usize,
-    ) -> Result<f64, Unsolved> {
+    ) -> Result<f64, LegendreError> {
         let n = self.degrees;
         let guess = state[n + i].high;
-        let far = (-FARTHEST..=FARTHEST).map(|k| portable::powi(2.0, k));
+        let far = (-FARTHEST..=FARTHEST).map(|k| math::powi(2.0, k));
         let mut places: Vec<f64> =
             far.flat_map(|x| [x, -x, guess + x, guess - x]).chain([0.0, guess]).collect();
         places.sort_by(f64::total_cmp);
         places.dedup();
         self.state.copy_from_slice(&state[..2 * n]);
         let missed = |own: &mut Legendre, x: f64| {
-            own.state[n + i] = Double::from(x);
-            let mut out = [Double::ZERO];
+            own.state[n + i] = DoubleDouble::from(x);
+            let mut out = [DoubleDouble::ZERO];
             own.missing(time, targets, &[i], &mut [0.0], &mut out).ok()?;
             Some(out[0].high).filter(|x| !x.is_nan())
         };
@@ -199,23 +201,23 @@ impl Legendre {
                     None => break,
                 }
             }
-            self.state[n + i] = Double::from(0.5 * (a + b));
+            self.state[n + i] = DoubleDouble::from(0.5 * (a + b));
             // a pole changes the sign as well
             if let Ok(left) = self.iterate(time, targets, &[i]) {
                 return Ok(left);
             }
         }
-        Err(Unsolved::NotConverging)
+        Err(LegendreError::NotConverging)
     }
 
     /// The same, but along the branch of solutions that the first guess, which belongs to momenta
     /// nearby, lies on; where that ends, there is no solution.
     pub(super) fn follow(
         &mut self,
-        time: Double,
-        state: &mut [Double],
-        targets: &[Option<Double>],
-    ) -> Result<(), Unsolved> {
+        time: DoubleDouble,
+        state: &mut [DoubleDouble],
+        targets: &[Option<DoubleDouble>],
+    ) -> Result<(), LegendreError> {
         let n = self.degrees;
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         self.state.copy_from_slice(&state[..2 * n]);
@@ -230,15 +232,15 @@ impl Legendre {
     /// From the momenta that belong to the guess to those wanted, in ever smaller parts.
     fn go_in_parts(
         &mut self,
-        time: Double,
-        guess: &[Double],
-        targets: &[Option<Double>],
+        time: DoubleDouble,
+        guess: &[DoubleDouble],
+        targets: &[Option<DoubleDouble>],
         unknown: &[usize],
-    ) -> Result<(), Unsolved> {
+    ) -> Result<(), LegendreError> {
         let n = self.degrees;
         self.values.evaluate(time, &guess[..2 * n])?;
-        let begin: Vec<Double> = (0..n).map(|i| self.values.output(i)).collect();
-        let mut outcome = Err(Unsolved::NotConverging);
+        let begin: Vec<DoubleDouble> = (0..n).map(|i| self.values.output(i)).collect();
+        let mut outcome = Err(LegendreError::NotConverging);
         for parts in PARTS {
             self.state.copy_from_slice(&guess[..2 * n]);
             for part in 1..=parts {
@@ -247,7 +249,7 @@ impl Legendre {
                 let targets: Vec<_> = (0..n).map(between).collect();
                 outcome = match self.iterate(time, &targets, unknown) {
                     Ok(left) if left <= TAME => Ok(()),
-                    Ok(_) => Err(Unsolved::NotConverging),
+                    Ok(_) => Err(LegendreError::NotConverging),
                     Err(why) => Err(why),
                 };
                 if outcome.is_err() {
@@ -266,14 +268,14 @@ impl Legendre {
     /// signs.
     pub(super) fn solutions(
         &mut self,
-        time: Double,
-        state: &[Double],
-        targets: &[Option<Double>],
-    ) -> Vec<Vec<Double>> {
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+        targets: &[Option<DoubleDouble>],
+    ) -> Vec<Vec<DoubleDouble>> {
         let n = self.degrees;
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         let first = state[..2 * n].to_vec();
-        let size = |x: &[Double], i: usize| x[n + i].high.abs();
+        let size = |x: &[DoubleDouble], i: usize| x[n + i].high.abs();
         let largest = unknown.iter().map(|&i| size(&first, i)).fold(0.0, f64::max);
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let mut starts = Vec::new();
@@ -281,7 +283,7 @@ impl Legendre {
             let own = if size(&first, i) > 0.0 { size(&first, i) } else { largest };
             for part in ELSEWHERE {
                 let mut start = first.clone();
-                start[n + i] = Double::from(part * own);
+                start[n + i] = DoubleDouble::from(part * own);
                 starts.push(start);
             }
         }
@@ -294,7 +296,7 @@ impl Legendre {
             if self.iterate(time, targets, &unknown).is_err() {
                 continue;
             }
-            let alike = |known: &Vec<Double>| {
+            let alike = |known: &Vec<DoubleDouble>| {
                 unknown.iter().all(|&i| {
                     let apart = (known[n + i] - self.state[n + i]).high.abs();
                     apart <= ALIKE * size(known, i).max(size(&self.state, i)).max(ALIKE * largest)
@@ -311,16 +313,16 @@ impl Legendre {
     /// step left.
     fn iterate(
         &mut self,
-        time: Double,
-        targets: &[Option<Double>],
+        time: DoubleDouble,
+        targets: &[Option<DoubleDouble>],
         unknown: &[usize],
-    ) -> Result<f64, Unsolved> {
+    ) -> Result<f64, LegendreError> {
         let n = self.degrees;
         let mut factored = Factored::new(unknown.len());
         // of the equations where a step begins, and where it ends: never of a trial far off
         let mut scales = vec![0.0; unknown.len()];
         let mut scales_there = scales.clone();
-        let mut step = vec![Double::ZERO; unknown.len()];
+        let mut step = vec![DoubleDouble::ZERO; unknown.len()];
         self.missing(time, targets, unknown, &mut scales, &mut step)?;
         let mut left = None;
         let mut last_change = f64::INFINITY;
@@ -328,13 +330,13 @@ impl Legendre {
             let values = &self.values;
             let regular = factored.factor(|i, j| values.output(n + unknown[i] * n + unknown[j]));
             if !regular {
-                return Err(Unsolved::Singular);
+                return Err(LegendreError::Singular);
             }
             let missed = step.clone();
             factored.solve(&mut step);
-            let before: Vec<Double> = unknown.iter().map(|&i| self.state[n + i]).collect();
+            let before: Vec<DoubleDouble> = unknown.iter().map(|&i| self.state[n + i]).collect();
             let mut size = 1.0;
-            let mut next = vec![Double::ZERO; unknown.len()];
+            let mut next = vec![DoubleDouble::ZERO; unknown.len()];
             let mut change = 0.0_f64;
             let (mut old, mut new) = (f64::INFINITY, f64::INFINITY);
             for halving in 0..=HALVINGS {
@@ -356,7 +358,7 @@ impl Legendre {
                     break;
                 }
                 if halving == HALVINGS {
-                    return Err(Unsolved::NotConverging);
+                    return Err(LegendreError::NotConverging);
                 }
                 size *= 0.5;
             }
@@ -374,23 +376,23 @@ impl Legendre {
             last_change = change;
             step.copy_from_slice(&next);
         }
-        Err(Unsolved::NotConverging)
+        Err(LegendreError::NotConverging)
     }
 
     /// target − value where there is a target, into `out`, and the size of the terms of
     /// each equation into `scales`.
     fn missing(
         &mut self,
-        time: Double,
-        targets: &[Option<Double>],
+        time: DoubleDouble,
+        targets: &[Option<DoubleDouble>],
         unknown: &[usize],
         scales: &mut [f64],
-        out: &mut [Double],
-    ) -> Result<(), Unsolved> {
+        out: &mut [DoubleDouble],
+    ) -> Result<(), LegendreError> {
         let n = self.degrees;
         self.values.evaluate(time, &self.state)?;
         for ((x, scale), &i) in out.iter_mut().zip(scales).zip(unknown) {
-            let (target, value) = (targets[i].unwrap_or(Double::ZERO), self.values.output(i));
+            let (target, value) = (targets[i].unwrap_or(DoubleDouble::ZERO), self.values.output(i));
             *x = target - value;
             let part = |j: usize| (self.values.output(n + i * n + j) * self.state[n + j]).high;
             let parts: f64 = (0..n).map(|j| part(j).abs()).sum();
@@ -401,7 +403,7 @@ impl Legendre {
 }
 
 /// The largest part of its terms that an equation misses.
-fn largest(missing: &[Double], scales: &[f64]) -> f64 {
+fn largest(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
     let parts = missing.iter().zip(scales).map(|(x, &scale)| match x.high {
         0.0 => 0.0,
         x if x.is_finite() && scale > 0.0 => x.abs() / scale,

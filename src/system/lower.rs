@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::program::{Block, Guard, LIVE_POWER_BITS, Op, Program, Register, Term};
-use crate::expr::{Branches, Double, Expr, FunctionId, Node, Number, Pool, Rule, Symbol};
+use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule, Symbol};
+use crate::num::{DoubleDouble, Number};
 
 /// A program being written.
 #[derive(Debug)]
@@ -37,7 +38,7 @@ impl<'a> Lowering<'a> {
             unknown: None,
             cuts: false,
         };
-        lowering.constant_index(Double::ZERO);
+        lowering.constant_index(DoubleDouble::ZERO);
         for (i, &symbol) in parameters.iter().enumerate() {
             let register = lowering.push(Op::Parameter(i as u32));
             lowering.bind(symbol, register);
@@ -212,7 +213,7 @@ impl<'a> Lowering<'a> {
                 [first as usize..(first + count) as usize]
                 .iter()
                 .all(|term| self.is_fixed(term.register)),
-            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::LivePower(a, b) => {
+            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
                 self.is_fixed(a) && self.is_fixed(b)
             }
             Op::Square(a) | Op::Root(a) | Op::Power(a, _) => self.is_fixed(a),
@@ -234,7 +235,7 @@ impl<'a> Lowering<'a> {
         self.program.fixed[register as usize]
     }
 
-    fn constant_index(&mut self, x: Double) -> u32 {
+    fn constant_index(&mut self, x: DoubleDouble) -> u32 {
         let key = (x.high.to_bits(), x.low.to_bits());
         let next = self.program.constants.len() as u32;
         let index = *self.constants.entry(key).or_insert(next);
@@ -244,7 +245,7 @@ impl<'a> Lowering<'a> {
         index
     }
 
-    fn constant(&mut self, x: Double) -> Register {
+    fn constant(&mut self, x: DoubleDouble) -> Register {
         let index = self.constant_index(x);
         self.push(Op::Constant(index))
     }
@@ -285,10 +286,10 @@ impl<'a> Lowering<'a> {
     fn lower_node(&mut self, e: Expr) -> Register {
         match self.pool.node(e).clone() {
             Node::Number(n) => self.constant(n.double()),
-            Node::Pi => self.constant(Double::PI),
+            Node::Pi => self.constant(DoubleDouble::PI),
             Node::Symbol(symbol) => {
                 self.unknown.get_or_insert(symbol);
-                self.constant(Double::from(f64::NAN))
+                self.constant(DoubleDouble::from(f64::NAN))
             }
             Node::Sum(constant, terms) => {
                 let terms: Vec<(Number, Register)> =
@@ -322,13 +323,13 @@ impl<'a> Lowering<'a> {
             fixed = Some(fixed.map_or(above, |c| self.multiply(c, above)));
         }
         if let Some(below) = parts[1] {
-            let above = fixed.unwrap_or_else(|| self.constant(Double::ONE));
+            let above = fixed.unwrap_or_else(|| self.constant(DoubleDouble::ONE));
             fixed = Some(self.push(Op::Divide(above, below)));
         }
         let above = match (fixed, parts[2]) {
             (Some(fixed), Some(above)) => self.multiply(fixed, above),
             (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => self.constant(Double::ONE),
+            (None, None) => self.constant(DoubleDouble::ONE),
         };
         parts[3].map_or(above, |below| self.push(Op::Divide(above, below)))
     }
@@ -411,7 +412,7 @@ impl<'a> Lowering<'a> {
 
     fn lower_power(&mut self, base: Register, exponent: Register) -> Register {
         if self.is_fixed(exponent) {
-            let register = self.push(Op::LivePower(base, exponent));
+            let register = self.push(Op::ParametricPower(base, exponent));
             self.make_room(register, 2 * LIVE_POWER_BITS);
             return register;
         }

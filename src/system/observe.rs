@@ -1,38 +1,38 @@
 //! Looking at a state: every channel's value.
 
 use super::legendre::Legendre;
-use super::value::Values;
-use super::{Fault, Form, State, System};
-use crate::expr::{Double, Real};
+use super::value::Evaluator;
+use super::{Form, MotionError, State, System};
+use crate::num::{DoubleDouble, Real};
 use std::sync::Arc;
 
 /// Looks at the states of one system at one set of parameters; holds its own registers.
 #[derive(Clone, Debug)]
 pub struct Observer {
     system: System,
-    precise: Values<Double>,
-    drawn: Values<f64>,
-    energy: Values<f64>,
+    precise: Evaluator<DoubleDouble>,
+    drawn: Evaluator<f64>,
+    energy: Evaluator<f64>,
     legendre: Legendre,
     /// The state looked at last, in the native form: kept where momenta alone do not tell it.
     near: Option<State>,
     parameters: Vec<f64>,
-    inputs: Vec<Double>,
+    inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
 }
 
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = system.driven() + 2;
+        let inputs = system.driven_len() + 2;
         let mut observer = Observer {
-            precise: Values::new(Arc::clone(&watch.precise)),
-            drawn: Values::new(Arc::clone(&watch.drawn)),
-            energy: Values::new(system.energy_program()),
+            precise: Evaluator::new(Arc::clone(&watch.precise)),
+            drawn: Evaluator::new(Arc::clone(&watch.drawn)),
+            energy: Evaluator::new(system.energy_program()),
             legendre: system.legendre(&system.inputs(parameters)),
             near: None,
             parameters: Vec::new(),
-            inputs: vec![Double::ZERO; inputs],
+            inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
             system,
         };
@@ -59,7 +59,7 @@ impl Observer {
     /// The value of every channel, in order, into `out`, which is as long as the channels. The
     /// state may have either form. Values that do not exist there are not a number; only a state
     /// that has no velocities (or momenta), or no accelerations that are watched, is a fault.
-    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let precise = self.system.watch().precise.outputs();
         let (first, others) = out.split_at_mut(precise);
         self.look(state, first)?;
@@ -78,11 +78,11 @@ impl Observer {
     }
 
     /// The same for the columns only: `out` is as long as they are.
-    pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.look(state, out)
     }
 
-    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), Fault> {
+    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let n = self.system.degrees();
         self.take_in(state)?;
         let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);
@@ -101,7 +101,7 @@ impl Observer {
     }
 
     /// The inputs of the programs: the state in the native form, then action and work.
-    fn take_in(&mut self, state: &State) -> Result<(), Fault> {
+    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
         let form = self.system.form();
         if state.form == form {
             self.system.inputs_of(state, &mut self.inputs);
@@ -143,11 +143,11 @@ impl Observer {
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {
-        let mut state = [Double::from(position), Double::from(rate)];
+        let mut state = [DoubleDouble::from(position), DoubleDouble::from(rate)];
         if form != self.system.form() {
             let target = [Some(state[1])];
-            state[1] = Double::ZERO;
-            self.legendre.solve(Double::from(time), &mut state, &target).ok()?;
+            state[1] = DoubleDouble::ZERO;
+            self.legendre.solve(DoubleDouble::from(time), &mut state, &target).ok()?;
         }
         self.energy.evaluate(time, &[position, state[1].high]).ok()?;
         Some(self.energy.output(0))

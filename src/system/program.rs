@@ -1,11 +1,12 @@
 //! The flat program that expressions are lowered to: a list of operations, each writing one
-//! register and reading earlier ones only. Two evaluators run it: [`Values`](super::Values) and
+//! register and reading earlier ones only. Two evaluators run it: [`Evaluator`](super::Values) and
 //! [`Jet`](super::Jet).
 
 use std::sync::Arc;
 
 use super::lower::Lowering;
-use crate::expr::{Double, Expr, FunctionId, Pool, Symbol};
+use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use crate::num::DoubleDouble;
 
 /// The place of a number in a program: the operation that writes it.
 pub(super) type Register = u32;
@@ -40,7 +41,7 @@ pub(super) enum Op {
     Power(Register, u32),
     /// A power whose exponent depends on parameters only; squares and partial products for an
     /// exponent that happens to be an integer stand in the registers behind it.
-    LivePower(Register, Register),
+    ParametricPower(Register, Register),
     /// A function of one or two arguments; its companion stands in the register behind it.
     Call(FunctionId, [Register; 2]),
     /// One of two branches, by the sign of a switch.
@@ -54,7 +55,7 @@ pub(super) enum Op {
 /// One summand of a [`Op::Linear`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Term {
-    pub(super) coefficient: Double,
+    pub(super) coefficient: DoubleDouble,
     pub(super) register: Register,
 }
 
@@ -91,7 +92,7 @@ impl Block {
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     pub(super) ops: Vec<Op>,
-    pub(super) constants: Vec<Double>,
+    pub(super) constants: Vec<DoubleDouble>,
     pub(super) terms: Vec<Term>,
     pub(super) blocks: Vec<Block>,
     /// The registers that depend on constants and parameters only.
@@ -179,9 +180,10 @@ impl Program {
                     [first as usize..(first + count) as usize]
                     .iter()
                     .any(|term| timed[term.register as usize]),
-                Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::LivePower(a, b) => {
-                    on(&[a, b])
-                }
+                Op::Scale(a, b)
+                | Op::Multiply(a, b)
+                | Op::Divide(a, b)
+                | Op::ParametricPower(a, b) => on(&[a, b]),
                 Op::Square(a) | Op::Root(a) | Op::Power(a, _) => on(&[a]),
                 Op::Call(_, arguments) => on(&arguments),
                 Op::Select { switch, positive, negative, .. } => on(&[switch, positive, negative]),

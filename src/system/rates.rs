@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::legendre::{Legendre, Unsolved};
+use super::legendre::{Legendre, LegendreError};
 use super::program::Program;
-use super::value::Values;
-use super::{Fault, Form, State, System};
-use crate::expr::Double;
+use super::value::Evaluator;
+use super::{Form, MotionError, State, System};
+use crate::num::DoubleDouble;
 
 /// The rate of change of every number of a state, as a function of time and these numbers. Holds
 /// its own registers.
@@ -17,7 +17,7 @@ pub struct Rates {
     /// The place in a state of each output.
     places: Vec<usize>,
     program: Arc<Program>,
-    values: Values<f64>,
+    values: Evaluator<f64>,
     /// Where the program wants velocities for momenta.
     solver: Option<Solver>,
 }
@@ -27,10 +27,10 @@ pub struct Rates {
 struct Solver {
     legendre: Legendre,
     /// (q, q̇), as solved last.
-    native: Vec<Double>,
+    native: Vec<DoubleDouble>,
     /// Whether that belongs to the motion under way, whose velocities are to change steadily.
     under_way: bool,
-    targets: Vec<Option<Double>>,
+    targets: Vec<Option<DoubleDouble>>,
     rounded: Vec<f64>,
 }
 
@@ -50,10 +50,10 @@ impl System {
             let n = self.degrees();
             rates.solver = Some(Solver {
                 legendre: self.blank_legendre(),
-                native: vec![Double::ZERO; 2 * n],
+                native: vec![DoubleDouble::ZERO; 2 * n],
                 under_way: false,
                 targets: vec![None; n],
-                rounded: vec![0.0; self.driven()],
+                rounded: vec![0.0; self.driven_len()],
             });
         }
         rates
@@ -84,7 +84,7 @@ impl Rates {
             system: system.clone(),
             form,
             places: (first..first + moved).chain(all - integrals..all).collect(),
-            values: Values::new(Arc::clone(program)),
+            values: Evaluator::new(Arc::clone(program)),
             program: Arc::clone(program),
             solver: None,
         }
@@ -136,8 +136,13 @@ impl Rates {
 
     /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
     /// numbers that do not move are left alone.
-    pub fn evaluate(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), Fault> {
-        let numbers = &numbers[..self.system.driven()];
+    pub fn evaluate(
+        &mut self,
+        time: f64,
+        numbers: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), MotionError> {
+        let numbers = &numbers[..self.system.driven_len()];
         let inputs = match &mut self.solver {
             None => numbers,
             Some(solver) => {
@@ -159,13 +164,13 @@ impl Rates {
 }
 
 impl Solver {
-    fn solve(&mut self, time: f64, numbers: &[f64]) -> Result<(), Unsolved> {
+    fn solve(&mut self, time: f64, numbers: &[f64]) -> Result<(), LegendreError> {
         let n = self.targets.len();
         for i in 0..n {
-            self.native[i] = Double::from(numbers[i]);
-            self.targets[i] = Some(Double::from(numbers[n + i]));
+            self.native[i] = DoubleDouble::from(numbers[i]);
+            self.targets[i] = Some(DoubleDouble::from(numbers[n + i]));
         }
-        let (time, native) = (Double::from(time), &mut self.native);
+        let (time, native) = (DoubleDouble::from(time), &mut self.native);
         if self.under_way {
             self.legendre.follow(time, native, &self.targets)?;
         } else {

@@ -10,12 +10,13 @@
 use std::sync::Arc;
 
 use super::jet::{Jet, Side};
-use super::motion::Writer;
+use super::observables;
 use super::program::Program;
+use super::rhs::ProgramBuilder;
 use super::series::Series;
-use super::watch;
 use super::{State, System};
-use crate::expr::{Double, Expr, FunctionId, Node, Symbol, portable};
+use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::num::{DoubleDouble, math};
 
 /// The order of the series.
 const ORDER: usize = 12;
@@ -38,13 +39,13 @@ const ATTEMPTS: u32 = 12;
 /// The program of the functions whose series are looked at: those of the events, then the arguments
 /// of the exponentials in them, which may vanish far away and not nearby.
 pub(super) fn program(
-    writer: &mut Writer<'_>,
+    builder: &mut ProgramBuilder<'_>,
     functions: &[Option<Expr>],
 ) -> Result<Arc<Program>, Symbol> {
     let given: Vec<Expr> = functions.iter().flatten().copied().collect();
     let mut all = functions.to_vec();
-    for part in writer.pool.reachable(&given) {
-        match writer.pool.node(part) {
+    for part in builder.pool.reachable(&given) {
+        match builder.pool.node(part) {
             Node::Call(
                 FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
                 arguments,
@@ -53,7 +54,7 @@ pub(super) fn program(
             _ => {}
         }
     }
-    watch::program(writer, &all)
+    observables::program(builder, &all)
 }
 
 /// Estimates the resolution that the events of one system need.
@@ -81,14 +82,14 @@ impl Resolution {
         }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[Double]) {
+    pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.series.set_parameters(parameters);
         self.jet.set_parameters(parameters);
         self.last = None;
     }
 
     /// How far after a state, in the system's own form, all functions are simple; `None` where that
-    /// cannot be told. `near` is some length of time that is not far from the motion's own.
+    /// cannot be reported. `near` is some length of time that is not far from the motion's own.
     pub(super) fn after(&mut self, state: &State, near: f64) -> Option<f64> {
         let mut unit = self.last.unwrap_or(near);
         for _ in 0..ATTEMPTS {
@@ -149,16 +150,16 @@ impl Resolution {
 
     /// Grows the series of the functions from those of the state; false where one is not finite.
     fn grow(&mut self, time: f64) -> bool {
-        let driven = self.system.driven();
-        let quadratures = self.series.len() - driven;
-        let carried = self.system.carries();
+        let driven_len = self.system.driven_len();
+        let quadratures = self.series.len() - driven_len;
+        let auxiliary = self.system.carries();
         for k in 0..=ORDER {
-            for i in 0..driven {
+            for i in 0..driven_len {
                 self.jet.set_input(i, k, self.series.coefficient(i, k));
             }
-            let mut next = driven;
-            for (place, carried) in (driven..).zip(carried) {
-                let known = carried && next < driven + quadratures;
+            let mut next = driven_len;
+            for (place, auxiliary) in (driven_len..).zip(auxiliary) {
+                let known = auxiliary && next < driven_len + quadratures;
                 let c = if known { self.series.coefficient(next, k) } else { 0.0 };
                 next += usize::from(known);
                 self.jet.set_input(place, k, c);
@@ -197,7 +198,7 @@ fn simple(c: &[f64]) -> f64 {
         }
         let to_term = |j: usize| {
             let ratio = CUT_OFF * (c[j] / c[k]).abs();
-            portable::powf(ratio, 1.0 / (k - j) as f64)
+            math::powf(ratio, 1.0 / (k - j) as f64)
         };
         length = length.min((0..k).map(to_term).fold(0.0, f64::max));
     }
@@ -208,7 +209,7 @@ fn simple(c: &[f64]) -> f64 {
 fn within_reach(c: &[f64]) -> f64 {
     let bound = FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs());
     let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);
-    let reach = terms.map(|(k, x)| portable::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
+    let reach = terms.map(|(k, x)| math::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
     reach.fold(f64::INFINITY, f64::min)
 }
 
@@ -225,11 +226,11 @@ mod tests {
         for speed in [1.0, 1e6, 1e-6] {
             let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
                 let sign = [0.0, 1.0, 0.0, -1.0][k % 4];
-                sign * portable::powi(speed, k as i32) / factorial(k)
+                sign * math::powi(speed, k as i32) / factorial(k)
             });
             let turn = simple(&sine) * speed;
             assert!((2.5..4.5).contains(&turn), "{turn}");
-            let pole: [f64; ORDER + 1] = std::array::from_fn(|k| portable::powi(speed, k as i32));
+            let pole: [f64; ORDER + 1] = std::array::from_fn(|k| math::powi(speed, k as i32));
             let part = simple(&pole) * speed;
             assert!((0.4..0.7).contains(&part), "{part}");
         }

@@ -8,27 +8,28 @@
 use std::sync::Arc;
 
 use super::compiled::System;
-use super::fault::{Fault, FaultKind};
+use super::error::{MotionError, MotionErrorKind};
 use super::jet::{Jet, Side};
 use super::program::{Program, Singular};
 use super::solve::Factored;
 use super::state::State;
 use crate::cancel::Cancel;
-use crate::expr::{Double, FunctionId, Real, Wide, portable};
+use crate::expr::FunctionId;
+use crate::num::{DoubleDouble, ExtendedRange, Real, math};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
 pub struct Series {
     system: System,
     /// The lowest orders, where they are built in double-double.
-    low: Option<Growth<Double>>,
-    high: Growth<f64>,
+    low: Option<SeriesBuilder<DoubleDouble>>,
+    high: SeriesBuilder<f64>,
     /// Both at once in a wider range, once it was needed.
-    wide: Option<Box<Growth<Wide>>>,
-    parameters: Vec<Double>,
+    wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
+    parameters: Vec<DoubleDouble>,
     /// The state it starts from.
-    origin: Vec<Double>,
-    time: Double,
+    origin: Vec<DoubleDouble>,
+    time: DoubleDouble,
     scale: f64,
     sides: Vec<Side>,
 }
@@ -37,16 +38,16 @@ impl System {
     /// Room for series up to an order; orders up to `exact` in double-double (none for zero).
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
-        let (inputs, len) = (self.driven(), self.state_len());
-        let low = (exact > 0).then(|| Growth::new(Arc::clone(program), inputs, len, exact));
+        let (inputs, len) = (self.driven_len(), self.state_len());
+        let low = (exact > 0).then(|| SeriesBuilder::new(Arc::clone(program), inputs, len, exact));
         Series {
             system: self.clone(),
             low,
-            high: Growth::new(Arc::clone(program), inputs, len, order),
+            high: SeriesBuilder::new(Arc::clone(program), inputs, len, order),
             wide: None,
             parameters: Vec::new(),
-            origin: vec![Double::ZERO; len],
-            time: Double::ZERO,
+            origin: vec![DoubleDouble::ZERO; len],
+            time: DoubleDouble::ZERO,
             scale: 1.0,
             sides: vec![Side::Positive; program.switches()],
         }
@@ -55,7 +56,7 @@ impl System {
 
 impl Series {
     /// Sets the parameters.
-    pub fn set_parameters(&mut self, parameters: &[Double]) {
+    pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         if let Some(low) = &mut self.low {
             low.jet.set_parameters(parameters);
         }
@@ -103,17 +104,17 @@ impl Series {
     /// Chooses the unit of time of the coefficients to be built next: the power of two below
     /// `step`, negative for a step back in time.
     pub fn set_scale(&mut self, step: f64) {
-        let exponent = portable::log2(step.abs()).floor().clamp(-1000.0, 1000.0);
-        self.scale = portable::powi(2.0, exponent as i32).copysign(step);
+        let exponent = math::log2(step.abs()).floor().clamp(-1000.0, 1000.0);
+        self.scale = math::powi(2.0, exponent as i32).copysign(step);
     }
 
     /// The time of the origin.
-    pub fn time(&self) -> Double {
+    pub fn time(&self) -> DoubleDouble {
         self.time
     }
 
     /// Builds the series at a state of the native form.
-    pub fn build(&mut self, state: &State) -> Result<(), Fault> {
+    pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
         for (i, x) in self.origin.iter_mut().enumerate() {
             *x = state.exact(i);
@@ -125,20 +126,20 @@ impl Series {
                 Err(self.system.singular(program, singular, state.time, &state.values))
             }
             Err(Halt::Sticks) => {
-                Err(self.system.fault(FaultKind::Sticks, state.time, &state.values))
+                Err(self.system.fault(MotionErrorKind::Sticks, state.time, &state.values))
             }
             Err(Halt::Cancelled) => {
-                Err(self.system.fault(FaultKind::Cancelled, state.time, &state.values))
+                Err(self.system.fault(MotionErrorKind::Cancelled, state.time, &state.values))
             }
         }
     }
 
     /// Where something on the way leaves the range of `f64`, all is built once more in a wider one.
     fn grow(&mut self) -> Result<(), Halt> {
-        match self.grow_narrowly() {
+        match self.grow_in_range() {
             Ok(()) if self.is_finite() => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
-            _ => self.grow_widely(),
+            _ => self.grow_extended(),
         }
     }
 
@@ -148,12 +149,12 @@ impl Series {
             && (0..self.switches()).all(|i| finite(self.switch(i)))
     }
 
-    fn grow_widely(&mut self) -> Result<(), Halt> {
+    fn grow_extended(&mut self) -> Result<(), Halt> {
         let clock = Clock { time: self.time, scale: self.scale };
         let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
         let program = &self.system.motion().native;
         let wide = self.wide.get_or_insert_with(|| {
-            let mut wide = Box::new(Growth::new(Arc::clone(program), inputs, len, order));
+            let mut wide = Box::new(SeriesBuilder::new(Arc::clone(program), inputs, len, order));
             wide.jet.set_parameters(&self.parameters);
             wide
         });
@@ -171,7 +172,7 @@ impl Series {
         Ok(())
     }
 
-    fn grow_narrowly(&mut self) -> Result<(), Halt> {
+    fn grow_in_range(&mut self) -> Result<(), Halt> {
         let mut first = 0;
         let clock = Clock { time: self.time, scale: self.scale };
         let cancel = self.system.cancel();
@@ -212,7 +213,7 @@ impl Series {
 
     /// The value of a switch at a time after the origin, in the unit of the series, as exact as
     /// the lowest orders are.
-    pub fn switch_after(&self, i: usize, x: Double) -> Double {
+    pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
         sum(exact, &self.switch(i)[exact.len()..], x)
     }
@@ -241,7 +242,7 @@ impl Series {
 
     /// Its value at a time after the origin, in the unit of the series, as exact as the lowest
     /// orders are.
-    pub fn guard_after(&self, i: usize, x: Double) -> Double {
+    pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let register = self.system.motion().native.guards[i].value;
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.series(register)[..low.order]);
         sum(exact, &self.guard(i)[exact.len()..], x)
@@ -264,7 +265,7 @@ impl Series {
     }
 
     /// The state a time `after` the origin, by the polynomials.
-    pub fn state_after(&self, after: Double, out: &mut State) {
+    pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
         for i in 0..self.origin.len() {
             let exact = self.low.as_ref().map_or(&self.origin[i..=i], |low| low.series(i));
@@ -277,15 +278,15 @@ impl Series {
 
 /// A polynomial by Horner's scheme: the terms of high order in `f64`, the low ones, which decide,
 /// in double-double.
-fn sum(low: &[Double], high: &[f64], x: Double) -> Double {
+fn sum(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
     let tail = high.iter().rev().fold(0.0, |sum, &c| sum * x.high + c);
-    low.iter().rev().fold(Double::from(tail), |sum, &c| sum * x + c)
+    low.iter().rev().fold(DoubleDouble::from(tail), |sum, &c| sum * x + c)
 }
 
 /// When the origin is, and the unit of time.
 #[derive(Clone, Copy)]
 struct Clock {
-    time: Double,
+    time: DoubleDouble,
     scale: f64,
 }
 
@@ -306,7 +307,7 @@ impl From<Singular> for Halt {
 
 /// The series in one precision, growing order by order.
 #[derive(Clone, Debug)]
-struct Growth<R> {
+struct SeriesBuilder<R> {
     jet: Jet<R>,
     /// The highest order of the state's series.
     order: usize,
@@ -320,10 +321,17 @@ struct Growth<R> {
     depth: usize,
 }
 
-impl<R: Real> Growth<R> {
-    fn new(program: Arc<Program>, inputs: usize, len: usize, order: usize) -> Growth<R> {
+impl<R: Real> SeriesBuilder<R> {
+    fn new(program: Arc<Program>, inputs: usize, len: usize, order: usize) -> SeriesBuilder<R> {
         let state = vec![R::ZERO; len * (order + 1)];
-        Growth { jet: Jet::new(program, order), order, inputs, state, kept: Vec::new(), depth: 1 }
+        SeriesBuilder {
+            jet: Jet::new(program, order),
+            order,
+            inputs,
+            state,
+            kept: Vec::new(),
+            depth: 1,
+        }
     }
 
     fn series(&self, i: usize) -> &[R] {
@@ -334,7 +342,7 @@ impl<R: Real> Growth<R> {
         self.state.len() / (self.order + 1)
     }
 
-    fn begin(&mut self, origin: &[Double], sides: &[Side]) {
+    fn begin(&mut self, origin: &[DoubleDouble], sides: &[Side]) {
         for (i, &x) in origin.iter().enumerate() {
             self.state[i * (self.order + 1)] = R::of(x);
         }
@@ -348,7 +356,7 @@ impl<R: Real> Growth<R> {
     }
 
     /// Takes over all orders known in another precision.
-    fn take_over<S: Real>(&mut self, other: &Growth<S>) -> Result<(), Singular> {
+    fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
         for i in 0..self.len() {
             for (k, &c) in other.series(i).iter().enumerate() {
                 self.state[i * (self.order + 1) + k] = R::of(c.double());
@@ -360,7 +368,7 @@ impl<R: Real> Growth<R> {
     }
 
     /// All orders that are known in a wider range, to be read and not to be continued.
-    fn copy(&mut self, wide: &Growth<Wide>) {
+    fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>) {
         for i in 0..self.len() {
             for k in 0..=self.order {
                 self.state[i * (self.order + 1) + k] = R::of(wide.series(i)[k].double());

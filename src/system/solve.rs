@@ -2,7 +2,7 @@
 //! (Golub & Van Loan, Matrix Computations, 3.4), the columns measured by the units of their
 //! unknowns.
 
-use crate::expr::Real;
+use crate::num::Real;
 
 /// A pivot smaller than this, measured by its row, is none.
 const SMALLEST_PIVOT: f64 = 1e-13;

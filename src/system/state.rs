@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 
 /// Which rates a state holds beside its coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -51,17 +51,17 @@ impl State {
     }
 
     /// The time with what was cut off.
-    pub fn exact_time(&self) -> Double {
-        Double { high: self.time, low: self.time_carry }
+    pub fn exact_time(&self) -> DoubleDouble {
+        DoubleDouble { high: self.time, low: self.time_carry }
     }
 
     /// A number of the state with what was cut off.
-    pub fn exact(&self, i: usize) -> Double {
-        Double { high: self.values[i], low: self.carry[i] }
+    pub fn exact(&self, i: usize) -> DoubleDouble {
+        DoubleDouble { high: self.values[i], low: self.carry[i] }
     }
 
     /// Sets a number of the state.
-    pub fn set(&mut self, i: usize, x: Double) {
+    pub fn set(&mut self, i: usize, x: DoubleDouble) {
         (self.values[i], self.carry[i]) = (x.high, x.low);
     }
 
@@ -73,7 +73,7 @@ impl State {
 
 /// An initial value that takes the place of the file's.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Given {
+pub enum InitialOverride {
     /// The coordinate of this index.
     Position(usize, f64),
     /// Its velocity; in a Hamiltonian system the momentum that goes with it is solved for.

@@ -8,12 +8,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::legendre::Legendre;
-use super::motion::Writer;
 use super::program::Program;
-use super::value::Values;
+use super::rhs::ProgramBuilder;
+use super::value::Evaluator;
 use super::{Form, State, System};
-use crate::expr::{Double, Expr, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
+use crate::num::DoubleDouble;
 
 /// What a term of a quantity is at rest.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -98,14 +99,14 @@ impl Quantities {
         quantities
     }
 
-    pub(super) fn compile(self, writer: &mut Writer<'_>) -> Result<Terms, Symbol> {
-        let action = writer.equations.symbols.action;
-        let mut lowering = writer.on_full_state();
+    pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Terms, Symbol> {
+        let action = builder.equations.symbols.action;
+        let mut lowering = builder.on_full_state();
         let input = lowering.input();
         lowering.bind(action, input);
         let outputs = lowering.lower_all(&self.outputs);
         let native = lowering.finish(outputs)?;
-        let canonical = match (writer.native(), writer.on_full_canonical_state()) {
+        let canonical = match (builder.native(), builder.on_full_canonical_state()) {
             (Form::Velocity, Some(mut lowering)) => {
                 let input = lowering.input();
                 lowering.bind(action, input);
@@ -123,11 +124,11 @@ impl Quantities {
 pub struct TermWatch {
     system: System,
     places: Arc<[Option<Place>]>,
-    native: Values<f64>,
-    canonical: Option<Values<f64>>,
+    native: Evaluator<f64>,
+    canonical: Option<Evaluator<f64>>,
     legendre: Legendre,
     inputs: Vec<f64>,
-    exact: Vec<Double>,
+    exact: Vec<DoubleDouble>,
     /// The last look was at a state in the canonical form.
     at_canonical: bool,
     /// Where several velocities belong to a momentum: the state last looked at, in the system's own form.
@@ -137,14 +138,14 @@ pub struct TermWatch {
 
 impl TermWatch {
     pub(super) fn new(system: System, terms: &Terms, parameters: &[f64]) -> TermWatch {
-        let inputs = system.driven() + 2;
+        let inputs = system.driven_len() + 2;
         let mut watch = TermWatch {
             places: Arc::clone(&terms.places),
-            native: Values::new(Arc::clone(&terms.native)),
-            canonical: terms.canonical.clone().map(Values::new),
+            native: Evaluator::new(Arc::clone(&terms.native)),
+            canonical: terms.canonical.clone().map(Evaluator::new),
             legendre: system.legendre(&system.inputs(parameters)),
             inputs: vec![0.0; inputs],
-            exact: vec![Double::ZERO; inputs],
+            exact: vec![DoubleDouble::ZERO; inputs],
             at_canonical: false,
             near: None,
             work: 0.0,

@@ -1,38 +1,39 @@
 //! The first evaluator of a program: numbers.
 //!
 //! Where something on the way to a result leaves the range of its numbers, as `exp(x)` does in
-//! `1/(1 + exp(x))` far out, the program is evaluated once more in [`Wide`].
+//! `1/(1 + exp(x))` far out, the program is evaluated once more in [`ExtendedRange`].
 
 use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::expr::{Double, Real, Rule, Wide};
+use crate::expr::Rule;
+use crate::num::{DoubleDouble, ExtendedRange, Real};
 
 /// The registers of one program as numbers, in one precision.
 #[derive(Clone, Debug)]
-pub struct Values<R> {
+pub struct Evaluator<R> {
     program: Arc<Program>,
     registers: Vec<R>,
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
-    parameters: Vec<Double>,
+    parameters: Vec<DoubleDouble>,
     /// The same in a wider range, once it was needed.
-    wide: Option<Box<Values<Wide>>>,
+    wide: Option<Box<Evaluator<ExtendedRange>>>,
 }
 
-impl<R: Real> Values<R> {
+impl<R: Real> Evaluator<R> {
     /// Registers for a program; parameters are to be set before it is evaluated.
-    pub fn new(program: Arc<Program>) -> Values<R> {
+    pub fn new(program: Arc<Program>) -> Evaluator<R> {
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
         let registers = vec![R::ZERO; program.ops.len()];
         let right = vec![R::ZERO; widest];
-        Values { program, registers, blocks, right, parameters: Vec::new(), wide: None }
+        Evaluator { program, registers, blocks, right, parameters: Vec::new(), wide: None }
     }
 
     /// Sets the parameters and evaluates everything that depends on them alone.
-    pub fn set_parameters(&mut self, parameters: &[Double]) {
+    pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         let program = Arc::clone(&self.program);
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
@@ -51,7 +52,7 @@ impl<R: Real> Values<R> {
         if R::UNBOUNDED || (outcome.is_ok() && self.is_finite()) || !self.left_the_range() {
             return outcome;
         }
-        self.evaluate_widely(time, inputs)
+        self.evaluate_extended(time, inputs)
     }
 
     fn is_finite(&self) -> bool {
@@ -70,14 +71,15 @@ impl<R: Real> Values<R> {
         })
     }
 
-    fn evaluate_widely(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
+    fn evaluate_extended(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
         let wide = self.wide.get_or_insert_with(|| {
-            let mut wide = Box::new(Values::new(Arc::clone(&self.program)));
+            let mut wide = Box::new(Evaluator::new(Arc::clone(&self.program)));
             wide.set_parameters(&self.parameters);
             wide
         });
-        let inputs: Vec<Wide> = inputs.iter().map(|x| Wide::of(x.double())).collect();
-        wide.evaluate(Wide::of(time.double()), &inputs)?;
+        let inputs: Vec<ExtendedRange> =
+            inputs.iter().map(|x| ExtendedRange::of(x.double())).collect();
+        wide.evaluate(ExtendedRange::of(time.double()), &inputs)?;
         for (x, wide) in self.registers.iter_mut().zip(&wide.registers) {
             *x = R::of(wide.double());
         }
@@ -138,7 +140,7 @@ impl<R: Real> Values<R> {
             Op::Divide(a, b) => get(a) / get(b),
             Op::Root(a) => get(a).sqrt(),
             Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
-            Op::LivePower(a, exponent) => get(a).power(get(exponent).double()),
+            Op::ParametricPower(a, exponent) => get(a).power(get(exponent).double()),
             Op::Call(function, [a, b]) => {
                 let Rule::Series(rule) = &function.row().rule else { return };
                 let (mut y, mut w) = ([R::ZERO], [R::ZERO]);

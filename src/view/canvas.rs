@@ -9,17 +9,17 @@ use ratatui::symbols::border;
 use ratatui::widgets::{Block, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::Look;
+use super::RenderStyle;
 use super::colour::ColourDepth;
-use super::spot::Region;
+use super::hit_test::Region;
 use super::theme::Role;
-use crate::app::Spot;
+use crate::app::HitTarget;
 use crate::printable;
 
 /// A buffer and how things look on it.
 pub(super) struct Canvas<'a> {
     pub(super) buffer: &'a mut Buffer,
-    pub(super) look: &'a Look,
+    pub(super) look: &'a RenderStyle,
     /// What lies where, for the mouse, while it is asked for; the later lies over the earlier.
     pub(super) regions: Option<Vec<(Rect, Region)>>,
     /// Where the terminal's cursor belongs.
@@ -31,7 +31,7 @@ pub(super) type Span = (String, Style);
 
 impl<'a> Canvas<'a> {
     /// A buffer to be drawn on, and how things look there.
-    pub(super) fn over(buffer: &'a mut Buffer, look: &'a Look) -> Self {
+    pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
         Self { buffer, look, regions: None, cursor: None }
     }
 }
@@ -156,7 +156,7 @@ impl Canvas<'_> {
     }
 
     /// Says that an area is one spot.
-    pub(super) fn spot(&mut self, area: Rect, spot: Spot) {
+    pub(super) fn spot(&mut self, area: Rect, spot: HitTarget) {
         self.region(area, Region::Plain(spot));
     }
 

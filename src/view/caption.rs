@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 use unicode_width::UnicodeWidthStr;
 
-use super::Look;
+use super::RenderStyle;
 use super::canvas::{Canvas, columns};
 use super::theme::Role;
 
@@ -48,7 +48,7 @@ fn lines(text: &str, width: u16) -> Vec<String> {
 
 /// Draws the sentence over blank rows: the sentence at the left, keys as caps at the right of the last. Keys give way to
 /// the sentence.
-pub fn draw(look: &Look, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
+pub fn draw(look: &RenderStyle, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
     let mut canvas = Canvas::over(buffer, look);
     let (mut used, mut last) = (0, Rect { height: 1, ..area });
     if !caption.text.is_empty() {

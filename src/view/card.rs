@@ -10,7 +10,7 @@ use ratatui::style::Style;
 
 use super::glyphs::Glyphs;
 use super::plot::{Frame, Pen, Raster, Scale};
-use crate::expr::portable;
+use crate::num::math;
 
 /// Cells of a sample, across and down.
 const SAMPLE: (u16, u16) = (32, 3);
@@ -49,7 +49,7 @@ fn sample(glyphs: Glyphs) -> Vec<String> {
     let wave = Rect { width: SAMPLE.0 - FILLED - 1, ..area };
     let frame = Frame::new(Scale::linear(0.0, 2.0), Scale::linear(-1.1, 1.1), wave);
     let mut curve = Raster::new(wave, glyphs);
-    let points = (0..=400).map(|i| f64::from(i) / 200.0).map(|x| [x, portable::sin(TAU * x)]);
+    let points = (0..=400).map(|i| f64::from(i) / 200.0).map(|x| [x, math::sin(TAU * x)]);
     curve.polyline(&frame, points, &pen);
     let [wide, high] = raster.size();
     let filled = i32::from(FILLED * glyphs.dots().0);

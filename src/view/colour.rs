@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use ratatui::style::Color;
 
-use crate::expr::portable;
+use crate::num::math;
 
 /// How many colours may be sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -196,16 +196,16 @@ impl Rgb {
     fn linear(self) -> [f64; 3] {
         [self.0, self.1, self.2].map(|channel| {
             let v = f64::from(channel) / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { portable::powf((v + 0.055) / 1.055, 2.4) }
+            if v <= 0.04045 { v / 12.92 } else { math::powf((v + 0.055) / 1.055, 2.4) }
         })
     }
 
     /// Lightness and two opponent colours. Source: B. Ottosson, "A perceptual color space for image processing" (2020).
     fn oklab(self) -> [f64; 3] {
         let [r, g, b] = self.linear();
-        let l = portable::cbrt(0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b);
-        let m = portable::cbrt(0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b);
-        let s = portable::cbrt(0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b);
+        let l = math::cbrt(0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b);
+        let m = math::cbrt(0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b);
+        let s = math::cbrt(0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b);
         [
             0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
             1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,
@@ -214,15 +214,12 @@ impl Rgb {
     }
 
     fn from_oklab([lightness, a, b]: [f64; 3]) -> Self {
-        let l = portable::powi(lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b, 3);
-        let m = portable::powi(lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b, 3);
-        let s = portable::powi(lightness - 0.089_484_177_5 * a - 1.291_485_548_0 * b, 3);
+        let l = math::powi(lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b, 3);
+        let m = math::powi(lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b, 3);
+        let s = math::powi(lightness - 0.089_484_177_5 * a - 1.291_485_548_0 * b, 3);
         let channel = |v: f64| {
-            let v = if v <= 0.003_130_8 {
-                12.92 * v
-            } else {
-                1.055 * portable::powf(v, 1.0 / 2.4) - 0.055
-            };
+            let v =
+                if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * math::powf(v, 1.0 / 2.4) - 0.055 };
             (255.0 * v).round().clamp(0.0, 255.0) as u8
         };
         Self(

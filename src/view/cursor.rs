@@ -9,16 +9,16 @@ use super::marks::Marks;
 use super::number::readable;
 use super::plot::Frame;
 use super::theme::Role;
-use crate::app::Lens;
+use crate::app::Viewport;
 
 /// Draws the cursor, if there is one, and reads its coordinates, and what happened there, in the upper right corner of the area.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     frame: &Frame,
-    (lens, marks): (Lens, &Marks<'_>),
+    (viewport, marks): (Viewport, &Marks<'_>),
 ) {
-    let Some([across, upwards]) = lens.cursor else { return };
+    let Some([across, upwards]) = viewport.cursor else { return };
     if frame.area.is_empty() {
         return;
     }

@@ -2,7 +2,7 @@
 //!
 //! In: a look. Out: the same with fewer colours, then with less in its pictures. Never here: how slow the line is.
 
-use super::Look;
+use super::RenderStyle;
 use super::colour::ColourDepth;
 
 /// How much is left out, from nothing (the default) on.
@@ -32,7 +32,7 @@ impl Detail {
     }
 }
 
-impl Look {
+impl RenderStyle {
     /// The same look with some of it left out.
     #[must_use]
     pub fn reduced(&self, detail: Detail) -> Self {

@@ -2,8 +2,8 @@
 //!
 //! In: the derived equations. Out: a page of text. Never here: derivations.
 
-use super::Look;
-use super::document::Document;
+use super::RenderStyle;
+use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
@@ -14,12 +14,12 @@ use crate::model::{Mechanics, Model};
 const MOST: u64 = 4_000;
 
 /// The page.
-pub(super) fn document(lab: &Lab, look: &Look) -> Document {
+pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let writer = Writer { equations: &lab.loaded.equations, model: &lab.loaded.model, look };
-    let mut page = Document::default();
+    let mut page = TextPage::default();
     writer.law(&mut page);
     writer.constraints(&mut page);
-    writer.happenings(&mut page);
+    writer.occurrences(&mut page);
     writer.motion(&mut page);
     writer.hamiltonian(&mut page);
     writer.conserved(&mut page);
@@ -28,9 +28,9 @@ pub(super) fn document(lab: &Lab, look: &Look) -> Document {
 }
 
 /// The law of motion and what to look for, for a small pane.
-pub(super) fn law(lab: &Lab, look: &Look) -> Document {
+pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     let writer = Writer { equations: &lab.loaded.equations, model: &lab.loaded.model, look };
-    let mut page = Document::default();
+    let mut page = TextPage::default();
     let (name, law) = writer.model.mechanics.function();
     writer.put(&mut page, name, law);
     page.gap();
@@ -45,7 +45,7 @@ pub(super) fn law(lab: &Lab, look: &Look) -> Document {
 struct Writer<'a> {
     equations: &'a Equations,
     model: &'a Model,
-    look: &'a Look,
+    look: &'a RenderStyle,
 }
 
 impl Writer<'_> {
@@ -68,11 +68,11 @@ impl Writer<'_> {
         format!("d{name}/dt")
     }
 
-    fn put(&self, page: &mut Document, label: &str, e: Expr) {
+    fn put(&self, page: &mut TextPage, label: &str, e: Expr) {
         page.formula(label, self.write(e), "");
     }
 
-    fn law(&self, page: &mut Document) {
+    fn law(&self, page: &mut TextPage) {
         match &self.model.mechanics {
             Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
                 page.heading("Lagrangian");
@@ -108,10 +108,10 @@ impl Writer<'_> {
         }
     }
 
-    /// Blows, and the events that are looked for.
-    fn happenings(&self, page: &mut Document) {
+    /// Impulses, and the events that are looked for.
+    fn occurrences(&self, page: &mut TextPage) {
         if !self.model.impulses.is_empty() {
-            page.heading("Blows");
+            page.heading("Impulses");
         }
         for impulse in &self.model.impulses {
             let changes = self.model.coordinates.iter().zip(&impulse.change);
@@ -131,7 +131,7 @@ impl Writer<'_> {
     }
 
     /// Constraints and their multipliers.
-    fn constraints(&self, page: &mut Document) {
+    fn constraints(&self, page: &mut TextPage) {
         if self.model.constraints.is_empty() {
             return;
         }
@@ -152,7 +152,7 @@ impl Writer<'_> {
         }
     }
 
-    fn forces(&self, page: &mut Document, forces: &[Expr]) {
+    fn forces(&self, page: &mut TextPage, forces: &[Expr]) {
         if forces.iter().all(|force| *force == Expr::ZERO) {
             return;
         }
@@ -167,7 +167,7 @@ impl Writer<'_> {
         }
     }
 
-    fn motion(&self, page: &mut Document) {
+    fn motion(&self, page: &mut TextPage) {
         if self.equations.is_lagrangian() {
             page.heading("Momenta");
             for (coordinate, momentum) in self.model.coordinates.iter().zip(&self.equations.momenta)
@@ -187,7 +187,7 @@ impl Writer<'_> {
     }
 
     /// q̈, or q̇ and ṗ, solved.
-    fn solved(&self, page: &mut Document) {
+    fn solved(&self, page: &mut TextPage) {
         let solved = match &self.equations.solved {
             Ok(solved) => solved,
             Err(why) => {
@@ -207,7 +207,7 @@ impl Writer<'_> {
         }
     }
 
-    fn hamiltonian(&self, page: &mut Document) {
+    fn hamiltonian(&self, page: &mut TextPage) {
         if self.equations.is_lagrangian() {
             page.heading("Hamiltonian");
             match &self.equations.hamiltonian {
@@ -232,13 +232,13 @@ impl Writer<'_> {
             self.model.impulses.is_empty(),
         ) {
             (true, true) => "conserved",
-            (true, false) => "conserved between blows",
+            (true, false) => "conserved between impulses",
             _ => "",
         };
         page.formula("dh/dt", self.write(self.equations.energy_rate), remark);
     }
 
-    fn conserved(&self, page: &mut Document) {
+    fn conserved(&self, page: &mut TextPage) {
         page.heading("Conserved");
         if self.equations.conserved.is_empty() {
             page.words(Role::Dim, "Nothing that could be found.");
@@ -255,7 +255,7 @@ impl Writer<'_> {
         }
     }
 
-    fn definitions(&self, page: &mut Document) {
+    fn definitions(&self, page: &mut TextPage) {
         if !self.model.definitions.is_empty() {
             page.heading("Definitions of the file");
             for (name, e) in &self.model.definitions {

@@ -10,12 +10,12 @@ use super::glyphs::Glyphs;
 use super::layout::split_rows;
 use super::number::{self, fitted, readable};
 use super::plot::{Marker, Scale};
-use super::strip::History;
+use super::sparkline::History;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::words;
 use crate::analysis::{Growth, Verdict};
-use crate::app::Spot;
+use crate::app::HitTarget;
 use crate::experiment::{Gauge, Snapshot};
 
 /// Columns of a verdict, a drift and a value.
@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         let here = selected == Some(first + place);
         let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
         for line in 0..height {
-            canvas.spot(row(area, place * height + line), Spot::Gauge(first + place));
+            canvas.spot(row(area, place * height + line), HitTarget::Gauge(first + place));
         }
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
@@ -171,7 +171,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
     drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
-    let strip = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
+    let sparkline = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
     let history = History {
         values: &values,
@@ -179,7 +179,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
         style: canvas.style(blame(gauge)),
         glyphs: canvas.look.glyphs,
     };
-    history.render(strip, canvas.buffer);
+    history.render(sparkline, canvas.buffer);
 }
 
 /// Name, value, drift and verdict where there is one row for them all.
@@ -193,18 +193,18 @@ fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
 }
 
-/// The word for the verdict; behind it the sign of what happens, where blows have changed the value.
+/// The word for the verdict; behind it the sign of what happens, where impulses have changed the value.
 fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let (text, role) = word(&gauge.verdict);
     let used = canvas.left(area, role, text);
-    if given_by_blows(gauge).is_some() && used + 2 <= area.width {
+    if given_by_impulses(gauge).is_some() && used + 2 <= area.width {
         let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
         canvas.left(columns(area, used + 1, 1), Role::Warn, &sign);
     }
 }
 
-/// By how much blows have changed the value since the reference was taken, if by more than rounding.
-fn given_by_blows(gauge: &Gauge) -> Option<f64> {
+/// By how much impulses have changed the value since the reference was taken, if by more than rounding.
+fn given_by_impulses(gauge: &Gauge) -> Option<f64> {
     let given = gauge.reference - gauge.initial;
     (given.abs() > ROUNDING * gauge.scale).then_some(given)
 }
@@ -215,10 +215,10 @@ const ROUNDING: f64 = 1e-12;
 /// What there is to say of a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     let sentence = sentence(&gauge.verdict);
-    match given_by_blows(gauge) {
+    match given_by_impulses(gauge) {
         None => sentence,
         Some(given) => {
-            format!("{sentence}; blows have changed it by {}", readable(given, 6, glyphs).trim())
+            format!("{sentence}; impulses have changed it by {}", readable(given, 6, glyphs).trim())
         }
     }
 }

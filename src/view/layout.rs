@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 
 use super::wrap::words;
-use crate::app::{Lab, Pane, Plot, Target};
+use crate::app::{Lab, Pane, Plot, ValueId};
 
 /// The least screen on which anything can be done.
 pub(super) const LEAST: (u16, u16) = (40, 10);
@@ -83,7 +83,7 @@ fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 /// Two plots above, values and gauges below.
 fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
-    let wanted = (lab.count(Target::Parameter) as u16).max(gauges + 1) + 2;
+    let wanted = (lab.count(ValueId::Parameter) as u16).max(gauges + 1) + 2;
     let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
     let (above, below) = split_rows(area, area.height - below);
     let (left, right) = split_columns(below, below.width / 2);
@@ -111,12 +111,12 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 /// The lists one below the other, and the law of motion if rows are left.
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
-    let parameters = lab.count(Target::Parameter) as u16;
+    let parameters = lab.count(ValueId::Parameter) as u16;
     // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two, the reason of the
     // selected gauge some more.
     let wants = [
         parameters + 2 + meaning(lab, area.width),
-        lab.count(Target::Initial) as u16 + 2,
+        lab.count(ValueId::Initial) as u16 + 2,
         2 * gauges.max(1) + 3 + REASON,
     ];
     let mut heights = wants.map(|want| want.max(4));
@@ -148,7 +148,7 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 /// Rows for what the selected parameter means: as many as the longest text needs, at least two, at most four.
 fn meaning(lab: &Lab, width: u16) -> u16 {
     let room = usize::from(width.saturating_sub(5));
-    let facts = (0..lab.count(Target::Parameter)).filter_map(|i| lab.facts(Target::Parameter(i)));
+    let facts = (0..lab.count(ValueId::Parameter)).filter_map(|i| lab.facts(ValueId::Parameter(i)));
     let longest = facts.map(|facts| words(&facts.about, room).len() as u16).max();
     (longest.unwrap_or(0) + 1).clamp(2, 4)
 }

@@ -1,6 +1,6 @@
-//! Marks of what happened to a motion: one sign on a plot for each event and blow that has room.
+//! Marks of what happened to a motion: one sign on a plot for each event and impulse that has room.
 //!
-//! In: happenings and the trail. Out: points of a plot with names, a legend. Never here: what an event does.
+//! In: occurrences and the trail. Out: points of a plot with names, a legend. Never here: what an event does.
 
 use ratatui::layout::Position;
 
@@ -9,10 +9,10 @@ use super::plot::{Frame, Marker, Pen, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
 
-/// The newest happenings are marked; of very many the older ones are not.
+/// The newest occurrences are marked; of very many the older ones are not.
 const MOST: usize = 256;
 
-/// More names than this are not told in a heading.
+/// More names than this are not reported in a heading.
 const NAMES: usize = 3;
 
 /// Cells between two marks.
@@ -30,25 +30,25 @@ impl<'a> Marks<'a> {
     }
 
     /// Where a plot's two quantities were, read from a row of the trail (time, then the channels), when something
-    /// happened; just after it, if it was a blow.
+    /// happened; just after it, if it was an impulse.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
         let mut points = Vec::new();
         let mut rows = q.snapshot.trail.rows().rev().peekable();
         let mut later: Option<&[f64]> = None;
-        for happening in q.snapshot.happenings.iter().rev().take(MOST) {
-            while let Some(row) = rows.next_if(|row| row[0] > happening.time) {
+        for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {
+            while let Some(row) = rows.next_if(|row| row[0] > occurrence.time) {
                 later = Some(row);
             }
             // What is older than the trail has no place any more.
             let Some(earlier) = rows.peek() else { break };
             let share = later.map_or(0.0, |later| {
-                ((happening.time - earlier[0]) / (later[0] - earlier[0])).clamp(0.0, 1.0)
+                ((occurrence.time - earlier[0]) / (later[0] - earlier[0])).clamp(0.0, 1.0)
             });
             let point = place(earlier).and_then(|a| {
                 let b = if share > 0.0 { place(later?)? } else { a };
                 Some([0, 1].map(|k| a[k] + share * (b[k] - a[k])))
             });
-            points.extend(point.map(|point| (happening.name.as_str(), point)));
+            points.extend(point.map(|point| (occurrence.name.as_str(), point)));
         }
         Self { points }
     }
@@ -81,9 +81,9 @@ impl<'a> Marks<'a> {
 /// The names of what happened lately, for a plot's heading.
 pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<Span> {
     let mut names: Vec<&str> = Vec::new();
-    for happening in q.snapshot.happenings.iter().rev().take(MOST) {
-        if names.len() < NAMES && !names.contains(&happening.name.as_str()) {
-            names.push(&happening.name);
+    for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {
+        if names.len() < NAMES && !names.contains(&occurrence.name.as_str()) {
+            names.push(&occurrence.name);
         }
     }
     if names.is_empty() {

@@ -6,13 +6,13 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
-use super::found::found_in;
 use super::help::named;
+use super::highlight::found_in;
 use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words, words_in};
-use crate::app::{Choice, Fit, Item, Menu, Spot};
+use crate::app::{Choice, Fit, HitTarget, Item, Menu};
 
 /// Draws the list in the middle of an area, with what the selected line means below.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
@@ -33,7 +33,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     canvas.clear(place);
     let title = [canvas.span(Role::Title, &menu.title)];
     let inner = canvas.pane(place, &title, true);
-    canvas.spot(place, Spot::Menu);
+    canvas.spot(place, HitTarget::Menu);
     let inner = columns(inner, 1, inner.width.saturating_sub(2));
     let (field, rest) = split_rows(inner, search);
     if let Some(input) = &menu.filter {
@@ -57,7 +57,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             " "
         };
         canvas.left(columns(area, 0, 1), Role::Accent, mark);
-        canvas.spot(area, Spot::Line(place));
+        canvas.spot(area, HitTarget::Line(place));
         line(canvas, area, (&menu.items[*index], fit), &columns_of);
         if place == menu.selected {
             canvas.tint(area, Role::Selected);

@@ -2,16 +2,16 @@
 //!
 //! In: the model. Out: a page of text. Never here: whether the expectations hold; `phaselab check` tests that.
 
-use super::Look;
-use super::document::Document;
+use super::RenderStyle;
 use super::number::brief;
+use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 
 /// The page.
-pub(super) fn document(lab: &Lab, look: &Look) -> Document {
+pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let model = &lab.loaded.model;
-    let mut page = Document::default();
+    let mut page = TextPage::default();
     page.heading(&model.info.title);
     if !model.info.summary.is_empty() {
         page.words(Role::Text, model.info.summary.as_str());

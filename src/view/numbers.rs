@@ -2,20 +2,20 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
-use super::document::Document;
 use super::gauges::word;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
+use super::text_page::TextPage;
 use super::theme::Role;
-use crate::experiment::Tally;
+use crate::experiment::EventCount;
 use crate::system::{Channel, ChannelKind};
 
 /// A heading, and which channels stand under it.
 type Group = (&'static str, fn(&ChannelKind) -> bool);
 
 /// The page.
-pub(super) fn document(q: &Quantities<'_>) -> Document {
-    let mut page = Document::default();
+pub(super) fn document(q: &Quantities<'_>) -> TextPage {
+    let mut page = TextPage::default();
     let glyphs = q.look.glyphs;
     page.heading("State");
     let unit = q.lab.loaded.model.time_unit();
@@ -48,7 +48,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
             page.value(&q.name(index), &value, &channel.unit, Vec::new());
         }
     }
-    happenings(&mut page, q);
+    occurrences(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -63,14 +63,14 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     page
 }
 
-/// Each event and blow: how often it has happened, and when last.
-fn happenings(page: &mut Document, q: &Quantities<'_>) {
-    let chronicle = &q.snapshot.happenings;
-    if chronicle.is_empty() {
+/// Each event and impulse: how often it has happened, and when last.
+fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
+    let event_log = &q.snapshot.occurrences;
+    if event_log.is_empty() {
         return;
     }
     page.heading("What happened");
-    for Tally { name, count, last } in chronicle.tallies() {
+    for EventCount { name, count, last } in event_log.tallies() {
         let last = readable(*last, 10, q.look.glyphs);
         let rest = vec![(Role::Dim, format!(", last at t = {last}"))];
         let times = if *count == 1 { "time" } else { "times" };

@@ -55,12 +55,13 @@ pub(super) fn draw(
     q: &Quantities<'_>,
     plot: &Plot,
 ) -> Option<Frame> {
-    let Plot::Phase { x, y, lens } = plot else { return None };
+    let Plot::Phase { x, y, viewport } = plot else { return None };
     let look = canvas.look;
     let landscape = q.lab.landscape(plot);
     let window = |axis: usize| landscape.map(|l| l.window[axis]);
-    let axes = Axes::new(q.axis(*x, window(0), (*lens, 0)), q.axis(*y, window(1), (*lens, 1)));
-    let axes = if lens.equal { axes.equal() } else { axes };
+    let axes =
+        Axes::new(q.axis(*x, window(0), (*viewport, 0)), q.axis(*y, window(1), (*viewport, 1)));
+    let axes = if viewport.equal { axes.equal() } else { axes };
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     if let Some(landscape) = landscape {
@@ -83,7 +84,7 @@ pub(super) fn draw(
     let marks = Marks::of(q, |row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
     marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, (*lens, &marks));
+    cursor::draw(canvas, area, &frame, (*viewport, &marks));
     Some(frame)
 }
 

@@ -6,14 +6,14 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::canvas::{Canvas, columns, row};
-use super::found::found_in;
+use super::highlight::found_in;
 use super::layout::{split_columns, split_rows};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
 use super::{phase, potential, series, space};
-use crate::app::{App, Fit, Picker, Plot, Spot};
+use crate::app::{App, Fit, HitTarget, Picker, Plot};
 use crate::preset::{Entry, Origin};
 
 /// Columns of the list where something stands beside it.
@@ -69,7 +69,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         title.push(canvas.span(Role::Dim, format!("  {count}")));
     }
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, Spot::Systems);
+    canvas.spot(area, HitTarget::Systems);
     search(
         canvas,
         columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
@@ -100,7 +100,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
             Line::System(place, entry, fit) => {
-                canvas.spot(area, Spot::System(*place));
+                canvas.spot(area, HitTarget::System(*place));
                 let selected = *place == picker.selected;
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
@@ -179,10 +179,10 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     match space.or(lab.plots.first()) {
         Some(Plot::Space(eye)) => space::draw(canvas, area, &q, eye),
         Some(plot @ Plot::Phase { .. }) => drop(phase::draw(canvas, area, &q, plot)),
-        Some(Plot::Time { y, lens }) => drop(series::draw(canvas, area, &q, (y, *lens))),
-        Some(Plot::Potential { view, lens }) => {
+        Some(Plot::Time { y, viewport }) => drop(series::draw(canvas, area, &q, (y, *viewport))),
+        Some(Plot::Potential { view, viewport }) => {
             if let Some(shown) = lab.potential(*view) {
-                potential::draw(canvas, area, &q, (&shown, *lens));
+                potential::draw(canvas, area, &q, (&shown, *viewport));
             }
         }
         None => {}

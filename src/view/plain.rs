@@ -2,21 +2,21 @@
 //!
 //! In: the lab and the snapshot that is read. Out: a page of text. Never here: anything that changes by itself.
 
-use super::bars::status_words;
-use super::document::Document;
 use super::gauges::{finding, word};
+use super::header_footer::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
+use super::text_page::TextPage;
 use crate::app::keymap::{KEYS, Place};
-use crate::app::{Facts, Lab, Pane, Target};
+use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;
 
-/// Places whose keys are told of.
+/// Places whose keys are reported of.
 const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
 
 /// The page.
-pub(super) fn document(q: &Quantities<'_>) -> Document {
-    let mut page = Document::default();
+pub(super) fn document(q: &Quantities<'_>) -> TextPage {
+    let mut page = TextPage::default();
     let mut say = |text: String| page.line(&q.look.glyphs.text(&text));
     let (lab, snapshot) = (q.lab, q.snapshot);
     let info = &lab.loaded.model.info;
@@ -30,8 +30,8 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     let selected = chosen.map_or_else(String::new, |f| format!(", {} selected", name(q, &f)));
     say(format!("Focus: {focus}{selected}."));
     for (title, kind) in [
-        ("Parameters", Target::Parameter as fn(usize) -> Target),
-        ("Initial values", Target::Initial),
+        ("Parameters", ValueId::Parameter as fn(usize) -> ValueId),
+        ("Initial values", ValueId::Initial),
     ] {
         let count = lab.count(kind);
         say(format!("{title}, {count}:"));
@@ -66,7 +66,7 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
             gauge.reason
         ));
     }
-    news(snapshot, q, &mut say);
+    notifications(snapshot, q, &mut say);
     say("Pictures:".to_owned());
     for pane in lab.panes().filter(|pane| matches!(pane, Pane::Plot(_))) {
         say(lab.name_of(pane));
@@ -79,32 +79,32 @@ pub(super) fn document(q: &Quantities<'_>) -> Document {
     page
 }
 
-/// What happened and what was told, the newest first.
-fn news(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
+/// What happened and what was reported, the newest first.
+fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
         say("Told, the newest first:".to_owned());
         notices.into_iter().for_each(&mut *say);
     }
-    let happened = snapshot.happenings.count();
+    let happened = snapshot.occurrences.count();
     if happened > 0 {
         say(format!("Happened, {happened}; the newest first:"));
-        for happening in snapshot.happenings.iter().rev().take(MOST) {
-            say(format!("{} at t = {}", happening.name, brief(happening.time, 6, q.look.glyphs)));
+        for occurrence in snapshot.occurrences.iter().rev().take(MOST) {
+            say(format!("{} at t = {}", occurrence.name, brief(occurrence.time, 6, q.look.glyphs)));
         }
     }
 }
 
-/// Of very many happenings the newest are read.
+/// Of very many occurrences the newest are read.
 const MOST: usize = 10;
 
 /// A value with its name, its meaning, its unit and its range.
-fn value(q: &Quantities<'_>, target: Target) -> String {
+fn value(q: &Quantities<'_>, target: ValueId) -> String {
     let lab: &Lab = q.lab;
     let Some(facts) = lab.facts(target) else { return String::new() };
     let number = match target {
-        Target::Parameter(index) => q.snapshot.parameters.get(index),
-        Target::Initial(index) => q.snapshot.initial.get(index),
+        ValueId::Parameter(index) => q.snapshot.parameters.get(index),
+        ValueId::Initial(index) => q.snapshot.initial.get(index),
     };
     let is = number.map_or_else(|| "not known".to_owned(), |v| brief(*v, 6, q.look.glyphs));
     let about = if facts.about.is_empty() { String::new() } else { format!(", {}", facts.about) };
@@ -114,7 +114,7 @@ fn value(q: &Quantities<'_>, target: Target) -> String {
     format!("{} is {is}{}{about}{range}", name(q, &facts), after(&facts.unit))
 }
 
-fn name(q: &Quantities<'_>, facts: &Facts) -> String {
+fn name(q: &Quantities<'_>, facts: &ValueInfo) -> String {
     q.look.glyphs.pick(&facts.shown, &facts.name).clone()
 }
 

@@ -13,7 +13,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use crate::app::{Lens, Potential};
+use crate::app::{Potential, Viewport};
 
 /// The layers of the picture, the lowest first.
 const ALLOWED: u8 = 0;
@@ -58,10 +58,10 @@ pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     q: &Quantities<'_>,
-    (shown, lens): (&Potential, Lens),
+    (shown, viewport): (&Potential, Viewport),
 ) -> Frame {
     let look = canvas.look;
-    let across = q.axis(shown.x, Some(across(q, shown.x)), (lens, 0));
+    let across = q.axis(shown.x, Some(across(q, shown.x)), (viewport, 0));
     let (from, to) = (across.scale.lo, across.scale.hi);
     let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;
     let curve: Vec<[f64; 2]> = (0..POINTS).map(|i| [x(i), shown.at(q.lab, x(i))]).collect();
@@ -69,7 +69,7 @@ pub(super) fn draw(
     let upwards = Axis::new(
         q.name(shown.y),
         q.unit(shown.y),
-        through(height(&curve, shown.energy, now[1]), (lens, 1)),
+        through(height(&curve, shown.energy, now[1]), (viewport, 1)),
     );
     let axes = Axes::new(across, upwards);
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
@@ -96,7 +96,7 @@ pub(super) fn draw(
     );
     raster.marker(&frame, now, Marker::Disc, &Pen::new(bright, NOW));
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, (lens, &Marks::none()));
+    cursor::draw(canvas, area, &frame, (viewport, &Marks::none()));
     frame
 }
 

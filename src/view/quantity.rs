@@ -2,10 +2,10 @@
 //!
 //! In: a channel of the system and the snapshot. Out: text and scales. Never here: cells.
 
-use super::Look;
+use super::RenderStyle;
 use super::plot::ticks::nice_range;
 use super::plot::{Axis, Scale};
-use crate::app::{Lab, Lens};
+use crate::app::{Lab, Viewport};
 use crate::experiment::Snapshot;
 use crate::expr::Expr;
 use crate::model::Point;
@@ -15,17 +15,17 @@ use crate::model::Point;
 pub(super) struct Quantities<'a> {
     pub(super) lab: &'a Lab,
     pub(super) snapshot: &'a Snapshot,
-    pub(super) look: &'a Look,
+    pub(super) look: &'a RenderStyle,
 }
 
 impl<'a> Quantities<'a> {
     /// The quantities of a lab that has been seen in motion.
-    pub(super) fn of(lab: &'a Lab, look: &'a Look) -> Option<Self> {
+    pub(super) fn of(lab: &'a Lab, look: &'a RenderStyle) -> Option<Self> {
         Some(Self { lab, snapshot: lab.seen()?, look })
     }
 
     /// The quantities as a snapshot has them, if it fits the system.
-    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a Look) -> Option<Self> {
+    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a RenderStyle) -> Option<Self> {
         lab.fits(snapshot).then_some(Self { lab, snapshot, look })
     }
 
@@ -99,7 +99,7 @@ impl<'a> Quantities<'a> {
         &self,
         channel: usize,
         range: Option<[f64; 2]>,
-        lens: (Lens, usize),
+        viewport: (Viewport, usize),
     ) -> Axis {
         let (lo, hi) = self.extent(channel);
         let period = self.period(channel);
@@ -120,7 +120,7 @@ impl<'a> Quantities<'a> {
         };
         let unit = self.unit(channel);
         let scale = if unit == "rad" { scale.angle() } else { scale };
-        Axis::new(self.name(channel), unit, through(scale, lens))
+        Axis::new(self.name(channel), unit, through(scale, viewport))
     }
 }
 
@@ -154,10 +154,10 @@ impl Source {
 }
 
 /// A scale through a lens; `axis` is 0 across, 1 upwards.
-pub(super) fn through(scale: Scale, (lens, axis): (Lens, usize)) -> Scale {
-    let scale = if lens.log && axis == 1 { Scale::log(scale.lo, scale.hi) } else { scale };
-    if lens.zoom[axis] == 1.0 && lens.pan[axis] == 0.0 {
+pub(super) fn through(scale: Scale, (viewport, axis): (Viewport, usize)) -> Scale {
+    let scale = if viewport.log && axis == 1 { Scale::log(scale.lo, scale.hi) } else { scale };
+    if viewport.zoom[axis] == 1.0 && viewport.pan[axis] == 0.0 {
         return scale;
     }
-    scale.zoomed(lens.zoom[axis], 0.5).panned(lens.pan[axis])
+    scale.zoomed(viewport.zoom[axis], 0.5).panned(viewport.pan[axis])
 }

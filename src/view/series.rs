@@ -12,7 +12,7 @@ use super::number::readable;
 use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use crate::app::Lens;
+use crate::app::Viewport;
 
 /// For how many seconds of the wall clock, at the file's own speed, the window reaches back.
 const SECONDS: f64 = 20.0;
@@ -68,11 +68,11 @@ pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     q: &Quantities<'_>,
-    (channels, lens): (&[usize], Lens),
+    (channels, viewport): (&[usize], Viewport),
 ) -> Frame {
     let look = canvas.look;
-    let time = Axis::new("t", q.lab.loaded.model.time_unit(), window(q, lens));
-    let axes = Axes::new(time, common_axis(q, channels, lens));
+    let time = Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport));
+    let axes = Axes::new(time, common_axis(q, channels, viewport));
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     for (index, channel) in channels.iter().enumerate().rev() {
@@ -89,30 +89,30 @@ pub(super) fn draw(
     let marks = Marks::of(q, |row| Some([*row.first()?, *row.get(1 + first)?]));
     marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], MARK));
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, (lens, &marks));
+    cursor::draw(canvas, area, &frame, (viewport, &marks));
     frame
 }
 
 /// The stretch of time shown: it stands still until it is full, then moves along.
-fn window(q: &Quantities<'_>, lens: Lens) -> Scale {
+fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
     let speed = q.lab.loaded.model.run.speed;
     let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
     let start = q.lab.loaded.model.run.start;
     let end = q.snapshot.time.max(start + span);
-    let span = span / lens.zoom[0];
-    let shift = lens.pan[0] * span;
+    let span = span / viewport.zoom[0];
+    let shift = viewport.pan[0] * span;
     Scale::linear(end - span + shift, end + shift)
 }
 
 /// One axis for all quantities: their names stand in the frame, the unit here if they share it.
-fn common_axis(q: &Quantities<'_>, channels: &[usize], lens: Lens) -> Axis {
+fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Axis {
     if let [only] = channels {
-        return q.axis(*only, None, (lens, 1));
+        return q.axis(*only, None, (viewport, 1));
     }
-    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Lens::WHOLE, 1))).collect();
+    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
     let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
     let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
     let unit = axes.first().map_or("", |axis| &axis.unit);
     let shared = axes.iter().all(|axis| axis.unit == unit);
-    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (lens, 1)))
+    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (viewport, 1)))
 }

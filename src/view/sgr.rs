@@ -1,4 +1,4 @@
-//! The numbers by which a terminal is told how to write: select graphic rendition, the `m` of ECMA-48.
+//! The numbers by which a terminal is reported how to write: select graphic rendition, the `m` of ECMA-48.
 //!
 //! In: colours and modifiers. Out: numbers. Never here: the sequence round them, or which of them a terminal has.
 

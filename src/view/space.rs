@@ -3,8 +3,8 @@
 //! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
 
 mod body;
+mod reference_frame;
 mod scene;
-mod seat;
 
 use ratatui::layout::Rect;
 
@@ -12,13 +12,13 @@ use super::canvas::{Canvas, Span, row};
 use super::plot::{Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
-use crate::app::{Eye, Lab};
-use crate::expr::portable;
+use crate::app::{CameraPose, Lab};
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
+use crate::num::math;
 use body::Outline;
+use reference_frame::ReferenceFrame;
 use scene::Scene;
-use seat::Seat;
 
 /// The layers of the picture, the lowest first.
 const GROUND: u8 = 0;
@@ -33,7 +33,7 @@ const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 const LONGEST: f64 = 0.25;
 
 /// The heading.
-pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &Eye) -> Vec<Span> {
+pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &CameraPose) -> Vec<Span> {
     let model = &lab.loaded.model;
     let view = eye.view.and_then(|view| model.views.get(view));
     // A view's title speaks of the frame that the file gave it.
@@ -51,16 +51,17 @@ pub(super) fn title(canvas: &Canvas<'_>, lab: &Lab, eye: &Eye) -> Vec<Span> {
 }
 
 /// The picture inside the frame.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &Eye) {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &CameraPose) {
     if area.is_empty() {
         return;
     }
     let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
-    let seat = Seat::of(q, eye.frame);
-    let scene = Scene::of(q, *eye, seat.as_ref());
+    let reference_frame = ReferenceFrame::of(q, eye.frame);
+    let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist = Artist { raster, frame, camera, q, seat, tracks: 0, bodies: 0 };
+    let mut artist =
+        ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape);
     }
@@ -103,17 +104,17 @@ fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
 }
 
 /// Draws shape after shape.
-struct Artist<'a> {
+struct ScenePainter<'a> {
     raster: Raster,
     frame: Frame,
     camera: Camera,
     q: &'a Quantities<'a>,
-    seat: Option<Seat>,
+    reference_frame: Option<ReferenceFrame>,
     tracks: usize,
     bodies: usize,
 }
 
-impl Artist<'_> {
+impl ScenePainter<'_> {
     fn shape(&mut self, shape: &Shape) {
         let theme = &self.q.look.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
@@ -160,13 +161,17 @@ impl Artist<'_> {
     /// Where a point of a shape is now, as seen from the frame.
     fn point(&self, point: &Point) -> [f64; 3] {
         let r = self.q.point(point);
-        self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+        self.reference_frame
+            .as_ref()
+            .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
     }
 
     /// A direction of a shape now, as seen from the frame.
     fn direction(&self, direction: &Point) -> [f64; 3] {
         let v = self.q.point(direction);
-        self.seat.as_ref().map_or(v, |seat| seat.direction(&self.q.snapshot.values, v))
+        self.reference_frame
+            .as_ref()
+            .map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
     }
 
     /// Draws the apparent forces on the particles of the frame, and says which of them there are.
@@ -221,7 +226,7 @@ impl Artist<'_> {
     fn spring(&mut self, from: [f64; 3], to: [f64; 3], pen: &Pen) {
         let (a, b) = (self.flat(from), self.flat(to));
         let along = [b[0] - a[0], b[1] - a[1]];
-        let length = portable::hypot(along[0], along[1]);
+        let length = math::hypot(along[0], along[1]);
         let width =
             0.025 * (self.frame.x.hi - self.frame.x.lo).min(self.frame.y.hi - self.frame.y.lo);
         let across = [-along[1] / length * width, along[0] / length * width];
@@ -262,7 +267,9 @@ impl Artist<'_> {
         let at = self.q.point(at);
         let place = |own: [f64; 3]| {
             let r = [0, 1, 2].map(|k| at[k] + own[k]);
-            self.seat.as_ref().map_or(r, |seat| seat.point(&self.q.snapshot.values, r))
+            self.reference_frame
+                .as_ref()
+                .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
         };
         let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
             lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
@@ -288,7 +295,11 @@ impl Artist<'_> {
         // Each past point is seen from the frame as it stood then: the row is that of its own time.
         let past = rows.map(|row| {
             let r = sources.map(|source| source.read(row));
-            self.flat(self.seat.as_ref().map_or(r, |seat| seat.point(row, r)))
+            self.flat(
+                self.reference_frame
+                    .as_ref()
+                    .map_or(r, |reference_frame| reference_frame.point(row, r)),
+            )
         });
         let mut points: Vec<[f64; 2]> = past.collect();
         points.push(self.flat(self.point(point)));

@@ -71,7 +71,7 @@ impl Role {
 
 /// One colour of a palette: in full, among the sixteen, and what stands for it without colour.
 #[derive(Clone, Copy, Debug)]
-pub struct Ink {
+pub struct PaletteColour {
     /// The colour itself; `None` is the terminal's own foreground.
     pub rgb: Option<Rgb>,
     /// Its stand-in among the terminal's sixteen.
@@ -82,7 +82,7 @@ pub struct Ink {
     pub mono: Modifier,
 }
 
-impl Ink {
+impl PaletteColour {
     /// The style that shows this ink at a depth.
     pub fn style(&self, depth: ColourDepth) -> Style {
         let style = Style::new().add_modifier(self.weight);

@@ -7,13 +7,13 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
+use super::hit_test::Region;
 use super::number::brief;
 use super::plot::Scale;
-use super::spot::Region;
-use super::strip::RangeBar;
+use super::sparkline::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};
-use crate::app::{Facts, Field, Lab, Purpose, Spot, Target};
+use crate::app::{Field, HitTarget, Lab, Purpose, ValueId, ValueInfo};
 use crate::model;
 
 /// Columns of a number.
@@ -34,7 +34,7 @@ struct Columns {
 pub(super) struct Values<'a> {
     pub(super) lab: &'a Lab,
     /// Parameters or initial values.
-    pub(super) kind: fn(usize) -> Target,
+    pub(super) kind: fn(usize) -> ValueId,
     /// The selected one.
     pub(super) selected: usize,
     /// Whether keys go to this list.
@@ -79,8 +79,9 @@ impl Values<'_> {
 
     fn columns(&self, canvas: &Canvas<'_>, count: usize) -> Columns {
         let glyphs = canvas.look.glyphs;
-        let facts: Vec<Facts> = (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
-        let widest = |text: &dyn Fn(&Facts) -> String, most: u16| {
+        let facts: Vec<ValueInfo> =
+            (0..count).filter_map(|i| self.lab.facts((self.kind)(i))).collect();
+        let widest = |text: &dyn Fn(&ValueInfo) -> String, most: u16| {
             let wide = facts.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
             wide.unwrap_or(0).min(most)
         };
@@ -95,7 +96,7 @@ impl Values<'_> {
         let Some(facts) = self.lab.facts(target) else { return };
         let value = self.lab.value(target);
         let glyphs = canvas.look.glyphs;
-        canvas.spot(area, Spot::Value(target));
+        canvas.spot(area, HitTarget::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
         canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);
@@ -125,7 +126,7 @@ impl Values<'_> {
 fn bar(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    (target, facts): (Target, &Facts),
+    (target, facts): (ValueId, &ValueInfo),
     value: f64,
     here: bool,
 ) {

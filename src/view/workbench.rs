@@ -9,11 +9,13 @@ use ratatui::style::{Modifier, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::canvas::{Canvas, columns, row};
-use super::desk;
+use super::lab_page;
 use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
-use crate::app::{App, Asking, Caret, Drawn, Flaw, Lab, Notice, Sheet, SheetState};
+use crate::app::{
+    App, Asking, BufferDiagnostic, Caret, Drawn, Lab, Notification, SheetState, SourceBuffer,
+};
 
 /// From this width on the motion has room beside the text.
 const WIDE: u16 = 112;
@@ -26,12 +28,12 @@ pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (app, lab): (&App, &Lab),
-    sheet: &Sheet,
+    sheet: &SourceBuffer,
 ) -> Drawn {
     let mut left = area;
     if area.width >= WIDE {
         let (text, beside) = split_columns(area, area.width * 11 / 20);
-        desk::draw(canvas, beside, app, lab);
+        lab_page::draw(canvas, beside, app, lab);
         left = text;
     }
     let place = sheet.editor.cursor();
@@ -50,7 +52,7 @@ pub(super) fn draw(
 }
 
 /// The text with numbers of lines and marks of mistakes at its left.
-fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet) -> Drawn {
+fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
     let all = sheet.editor.lines();
     let digits = all.len().to_string().len().max(2) as u16;
     let margin = digits + 3;
@@ -62,7 +64,8 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet) -> Drawn {
     let glyphs = canvas.look.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
-        let flaws: Vec<&Flaw> = sheet.flaws.iter().filter(|f| f.from.row == index).collect();
+        let flaws: Vec<&BufferDiagnostic> =
+            sheet.flaws.iter().filter(|f| f.from.row == index).collect();
         let here = sheet.editor.cursor().row == index;
         if let Some(flaw) = flaws.first() {
             let role = if flaw.warning { Role::Warn } else { Role::Bad };
@@ -81,8 +84,8 @@ fn write(
     at: Rect,
     (index, line): (usize, &str),
     from: usize,
-    flaws: &[&Flaw],
-    sheet: &Sheet,
+    flaws: &[&BufferDiagnostic],
+    sheet: &SourceBuffer,
 ) {
     let selection = sheet.editor.selection();
     let cursor = sheet.editor.cursor();
@@ -143,7 +146,7 @@ fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str
 }
 
 /// The first column shown, so far on that the cursor is in sight also where characters take several cells.
-fn in_sight(canvas: &Canvas<'_>, sheet: &Sheet, from: usize, wide: u16) -> usize {
+fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -> usize {
     let cursor = sheet.editor.cursor();
     let line = sheet.editor.lines().get(cursor.row).map_or("", String::as_str);
     let cells = |c: char| shown(canvas, c, &mut [0; 4]).width();
@@ -160,7 +163,7 @@ fn in_sight(canvas: &Canvas<'_>, sheet: &Sheet, from: usize, wide: u16) -> usize
 }
 
 /// Whether a mistake is underlined here; one without extent has a place of one character.
-fn covers(flaw: &Flaw, spot: Caret) -> bool {
+fn covers(flaw: &BufferDiagnostic, spot: Caret) -> bool {
     spot == flaw.from || flaw.from <= spot && spot < flaw.to
 }
 
@@ -178,8 +181,8 @@ fn comment(line: &str) -> Option<usize> {
     None
 }
 
-/// What is known of the text, or what is asked for; what is told in passing stands in the place of the first.
-fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet, notice: Option<&Notice>) {
+/// What is known of the text, or what is asked for; what is reported in passing stands in the place of the first.
+fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Option<&Notification>) {
     if let Some(asking) = &sheet.asking {
         return self::asking(canvas, area, asking, notice);
     }
@@ -226,8 +229,8 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &Sheet, notice: Option<&Noti
     }
 }
 
-/// What is told in passing; how many rows it takes.
-fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notice) -> usize {
+/// What is reported in passing; how many rows it takes.
+fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification) -> usize {
     let role = if notice.error { Role::Bad } else { Role::Good };
     let lines = words(&canvas.text(&notice.text), area.width.into());
     let used = lines.len().min(area.height.into());
@@ -237,7 +240,7 @@ fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notice) -> usize {
     used
 }
 
-fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&Notice>) {
+fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&Notification>) {
     let (label, input, help) = match asking {
         Asking::Words(input) => {
             ("find: ", input, "Enter goes to the next place, Ctrl-g to one more.")

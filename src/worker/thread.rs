@@ -8,20 +8,20 @@ use std::time::{Duration, Instant};
 
 use arc_swap::ArcSwapOption;
 
-use super::Subject;
+use super::Runnable;
 use super::pace::Pace;
 use super::slice::Slice;
-use crate::experiment::{Command, Fault, Progress, Snapshot, Status};
+use crate::experiment::{Command, Failure, Progress, Snapshot, Status};
 
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
 
 /// What can lie in the mailbox.
-pub(super) enum Letter {
+pub(super) enum Message {
     /// A command for the subject.
-    Obey(Command),
+    Execute(Command),
     /// Another subject, and its epoch.
-    Load(u64, Box<dyn Subject>),
+    Load(u64, Box<dyn Runnable>),
     /// The end.
     Stop,
 }
@@ -30,9 +30,9 @@ pub(super) enum Letter {
 struct Stopped;
 
 /// Works until told to stop.
-pub(super) fn run(letters: &Receiver<Letter>, slot: &ArcSwapOption<Snapshot>) {
-    let mut bench = Bench {
-        letters,
+pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) {
+    let mut bench = WorkerLoop {
+        messages,
         slot,
         subject: None,
         epoch: 0,
@@ -44,23 +44,23 @@ pub(super) fn run(letters: &Receiver<Letter>, slot: &ArcSwapOption<Snapshot>) {
 }
 
 /// The worker's own state.
-struct Bench<'a> {
-    letters: &'a Receiver<Letter>,
+struct WorkerLoop<'a> {
+    messages: &'a Receiver<Message>,
     slot: &'a ArcSwapOption<Snapshot>,
     /// `None` before the first one, and after one has panicked.
-    subject: Option<Box<dyn Subject>>,
+    subject: Option<Box<dyn Runnable>>,
     epoch: u64,
     pace: Pace,
     slice: Slice,
     published: Instant,
 }
 
-impl Bench<'_> {
+impl WorkerLoop<'_> {
     /// One round: letters, a slice of work, a snapshot, and sleep where there is time.
     fn turn(&mut self) -> Result<(), Stopped> {
         self.read_letters()?;
         let Some(subject) = self.running() else {
-            let letter = self.letters.recv().map_err(|_| Stopped)?;
+            let letter = self.messages.recv().map_err(|_| Stopped)?;
             return self.handle(letter);
         };
         let time = subject.time();
@@ -82,13 +82,13 @@ impl Bench<'_> {
     }
 
     /// The subject, if time runs in it.
-    fn running(&self) -> Option<&dyn Subject> {
+    fn running(&self) -> Option<&dyn Runnable> {
         self.subject.as_deref().filter(|subject| subject.status() == Status::Running)
     }
 
     /// Sleeps so long, or until a letter comes.
     fn wait(&mut self, time: Duration) -> Result<(), Stopped> {
-        match self.letters.recv_timeout(time) {
+        match self.messages.recv_timeout(time) {
             Ok(letter) => self.handle(letter),
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => Err(Stopped),
@@ -98,7 +98,7 @@ impl Bench<'_> {
     /// Empties the mailbox.
     fn read_letters(&mut self) -> Result<(), Stopped> {
         loop {
-            match self.letters.try_recv() {
+            match self.messages.try_recv() {
                 Ok(letter) => self.handle(letter)?,
                 Err(TryRecvError::Empty) => return Ok(()),
                 Err(TryRecvError::Disconnected) => return Err(Stopped),
@@ -108,16 +108,16 @@ impl Bench<'_> {
 
     /// Does what a letter asks, and shows what came of it. Simulated time goes on without a
     /// hitch, unless the letter was about it.
-    fn handle(&mut self, letter: Letter) -> Result<(), Stopped> {
+    fn handle(&mut self, letter: Message) -> Result<(), Stopped> {
         let before = self.clockwork();
         match letter {
-            Letter::Stop => return Err(Stopped),
-            Letter::Load(epoch, subject) => {
+            Message::Stop => return Err(Stopped),
+            Message::Load(epoch, subject) => {
                 self.epoch = epoch;
                 self.subject = Some(subject);
             }
-            Letter::Obey(command) => {
-                self.guarded(|subject| subject.obey(command));
+            Message::Execute(command) => {
+                self.guarded(|subject| subject.execute(command));
             }
         }
         let after = self.clockwork();
@@ -146,20 +146,20 @@ impl Bench<'_> {
 
     /// Lets the subject do something; where it panics it is given up, and the newest snapshot
     /// says so.
-    fn guarded<T>(&mut self, act: impl FnOnce(&mut dyn Subject) -> T) -> Option<T> {
+    fn guarded<T>(&mut self, act: impl FnOnce(&mut dyn Runnable) -> T) -> Option<T> {
         let subject = self.subject.as_deref_mut()?;
         // the subject is dropped if it panics, so nobody sees what it left undone
         match catch_unwind(AssertUnwindSafe(|| act(subject))) {
             Ok(result) => Some(result),
             Err(panic) => {
                 self.subject = None;
-                self.tell_panic(panic.as_ref());
+                self.report_panic(panic.as_ref());
                 None
             }
         }
     }
 
-    fn tell_panic(&self, panic: &(dyn Any + Send)) {
+    fn report_panic(&self, panic: &(dyn Any + Send)) {
         let last = self.slot.load_full().filter(|last| last.epoch == self.epoch);
         let last = last.map_or_else(|| Snapshot::empty(self.epoch), |last| (*last).clone());
         let reason = panic
@@ -170,7 +170,7 @@ impl Bench<'_> {
         let message = format!(
             "the integrator stopped by a defect of the program ({reason}); load the system again"
         );
-        let status = Status::Faulted(Fault { time: last.time, message });
+        let status = Status::Failed(Failure { time: last.time, message });
         self.slot.store(Some(Arc::new(Snapshot { status, ..last })));
     }
 }

@@ -129,7 +129,7 @@ fn help_and_version_go_to_standard_output() {
 }
 
 #[test]
-fn wrong_use_is_told_with_exit_2() {
+fn wrong_use_is_reported_with_exit_2() {
     phaselab(&["run"]).fails(2, &["PRESET|FILE", "Usage:"]);
     phaselab(&["run", "pendulum", "--format", "xml"]).fails(2, &["xml", "csv", "jsonl"]);
     phaselab(&["run", "pendulum", "--untli", "3"]).fails(2, &["--untli", "--until"]);

@@ -6,7 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use phaselab::preset::Document;
+use phaselab::diagnostic::Document;
 use phaselab::shell::config;
 use phaselab::shell::options::{Kind, OPTIONS};
 

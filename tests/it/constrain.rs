@@ -6,7 +6,7 @@ use phaselab::experiment::{Experiment, Progress, Setup, Status, choose_method};
 use phaselab::expr::{Expr, Zero};
 use phaselab::mechanics::{self, Equations};
 use phaselab::model::Model;
-use phaselab::system::{Fault, FaultKind, Given, System};
+use phaselab::system::{InitialOverride, MotionError, MotionErrorKind, System};
 
 use crate::build::{constrain, lagrangian, read};
 
@@ -225,12 +225,12 @@ y = { initial = 0.5, velocity = 0.7 }
 L = "1/2*((1 + y^2)*x'^2 + y'^2) - 1/4*x^2"
 "#;
     let mut both = crate::experiment::build(ROSENBERG, |_| ());
-    let mut twin = crate::experiment::build(short, |_| ());
+    let mut vakonomic = crate::experiment::build(short, |_| ());
     for time in [0.5, 3.0, 12.0] {
         run(&mut both, time);
-        run(&mut twin, time);
-        assert!((value(&both, "twin x") - value(&twin, "x")).abs() < 2e-14, "x at {time}");
-        assert!((value(&both, "twin y") - value(&twin, "y")).abs() < 2e-14, "y at {time}");
+        run(&mut vakonomic, time);
+        assert!((value(&both, "twin x") - value(&vakonomic, "x")).abs() < 2e-14, "x at {time}");
+        assert!((value(&both, "twin y") - value(&vakonomic, "y")).abs() < 2e-14, "y at {time}");
         assert!(value(&both, "twin z'").abs() < 1e-14, "the twin keeps the constraint, too");
     }
     // and it is wrong: the right motion has y'' = 0
@@ -263,7 +263,7 @@ expression = "other_x"
 }
 
 #[test]
-fn what_is_said_twice_is_told_and_shared_evenly() {
+fn what_is_said_twice_is_reported_and_shared_evenly() {
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");
     constrain(&mut model, &[("rod", "x^2 + y^2 - 1"), ("twin", "2*x^2 + 2*y^2 - 2")]);
     start(&mut model, &[("sin(2)", Some("0")), ("-cos(2)", None)]);
@@ -292,10 +292,10 @@ fn a_mass_matrix_that_is_singular_alone_is_solved_with_its_constraint() {
     assert!((value(&tied, "s'") + 7.0_f64.sin()).abs() < 2e-15);
 }
 
-fn initial(model: &Model, given: &[Given]) -> Result<Vec<f64>, FaultKind> {
+fn initial(model: &Model, given: &[InitialOverride]) -> Result<Vec<f64>, MotionErrorKind> {
     let parameters = model.parameter_values();
     let state = system(model).initial(0.0, &parameters, given);
-    state.map(|state| state.values).map_err(|fault: Fault| fault.kind)
+    state.map(|state| state.values).map_err(|fault: MotionError| fault.kind)
 }
 
 #[test]
@@ -304,9 +304,9 @@ fn velocities_left_out_follow_from_the_constraints() {
     constrain(&mut model, &[("no slip", "r*theta' - x'")]);
     start(&mut model, &[("0", Some("3")), ("0", None)]);
     assert_eq!(initial(&model, &[]), Ok(vec![0.0, 0.0, 3.0, 3.0]));
-    assert_eq!(initial(&model, &[Given::Velocity(0, 5.0)]), Ok(vec![0.0, 0.0, 5.0, 5.0]));
+    assert_eq!(initial(&model, &[InitialOverride::Velocity(0, 5.0)]), Ok(vec![0.0, 0.0, 5.0, 5.0]));
     // p_x = m x'
-    assert_eq!(initial(&model, &[Given::Momentum(0, 4.0)]), Ok(vec![0.0, 0.0, 4.0, 4.0]));
+    assert_eq!(initial(&model, &[InitialOverride::Momentum(0, 4.0)]), Ok(vec![0.0, 0.0, 4.0, 4.0]));
     // p_x = m x' and θ' are given, and apart
     let model_of = |rates: [Option<&str>; 2]| {
         let mut model = lagrangian(&["x", "theta"], &["m", "g", "r", "phi"], HOOP);
@@ -314,17 +314,20 @@ fn velocities_left_out_follow_from_the_constraints() {
         start(&mut model, &[("0", rates[0]), ("0", rates[1])]);
         model
     };
-    let both = initial(&model_of([None, Some("1")]), &[Given::Momentum(0, 4.0)]);
-    assert_eq!(both, Err(FaultKind::Contradiction));
+    let both = initial(&model_of([None, Some("1")]), &[InitialOverride::Momentum(0, 4.0)]);
+    assert_eq!(both, Err(MotionErrorKind::Contradiction));
     // both given, and apart
-    let apart = initial(&model, &[Given::Velocity(1, 2.0)]).unwrap_err();
+    let apart = initial(&model, &[InitialOverride::Velocity(1, 2.0)]).unwrap_err();
     assert!(
-        matches!(&apart, FaultKind::ConstraintMissed(name, _) if name == "no slip"),
+        matches!(&apart, MotionErrorKind::ConstraintMissed(name, _) if name == "no slip"),
         "{apart:?}"
     );
     start(&mut model, &[("0", None), ("0", None)]);
     let free = initial(&model, &[]).unwrap_err();
-    assert!(matches!(&free, FaultKind::FreeVelocities(names) if names.len() == 1), "{free:?}");
+    assert!(
+        matches!(&free, MotionErrorKind::FreeVelocities(names) if names.len() == 1),
+        "{free:?}"
+    );
 }
 
 #[test]
@@ -334,8 +337,9 @@ fn a_velocity_that_happens_to_be_free_at_the_start_is_not_guessed() {
     constrain(&mut model, &[("rod", "x^2 + y^2 - 1")]);
     start(&mut model, &[("1", None), ("0", None), ("0", None)]);
     let free = initial(&model, &[]).unwrap_err();
-    assert_eq!(free, FaultKind::FreeVelocities(vec!["y'".to_owned()]));
-    let state = initial(&model, &[Given::Velocity(1, 2.0)]).expect("nothing is left to choose");
+    assert_eq!(free, MotionErrorKind::FreeVelocities(vec!["y'".to_owned()]));
+    let state =
+        initial(&model, &[InitialOverride::Velocity(1, 2.0)]).expect("nothing is left to choose");
     assert_eq!(state, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
 }
 
@@ -344,7 +348,7 @@ fn a_start_off_the_constraint_is_refused_and_one_by_rounding_is_put_right() {
     let mut model = pendulum();
     start(&mut model, &[("1", Some("0")), ("1e-3", None)]);
     let off = initial(&model, &[]).unwrap_err();
-    assert!(matches!(&off, FaultKind::ConstraintMissed(name, _) if name == "rod"), "{off:?}");
+    assert!(matches!(&off, MotionErrorKind::ConstraintMissed(name, _) if name == "rod"), "{off:?}");
     start(&mut model, &[("0.6", Some("0.8")), ("0.8 + 1e-11", None)]);
     let state = initial(&model, &[]).expect("it is put right");
     assert!((state[0].hypot(state[1]) - 1.0).abs() < 2e-16, "{state:?}");
@@ -359,7 +363,7 @@ fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
     start(&mut model, &[("0", Some("1")), ("0", None)]);
     let mut stuck = experiment(&model, |_| ());
     stuck.advance(1.0, 1000);
-    let Status::Faulted(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
+    let Status::Failed(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
     let right = "the constraint `parabola`, which repeated those before it where the motion began, \
                  contradicts them";
     assert!(fault.message.contains(right), "{}", fault.message);
@@ -393,7 +397,7 @@ fn a_momentum_of_zero_is_a_momentum() {
     let mut model = lagrangian(&["x", "y", "z"], &[], "1/2*(x'^2 + y'^2 + z'^2) + 0.1*x'*y'");
     constrain(&mut model, &[("edge", "z' - 0.7*x'")]);
     start(&mut model, &[("0", None), ("0", Some("0.3")), ("0", None)]);
-    let state = initial(&model, &[Given::Momentum(0, 0.0)]).expect("there is one");
+    let state = initial(&model, &[InitialOverride::Momentum(0, 0.0)]).expect("there is one");
     for (found, right) in state[3..].iter().zip([-0.03, 0.3, -0.021]) {
         assert!((found - right).abs() < 1e-17, "{state:?}");
     }

@@ -7,7 +7,7 @@
     reason = "digits as the reference printed them; some are near a constant's"
 )]
 
-use phaselab::expr::{Double, Real};
+use phaselab::num::{DoubleDouble, Real};
 
 /// Function, argument as written, value as the sum of two.
 const VALUES: &[(&str, f64, (f64, f64))] = &[
@@ -61,7 +61,7 @@ const VALUES: &[(&str, f64, (f64, f64))] = &[
     ("sqrt", 12345.6789, (111.11111060555555, 1.9946108307015468e-15)),
 ];
 
-fn apply(function: &str, x: Double) -> Double {
+fn apply(function: &str, x: DoubleDouble) -> DoubleDouble {
     match function {
         "exp" => x.exp(),
         "ln" => x.ln(),
@@ -73,21 +73,21 @@ fn apply(function: &str, x: Double) -> Double {
         "tanh" => x.tanh(),
         "asin" => x.asin(),
         "acos" => x.acos(),
-        "atan" => x.atan2(Double::ONE),
+        "atan" => x.atan2(DoubleDouble::ONE),
         "sqrt" => x.sqrt(),
         other => panic!("no such function: {other}"),
     }
 }
 
 /// The relative error of `x` against `high + low`.
-fn error(x: Double, (high, low): (f64, f64)) -> f64 {
+fn error(x: DoubleDouble, (high, low): (f64, f64)) -> f64 {
     (((x.high - high) + (x.low - low)) / high).abs()
 }
 
 #[test]
 fn elementary_functions_are_right_to_twenty_seven_digits() {
     for &(function, x, exact) in VALUES {
-        let error = error(apply(function, Double::written(x)), exact);
+        let error = error(apply(function, DoubleDouble::written(x)), exact);
         assert!(error < 1e-27, "{function}({x}): relative error {error:e}");
     }
 }
@@ -101,7 +101,7 @@ fn powers_are_right_to_thirty_digits() {
         (0.01, -7.0, (100000000000000.0, 0.0)),
         (3.3, 1.7, (7.611560396624157, 4.278794546759554e-16)),
     ] {
-        let error = error(Double::written(x).power(Double::written(exponent)), exact);
+        let error = error(DoubleDouble::written(x).power(DoubleDouble::written(exponent)), exact);
         assert!(error < 1e-29, "{x}^{exponent}: relative error {error:e}");
     }
 }
@@ -114,7 +114,7 @@ fn angles_are_right_in_every_quadrant() {
         (1e-5, 7.0, (1.4285714285704567e-06, 9.66494753728605e-23)),
         (-3.0, 0.001, (-1.570462993473909, -2.267643401254332e-17)),
     ] {
-        let error = error(Double::written(y).atan2(Double::written(x)), exact);
+        let error = error(DoubleDouble::written(y).atan2(DoubleDouble::written(x)), exact);
         assert!(error < 1e-29, "atan2({y}, {x}): relative error {error:e}");
     }
 }
@@ -122,10 +122,13 @@ fn angles_are_right_in_every_quadrant() {
 #[test]
 fn what_is_written_is_meant() {
     // 0.1 = 0.1000000000000000055511151231257827… − 5.551115123125783e-18
-    assert_eq!(Double::written(0.1).low, -5.551115123125783e-18);
-    assert_eq!(Double::written(-2.5).low, 0.0);
-    let third = Double::ONE / Double::from(3.0);
-    assert_eq!((third * 3.0 - Double::ONE).high.abs().max(1e-31), 1e-31);
-    let small = Double::written(9.109_383_701_5e-31);
-    assert!((small * Double::written(1e31) - Double::written(9.109_383_701_5)).high.abs() < 1e-30);
+    assert_eq!(DoubleDouble::written(0.1).low, -5.551115123125783e-18);
+    assert_eq!(DoubleDouble::written(-2.5).low, 0.0);
+    let third = DoubleDouble::ONE / DoubleDouble::from(3.0);
+    assert_eq!((third * 3.0 - DoubleDouble::ONE).high.abs().max(1e-31), 1e-31);
+    let small = DoubleDouble::written(9.109_383_701_5e-31);
+    assert!(
+        (small * DoubleDouble::written(1e31) - DoubleDouble::written(9.109_383_701_5)).high.abs()
+            < 1e-30
+    );
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use phaselab::expr::portable;
+use phaselab::num::math;
 
 /// The greatest error allowed, in units of the last place of the true value.
 const CLAIMED: f64 = 2.0;
@@ -18,25 +18,25 @@ fn rank(x: f64) -> i64 {
 
 fn value(name: &str, x: f64, y: f64) -> f64 {
     match name {
-        "sin" => portable::sin(x),
-        "cos" => portable::cos(x),
-        "tan" => portable::tan(x),
-        "asin" => portable::asin(x),
-        "acos" => portable::acos(x),
-        "atan" => portable::atan(x),
-        "atan2" => portable::atan2(x, y),
-        "sinh" => portable::sinh(x),
-        "cosh" => portable::cosh(x),
-        "tanh" => portable::tanh(x),
-        "exp" => portable::exp(x),
-        "exp2" => portable::exp2(x),
-        "ln" => portable::ln(x),
-        "ln_1p" => portable::ln_1p(x),
-        "log2" => portable::log2(x),
-        "log10" => portable::log10(x),
-        "cbrt" => portable::cbrt(x),
-        "hypot" => portable::hypot(x, y),
-        "powf" => portable::powf(x, y),
+        "sin" => math::sin(x),
+        "cos" => math::cos(x),
+        "tan" => math::tan(x),
+        "asin" => math::asin(x),
+        "acos" => math::acos(x),
+        "atan" => math::atan(x),
+        "atan2" => math::atan2(x, y),
+        "sinh" => math::sinh(x),
+        "cosh" => math::cosh(x),
+        "tanh" => math::tanh(x),
+        "exp" => math::exp(x),
+        "exp2" => math::exp2(x),
+        "ln" => math::ln(x),
+        "ln_1p" => math::ln_1p(x),
+        "log2" => math::log2(x),
+        "log10" => math::log10(x),
+        "cbrt" => math::cbrt(x),
+        "hypot" => math::hypot(x, y),
+        "powf" => math::powf(x, y),
         _ => panic!("there is no function {name}"),
     }
 }

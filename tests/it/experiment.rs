@@ -1,10 +1,10 @@
 //! Experiments: what commands do, what gauges say, what is recorded. No thread, no clock.
 
 mod cancel;
+mod checkpoint;
 mod commands;
 mod export;
 mod gauges;
-mod moment;
 mod record;
 mod verdicts;
 

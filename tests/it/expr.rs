@@ -1,6 +1,7 @@
 //! The algebra: laws that hold for every expression, and the forms a reader expects.
 
-use phaselab::expr::{Expr, FUNCTIONS, FunctionId, Number, Pool, Zero};
+use phaselab::expr::{Expr, FUNCTIONS, FunctionId, Pool, Zero};
+use phaselab::num::Number;
 use proptest::prelude::*;
 
 use crate::build::{names, read, sample, try_read};
@@ -47,7 +48,7 @@ fn canonical_forms() {
 #[test]
 fn the_size_of_terms_sees_what_cancels() {
     let check = |source: &str, size: &str| {
-        assert_eq!(text(source, Pool::size_of_terms), size, "{source}");
+        assert_eq!(text(source, Pool::magnitude), size, "{source}");
     };
     check("q - u", "abs(q) + abs(u)");
     check("2*q^2 - 3", "2*q^2 + 3");

@@ -1,7 +1,8 @@
 //! The grammar of expressions: what groups with what, exact numbers, and the message each slip
 //! gives.
 
-use phaselab::expr::{Expr, Number, Pool, Resolve, Span, Syntax, SyntaxError, parse};
+use phaselab::expr::{Expr, Pool, Resolve, Span, Syntax, SyntaxError, parse};
+use phaselab::num::Number;
 
 /// Every name is a variable and every complaint a failure.
 struct AnyName;

@@ -5,10 +5,11 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use phaselab::app::{App, Code, Effect, Event, Key, Loaded};
+use phaselab::diagnostic::Document;
 use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::{Catalog, Document};
-use phaselab::system::{ChannelKind, Given, System};
+use phaselab::preset::Catalog;
+use phaselab::system::{ChannelKind, InitialOverride, System};
 use phaselab::view::theme::PALETTES;
 
 /// The shipped presets, without the user's.
@@ -54,13 +55,14 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
             let (sin, cos) = (3.0 * t + i as f64).sin_cos();
             let (sin0, cos0) = (i as f64).sin_cos();
             let q = initial[i] + 0.9 * (cos - cos0);
-            [Given::Position(i, q), Given::Velocity(i, -2.7 * (sin - sin0))]
+            [InitialOverride::Position(i, q), InitialOverride::Velocity(i, -2.7 * (sin - sin0))]
         };
         let free = loaded.model.constraints.is_empty();
         // variables of a Poisson system have no velocity of their own
-        let possible =
-            |given: &Given| !loaded.model.is_poisson() || matches!(given, Given::Position(..));
-        let given: Vec<Given> =
+        let possible = |given: &InitialOverride| {
+            !loaded.model.is_poisson() || matches!(given, InitialOverride::Position(..))
+        };
+        let given: Vec<InitialOverride> =
             (0..system.degrees()).filter(|_| free).flat_map(swing).filter(possible).collect();
         let mut values = vec![f64::NAN; system.channels().len()];
         let moment = if free { t } else { loaded.model.run.start };
@@ -173,8 +175,8 @@ pub(crate) fn key(word: &str) -> Key {
         "Space" => Code::Char(' '),
         "F1" => Code::F(1),
         word => {
-            let mut letters = word.chars();
-            let (Some(letter), None) = (letters.next(), letters.next()) else {
+            let mut messages = word.chars();
+            let (Some(letter), None) = (messages.next(), messages.next()) else {
                 panic!("no key is called {word}")
             };
             Code::Char(letter)

@@ -1,4 +1,4 @@
-//! Places where a method stops, or used to: passed, or told with what passes them.
+//! Places where a method stops, or used to: passed, or reported with what passes them.
 
 use phaselab::experiment::{Experiment, Progress, Status};
 
@@ -20,7 +20,7 @@ fn by(method: &str, step: Option<f64>, text: &str) -> Experiment {
 fn fault(mut experiment: Experiment, time: f64) -> String {
     assert_ne!(experiment.advance(time, PLENTY), Progress::Arrived);
     match experiment.status() {
-        Status::Faulted(fault) => fault.message.clone(),
+        Status::Failed(fault) => fault.message.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -125,7 +125,7 @@ expression = "cos(a) + sin(p) - cos(b)"
 "#;
 
 #[test]
-fn bars_in_line_are_told_with_a_step_that_passes_them() {
+fn bars_in_line_are_reported_with_a_step_that_passes_them() {
     let message = said(PARALLELOGRAM, &["--until", "4"]);
     let told = message.contains("# faulted: singular configuration of the constraints at t = 3.59");
     assert!(told && message.contains("; --method rk4 --step "), "{message}");
@@ -178,7 +178,7 @@ fn a_single_momentum_is_solved_for_however_far_its_velocity() {
             "title = 'a test'\n[coordinates]\nx = {{ initial = 0.0 }}\n[lagrangian]\nL = \"{kinetic}\""
         );
         let (model, system) = crate::system::compile(&text);
-        let given = [phaselab::system::Given::Momentum(0, momentum)];
+        let given = [phaselab::system::InitialOverride::Momentum(0, momentum)];
         let state = system.initial(0.0, &model.parameter_values(), &given);
         let state = state.unwrap_or_else(|fault| panic!("{kinetic}: {fault}"));
         let error = (state.values[1] - velocity).abs() / velocity.abs();

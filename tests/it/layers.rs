@@ -226,7 +226,7 @@ fn the_reader_of_uses_sees_them() {
     check("use super::theme::Theme;\nuse super::super::app::App;", 2, &["app"]);
 }
 
-/// The elementary functions of `f64` that `std` leaves to the platform: `expr::portable` has its own.
+/// The elementary functions of `f64` that `std` leaves to the platform: `expr::math` has its own.
 const ELEMENTARY: [&str; 26] = [
     "sin", "cos", "sin_cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
     "asinh", "acosh", "atanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log10", "log2",

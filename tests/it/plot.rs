@@ -7,7 +7,7 @@ mod number;
 mod raster;
 mod robust;
 mod scale;
-mod strip;
+mod sparkline;
 mod theme;
 mod ticks;
 mod trail;

@@ -44,7 +44,7 @@ fn a_run_is_accurate_or_says_where_it_fails() {
                 decided += 1;
                 accurate += 1;
             }
-            Outcome::Faulted | Outcome::Unfit => decided += 1,
+            Outcome::Failed | Outcome::Unfit => decided += 1,
             Outcome::Undecided(_) => {}
             Outcome::Failed(failure) if failure.kind == Kind::GivesUp => given_up += 1,
             Outcome::Failed(failure) => {

@@ -8,7 +8,8 @@ mod schema;
 mod scripts;
 mod stills;
 
-use phaselab::preset::{Catalog, Document, demo};
+use phaselab::diagnostic::Document;
+use phaselab::preset::{Catalog, demo};
 use phaselab::record::{Recording, Script, play};
 
 /// The script of a text.

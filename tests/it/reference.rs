@@ -13,12 +13,12 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use phaselab::diagnostic::Document;
 use phaselab::experiment::{Experiment, Progress, Setup, Status};
 use phaselab::expr::Pool;
-use phaselab::integrate::{Happening, Kind as happening};
+use phaselab::integrate::{Occurrence, OccurrenceKind as occurrence};
 use phaselab::mechanics;
 use phaselab::model::{Channel, Coordinate, Model};
-use phaselab::preset::Document;
 use phaselab::system::{ChannelKind, System};
 
 use serde::Deserialize;
@@ -29,7 +29,7 @@ struct Expected {
     condition: f64,
     status: Option<String>,
     events: Option<Vec<Happened>>,
-    scale: BTreeMap<Kind, Vec<f64>>,
+    scale: BTreeMap<OccurrenceKind, Vec<f64>>,
     reference: Vec<Known>,
     #[serde(default)]
     bracket: Vec<Bracket>,
@@ -58,10 +58,10 @@ struct Bracket {
 struct Known {
     at: f64,
     #[serde(flatten)]
-    values: BTreeMap<Kind, Vec<String>>,
+    values: BTreeMap<OccurrenceKind, Vec<String>>,
 }
 
-/// Something that happens, and what a blow does to momenta and asks of constraints.
+/// Something that happens, and what an impulse does to momenta and asks of constraints.
 #[derive(Deserialize)]
 struct Happened {
     name: String,
@@ -75,7 +75,7 @@ struct Happened {
 /// A kind of values in a row; an unknown one is refused.
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[serde(rename_all = "snake_case")]
-enum Kind {
+enum OccurrenceKind {
     Q,
     V,
     P,
@@ -87,17 +87,17 @@ enum Kind {
     Attitude,
 }
 
-impl Kind {
+impl OccurrenceKind {
     /// The channel that shows the value of this place in the list.
     fn channel(self, place: usize, degrees: usize) -> ChannelKind {
-        let place = if self == Kind::OtherV { place + degrees } else { place };
+        let place = if self == OccurrenceKind::OtherV { place + degrees } else { place };
         match self {
-            Kind::Q | Kind::X => ChannelKind::Position(place),
-            Kind::V => ChannelKind::Velocity(place),
-            Kind::P => ChannelKind::Momentum(place),
-            Kind::Lambda => ChannelKind::Multiplier(place),
-            Kind::OtherQ | Kind::OtherV => ChannelKind::Extra(place),
-            Kind::Attitude => ChannelKind::Attitude(place),
+            OccurrenceKind::Q | OccurrenceKind::X => ChannelKind::Position(place),
+            OccurrenceKind::V => ChannelKind::Velocity(place),
+            OccurrenceKind::P => ChannelKind::Momentum(place),
+            OccurrenceKind::Lambda => ChannelKind::Multiplier(place),
+            OccurrenceKind::OtherQ | OccurrenceKind::OtherV => ChannelKind::Extra(place),
+            OccurrenceKind::Attitude => ChannelKind::Attitude(place),
         }
     }
 }
@@ -160,7 +160,7 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
 
 /// Holds what happened against what is known; times are measured by themselves, jumps by the sizes
 /// of what jumps, reactions by the largest of them.
-fn happenings(
+fn occurrences(
     experiment: &mut Experiment,
     expected: &Expected,
     events: &[Happened],
@@ -174,7 +174,7 @@ fn happenings(
         }
     }
     let model = Arc::clone(experiment.model());
-    let mut found: Vec<Happening> = experiment.happenings().iter().cloned().collect();
+    let mut found: Vec<Occurrence> = experiment.occurrences().iter().cloned().collect();
     if found.len() != events.len() {
         let names: Vec<String> = found.iter().map(|h| format!("{} {}", h.name, h.time)).collect();
         return Err(format!("{} events, not {}: {names:?}", found.len(), events.len()));
@@ -182,16 +182,17 @@ fn happenings(
     let of_digits = |digits: &String| digits.parse::<f64>().map_or(0.0, f64::abs);
     let largest =
         events.iter().flat_map(|e| e.reaction.values()).map(of_digits).fold(0.0, f64::max);
-    let (kind, prefix) = if model.is_poisson() { (Kind::X, "") } else { (Kind::P, "p_") };
+    let (kind, prefix) =
+        if model.is_poisson() { (OccurrenceKind::X, "") } else { (OccurrenceKind::P, "p_") };
     for (known, found) in events.iter().zip(&mut found) {
-        let Happening { name, time, kind: what } = found;
+        let Occurrence { name, time, kind: what } = found;
         if *name != known.name {
             return Err(format!("{name} at {time} in place of {} at {}", known.name, known.t));
         }
         let time = *time;
         worst.look(time, &known.t, of_digits(&known.t), || format!("time of {name}, {time}"))?;
         let (jumps, reactions) = match what {
-            happening::Blow { jump, reaction } => (jump.as_slice(), reaction.as_slice()),
+            occurrence::Impulse { jump, reaction } => (jump.as_slice(), reaction.as_slice()),
             _ => (&[][..], &[][..]),
         };
         if jumps.len() != known.jump.len() || reactions.len() != known.reaction.len() {
@@ -245,7 +246,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let degrees = experiment.model().coordinates.len();
     for known in &expected.reference {
         while experiment.advance(known.at, 1_000_000) == Progress::Underway {}
-        if let Status::Faulted(fault) = experiment.status() {
+        if let Status::Failed(fault) = experiment.status() {
             return Err(fault.message);
         }
         if experiment.time() != known.at {
@@ -263,7 +264,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
         }
     }
     if let Some(events) = &expected.events {
-        happenings(&mut experiment, &expected, events, &mut worst)?;
+        occurrences(&mut experiment, &expected, events, &mut worst)?;
     }
     Ok(worst)
 }

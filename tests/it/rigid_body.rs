@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use phaselab::analysis::flaws;
-use phaselab::expr::{Double, Expr, Pool, Zero};
+use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
 use phaselab::model::{
     Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, Solid, Turn,
 };
+use phaselab::num::DoubleDouble;
 use phaselab::preset;
 use phaselab::system::System;
 
@@ -258,7 +259,7 @@ fn a_turned_body_has_the_same_moments_about_turned_axes() {
         assert!((a - b).abs() < 4e-15 * b, "{a} is not {b}");
     }
     let tensor: [f64; 6] = turned[..6].try_into().unwrap();
-    let (moments, axes) = principal(&tensor.map(Double::from));
+    let (moments, axes) = principal(&tensor.map(DoubleDouble::from));
     let matrix = Matrix3::from_fn(|i, j| mechanics::matrix(&tensor)[i][j]);
     let own = rotation(turn);
     // the edges of 3, 2 and 1 are the axes of the least, middle and greatest moment
@@ -273,23 +274,23 @@ fn a_turned_body_has_the_same_moments_about_turned_axes() {
 
 #[test]
 fn moments_are_ascending_and_exact_where_the_tensor_is_diagonal() {
-    let tenth = Double::written(0.1);
-    let diagonal = [Double::integer(3), tenth, Double::integer(2)];
-    let zero = [Double::ZERO; 3];
-    let tensor: [Double; 6] = [diagonal, zero].concat().try_into().unwrap();
+    let tenth = DoubleDouble::written(0.1);
+    let diagonal = [DoubleDouble::integer(3), tenth, DoubleDouble::integer(2)];
+    let zero = [DoubleDouble::ZERO; 3];
+    let tensor: [DoubleDouble; 6] = [diagonal, zero].concat().try_into().unwrap();
     let (moments, axes) = principal(&tensor);
-    assert_eq!(moments, [tenth, Double::integer(2), Double::integer(3)]);
+    assert_eq!(moments, [tenth, DoubleDouble::integer(2), DoubleDouble::integer(3)]);
     assert_eq!(axes[0], [0.0, 1.0, 0.0]);
     assert_eq!(axes[1], [0.0, 0.0, 1.0]);
     assert_eq!(axes[2], [1.0, 0.0, 0.0]);
     // (x, y) = (2 1; 1 2): moments 1 and 3, beside 2
-    let mut tensor = [Double::integer(2); 6];
-    (tensor[3], tensor[4], tensor[5]) = (Double::ONE, Double::ZERO, Double::ZERO);
+    let mut tensor = [DoubleDouble::integer(2); 6];
+    (tensor[3], tensor[4], tensor[5]) = (DoubleDouble::ONE, DoubleDouble::ZERO, DoubleDouble::ZERO);
     let (moments, _) = principal(&tensor);
     for (moment, right) in moments.iter().zip([1.0, 2.0, 3.0]) {
         assert!((moment.high - right).abs() + moment.low.abs() < 1e-28, "{moment:?}");
     }
-    assert!(principal(&[Double::from(f64::NAN); 6]).0[0].high.is_nan());
+    assert!(principal(&[DoubleDouble::from(f64::NAN); 6]).0[0].high.is_nan());
 }
 
 #[test]

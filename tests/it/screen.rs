@@ -13,21 +13,21 @@ use phaselab::app::{App, Drawn};
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
-use phaselab::view::{Look, draw};
+use phaselab::view::{RenderStyle, draw};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 /// A terminal of 24-bit colour that has all characters.
-pub(crate) fn rich() -> Look {
-    Look { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
+pub(crate) fn rich() -> RenderStyle {
+    RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
 }
 
 /// The screen of an application.
-fn screen(app: &App, look: &Look, (width, height): (u16, u16)) -> Buffer {
+fn screen(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> Buffer {
     drawn(app, look, (width, height)).0
 }
 
-fn drawn(app: &App, look: &Look, (width, height): (u16, u16)) -> (Buffer, Drawn) {
+fn drawn(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> (Buffer, Drawn) {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
     let drawn = draw(app, look, area, &mut buffer);

@@ -17,7 +17,7 @@ fn pin(x: &str, w: &str, expression: &str) -> String {
 
 fn fault(experiment: &Experiment) -> Option<String> {
     match experiment.status() {
-        Status::Faulted(fault) => Some(fault.message),
+        Status::Failed(fault) => Some(fault.message),
         _ => None,
     }
 }
@@ -99,7 +99,7 @@ fn parallelogram(law: &str) -> String {
 }
 
 #[test]
-fn a_singular_configuration_that_is_passed_is_told_each_time() {
+fn a_singular_configuration_that_is_passed_is_reported_each_time() {
     let free = "1/2*(a'^2 + b'^2 + p'^2)";
     for method in ["taylor", "dop853", "rk4"] {
         let mut bars = build(&parallelogram(free), by(method));
@@ -190,6 +190,6 @@ fn a_clock_without_digits_is_a_fault_and_no_endless_loop() {
                   [[impulses]]\nname = 'kick'\nevery = 1e-6\nchange = { p_x = 1e-9 }\n";
     let mut kicked = build(kicked, |_| ());
     kicked.advance(1000.0, 5000);
-    assert!(kicked.happenings().count() <= 5000, "what happens is part of the budget");
-    assert!(kicked.happenings().count() > 1000);
+    assert!(kicked.occurrences().count() <= 5000, "what happens is part of the budget");
+    assert!(kicked.occurrences().count() > 1000);
 }

@@ -10,7 +10,7 @@ mod steps;
 
 use phaselab::integrate::{METHODS, Settings, Stepper};
 use phaselab::model::Model;
-use phaselab::system::{Fault, State, System};
+use phaselab::system::{MotionError, State, System};
 
 use crate::system::compile;
 
@@ -38,7 +38,7 @@ impl Run {
         Run { system, parameters, stepper, steps: 0 }
     }
 
-    pub(crate) fn try_to(&mut self, time: f64) -> Result<&State, Fault> {
+    pub(crate) fn try_to(&mut self, time: f64) -> Result<&State, MotionError> {
         while self.stepper.time() != time {
             self.stepper.step(time)?;
             self.steps += 1;

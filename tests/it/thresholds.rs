@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use phaselab::diagnostic::Document;
 use phaselab::mechanics::derive;
-use phaselab::preset::Document;
 use phaselab::system::System;
 
 /// The constraints that are redundant, of two in the plane whose directions differ by so little.

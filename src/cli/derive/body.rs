@@ -1,8 +1,8 @@
 //! The body of a file in numbers, at the file's parameters.
 
-use crate::expr::Double;
 use crate::mechanics::{Equations, RigidBody, body_values, matrix, principal};
 use crate::model::{BodyNames, Model};
+use crate::num::DoubleDouble;
 
 /// What a body is.
 pub(super) struct Numbers<'a> {
@@ -27,7 +27,7 @@ impl<'a> Numbers<'a> {
             found.map_or(f64::NAN, |(_, value)| *value)
         };
         let inertia = names.inertia.map(value);
-        let (_, axes) = principal(&inertia.map(Double::from));
+        let (_, axes) = principal(&inertia.map(DoubleDouble::from));
         Some(Numbers {
             names,
             whole,

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 use super::super::script::Script;
 use super::body::Numbers;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Equations, Flow, Reason, WhyNot, widened};
+use crate::mechanics::{Class, Classed, Equations, Flow, NoClosedForm, Reason, widened};
 use crate::model::{Mechanics, Model};
 
 pub(super) fn write(
@@ -24,8 +24,8 @@ pub(super) fn write(
     page.momenta(model);
     page.motion(model);
     page.multipliers();
-    page.twin(model);
-    page.happenings(model);
+    page.vakonomic(model);
+    page.occurrences(model);
     page.energy();
     page.conserved(model);
     page.changing(classes);
@@ -179,14 +179,15 @@ impl Page<'_> {
     }
 
     /// The Lagrangian that has the constraints put into it, and what it is not.
-    fn twin(&mut self, model: &Model) {
-        let (Some(twin), Some(comparison)) = (&self.equations.beside.twin, &model.comparison)
+    fn vakonomic(&mut self, model: &Model) {
+        let (Some(vakonomic), Some(comparison)) =
+            (&self.equations.beside.vakonomic, &model.comparison)
         else {
             return;
         };
         let title =
             "The wrong mechanics, for comparison: the constraints put into L before it varies";
-        match &twin.lagrangian {
+        match &vakonomic.lagrangian {
             Ok(l) => {
                 let eliminated = comparison.eliminate.iter();
                 let eliminated: Vec<String> =
@@ -198,7 +199,7 @@ impl Page<'_> {
         }
     }
 
-    fn happenings(&mut self, model: &Model) {
+    fn occurrences(&mut self, model: &Model) {
         if !model.impulses.is_empty() {
             self.line("");
             self.line("Impulses");
@@ -372,7 +373,7 @@ impl Page<'_> {
         }
     }
 
-    fn why_not(&mut self, title: &str, why: &WhyNot) {
+    fn why_not(&mut self, title: &str, why: &NoClosedForm) {
         self.line("");
         self.line(title);
         let why = self.words(&why.to_string());

@@ -4,9 +4,9 @@
 //! here: rows.
 
 use super::times::Times;
-use crate::cli::failure::Failure;
+use crate::cli::failure::CommandError;
 use crate::experiment::{Experiment, Status};
-use crate::integrate::{Method, Motion, Reached, Stepping, spacing};
+use crate::integrate::{Method, Propagator, Reached, Stepping, spacing};
 use crate::system::System;
 
 /// So many steps are tried where the first one is too short, in two halves.
@@ -21,7 +21,7 @@ pub(super) fn check(
     method: &'static Method,
     experiment: &Experiment,
     times: &Times,
-) -> Result<(), Failure> {
+) -> Result<(), CommandError> {
     let far = times.start().abs().max(times.end().abs());
     let finest = spacing(far);
     let refuse = |what: &str, length: f64| {
@@ -29,11 +29,11 @@ pub(super) fn check(
             "the clock cannot tell {what} {length:e} apart at t = {far:e}: its digits are \
              {finest:e} apart there"
         );
-        Err(Failure::WrongUse(message))
+        Err(CommandError::WrongUse(message))
     };
     let snapshot = experiment.snapshot();
     let setup = &snapshot.setup;
-    let impulses = &system.occasions().impulses;
+    let impulses = &system.discontinuities().impulses;
     for (impulse, schedule) in impulses.iter().zip(system.schedule(&setup.parameters)) {
         if let Some(interval) = schedule.interval.filter(|interval| interval.high < finest) {
             return refuse(&format!("strikes of `{}`", impulse.name), interval.high);
@@ -42,11 +42,11 @@ pub(super) fn check(
     if let (Stepping::Fixed, Some(step)) = (method.stepping, setup.settings.step) {
         return if step < finest { refuse("steps of", step) } else { Ok(()) };
     }
-    // what is wrong with the start is told when the run begins
-    if matches!(experiment.status(), Status::Faulted(_)) {
+    // what is wrong with the start is reported when the run begins
+    if matches!(experiment.status(), Status::Failed(_)) {
         return Ok(());
     }
-    let Ok(mut motion) = Motion::new(system, method, setup.settings, &setup.parameters) else {
+    let Ok(mut motion) = Propagator::new(system, method, setup.settings, &setup.parameters) else {
         return Ok(());
     };
     if motion.begin(&snapshot.state, &setup.parameters).is_err() {

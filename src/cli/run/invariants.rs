@@ -83,7 +83,7 @@ fn size(x: f64) -> String {
     match x {
         0.01..1000.0 => format!("{x:.2}"),
         _ if x.is_finite() => format!("{x:.1e}"),
-        _ => "more than can be told".to_owned(),
+        _ => "more than can be reported".to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! When a run begins and ends, and when it gives a row.
 
 use crate::cli::decimal::{divisions, multiples};
-use crate::cli::failure::Failure;
+use crate::cli::failure::CommandError;
 use crate::integrate::spacing;
 use crate::model::RunSettings;
 use crate::printable;
@@ -37,9 +37,9 @@ impl Times {
         until: Option<f64>,
         every: Option<f64>,
         at: Option<&[f64]>,
-    ) -> Result<Times, Failure> {
+    ) -> Result<Times, CommandError> {
         let start = run.start;
-        let wrong = |message: String| Err(Failure::WrongUse(message));
+        let wrong = |message: String| Err(CommandError::WrongUse(message));
         let told = printable::number;
         let end = match (until, at.and_then(<[f64]>::last)) {
             (Some(until), _) => until,
@@ -97,7 +97,7 @@ impl Times {
     }
 
     /// Whether the clock can tell the rows apart, wherever they lie.
-    fn check(&self) -> Result<(), Failure> {
+    fn check(&self) -> Result<(), CommandError> {
         let Times { start, end, .. } = *self;
         let gap = match &self.rows {
             _ if end == start => return Ok(()),
@@ -113,14 +113,14 @@ impl Times {
                  apart there",
                 if end.abs() > start.abs() { end } else { start }
             );
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
         if gap < SHORTEST {
             let message = format!(
                 "rows {gap:e} apart are closer than a motion can be followed, {SHORTEST:e}; take a \
                  larger unit of time"
             );
-            return Err(Failure::WrongUse(message));
+            return Err(CommandError::WrongUse(message));
         }
         Ok(())
     }

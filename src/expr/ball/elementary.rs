@@ -2,9 +2,9 @@
 
 use super::{Ball, ROUNDING, shifted};
 use crate::expr::function::FunctionId;
-use crate::expr::portable;
+use crate::num::math;
 
-/// An elementary function of `portable` is good to this part of its value.
+/// An elementary function of `math` is good to this part of its value.
 const ELEMENTARY: f64 = 8.0 * f64::EPSILON;
 
 /// Below 2^this, sin x, tan x, atan x, … are x to the last place.
@@ -19,18 +19,18 @@ impl Ball {
         let u = arguments[0];
         match function {
             FunctionId::Sin if u.is_small() => u.nearly(),
-            FunctionId::Sin => u.wave(portable::sin),
-            FunctionId::Cos => u.wave(portable::cos),
+            FunctionId::Sin => u.wave(math::sin),
+            FunctionId::Cos => u.wave(math::cos),
             FunctionId::Tan if u.is_small() => u.nearly(),
-            FunctionId::Tan => u.wave(portable::sin)?.mul(u.wave(portable::cos)?.recip()?),
+            FunctionId::Tan => u.wave(math::sin)?.mul(u.wave(math::cos)?.recip()?),
             FunctionId::Cot => {
                 Ball::call(FunctionId::Cos, &[u])?.mul(Ball::call(FunctionId::Sin, &[u])?.recip()?)
             }
             FunctionId::Asin if u.is_small() => u.nearly(),
-            FunctionId::Asin => u.between(portable::asin, 1.0),
-            FunctionId::Acos => u.between(portable::acos, 1.0),
+            FunctionId::Asin => u.between(math::asin, 1.0),
+            FunctionId::Acos => u.between(math::acos, 1.0),
             FunctionId::Atan if u.is_small() => u.nearly(),
-            FunctionId::Atan => u.between(portable::atan, f64::INFINITY),
+            FunctionId::Atan => u.between(math::atan, f64::INFINITY),
             FunctionId::Atan2 => u.angle(arguments[1]),
             FunctionId::Sinh if u.is_small() => u.nearly(),
             FunctionId::Sinh => {
@@ -41,7 +41,7 @@ impl Ball {
                 u.exponential()?.add(u.negated().exponential()?)?.mul(Ball::exact(0.5)?)
             }
             FunctionId::Tanh if u.is_small() => u.nearly(),
-            FunctionId::Tanh => u.between(portable::tanh, f64::INFINITY),
+            FunctionId::Tanh => u.between(math::tanh, f64::INFINITY),
             FunctionId::Exp => u.exponential(),
             FunctionId::Ln => u.logarithm(),
             FunctionId::Sqrt => u.sqrt(),
@@ -108,12 +108,12 @@ impl Ball {
         let radius = shifted(self.radius, self.exponent - common)
             + shifted(x.radius, x.exponent - common)
             + 1e-290;
-        let distance = portable::hypot(a, b);
+        let distance = math::hypot(a, b);
         // near the origin, and across the cut, any angle
         if distance <= 4.0 * radius || a < radius && self.sign().is_none() {
             return Ball::of(0.0, 3.2, 0);
         }
-        let value = portable::atan2(b, a);
+        let value = math::atan2(b, a);
         Ball::of(value, 1.5 * radius / distance + ELEMENTARY * value.abs(), 0)
     }
 
@@ -143,8 +143,8 @@ impl Ball {
         let k = (x / std::f64::consts::LN_2).round();
         // ln 2 in two parts, the first with zeros at its end, so that k times it is exact
         let rest = (x - k * 6.931_471_803_691_238e-1) - k * 1.908_214_929_270_587_7e-10;
-        let value = portable::exp(rest);
-        let spread = portable::exp(radius) - 1.0 + radius * ELEMENTARY;
+        let value = math::exp(rest);
+        let spread = math::exp(radius) - 1.0 + radius * ELEMENTARY;
         let off = ELEMENTARY * (1.0 + x.abs());
         Ball::of(value, value * (spread * (1.0 + 16.0 * ROUNDING) + 2.0 * off), k as i64)
     }
@@ -154,7 +154,7 @@ impl Ball {
         if self.sign()? <= 0.0 {
             return None;
         }
-        let value = portable::ln(self.middle) + self.exponent as f64 * std::f64::consts::LN_2;
+        let value = math::ln(self.middle) + self.exponent as f64 * std::f64::consts::LN_2;
         let off = self.radius / (self.middle - self.radius) * (1.0 + 8.0 * ROUNDING);
         let size = 1.0 + (self.exponent as f64).abs();
         // near 1 the logarithm of a single f64 is good to its own last place

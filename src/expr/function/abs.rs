@@ -1,7 +1,8 @@
 //! The absolute value.
 
 use super::{Branches, Function, FunctionId, Rule};
-use crate::expr::{Node, Number};
+use crate::expr::Node;
+use crate::num::Number;
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Abs,

@@ -2,7 +2,8 @@
 
 use super::asin::{advance, slope};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
+use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -18,7 +19,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arccos",
     latex: "\\arccos",
     arity: 1,
-    value: |u| portable::acos(u[0]),
+    value: |u| math::acos(u[0]),
     fold: |_, u| (u[0] == Expr::ONE).then_some(Expr::ZERO),
     derivative: |pool, u, _| {
         let slope = slope(pool, u[0]);
@@ -26,7 +27,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

@@ -2,7 +2,8 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Pool, Real, Recurrence, Wide, portable};
+use crate::expr::{Expr, Pool};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// `1/√(1 − u²)`.
 pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
@@ -36,12 +37,12 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arcsin",
     latex: "\\arcsin",
     arity: 1,
-    value: |u| portable::asin(u[0]),
+    value: |u| math::asin(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Asin, u[0]),
     derivative: |pool, u, _| slope(pool, u[0]),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::{known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = arctan u, w = 1 + u²: y′ w = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -22,7 +22,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "arctan",
     latex: "\\arctan",
     arity: 1,
-    value: |u| portable::atan(u[0]),
+    value: |u| math::atan(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Atan, u[0]),
     derivative: |pool, u, _| {
         let square = pool.powi(u[0], 2);
@@ -31,7 +31,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

@@ -2,7 +2,7 @@
 
 use super::series::{chain, known, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// θ = atan2(y, x), w = x² + y²: θ′ w = x y′ − y x′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -22,7 +22,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "atan2",
     latex: "\\operatorname{atan2}",
     arity: 2,
-    value: |u| portable::atan2(u[0], u[1]),
+    value: |u| math::atan2(u[0], u[1]),
     fold: |_, _| None,
     // ∂/∂y = x/(x² + y²), ∂/∂x = −y/(x² + y²)
     derivative: |pool, u, i| {
@@ -33,7 +33,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

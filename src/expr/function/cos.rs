@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = cos u, w = sin u: y′ = −w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,7 +20,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cos",
     latex: "\\cos",
     arity: 1,
-    value: |u| portable::cos(u[0]),
+    value: |u| math::cos(u[0]),
     fold: |pool, u| {
         if let Some(exact) = pool.turns(u[0]).and_then(|r| exact_sine(r + Number::HALF)) {
             return Some(pool.number(exact));
@@ -33,7 +33,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

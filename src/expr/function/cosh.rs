@@ -2,7 +2,8 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
+use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,7 +21,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cosh",
     latex: "\\cosh",
     arity: 1,
-    value: |u| portable::cosh(u[0]),
+    value: |u| math::cosh(u[0]),
     fold: |pool, u| {
         if u[0] == Expr::ZERO {
             return Some(Expr::ONE);
@@ -30,7 +31,7 @@ pub(super) const FUNCTION: Function = Function {
     derivative: |pool, u, _| pool.call(FunctionId::Sinh, u),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

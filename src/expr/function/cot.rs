@@ -2,7 +2,8 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Number, Real, Recurrence, Wide, portable};
+use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = cot u, w = 1 + y²: y′ = −w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -21,7 +22,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "cot",
     latex: "\\cot",
     arity: 1,
-    value: |u| 1.0 / portable::tan(u[0]),
+    value: |u| 1.0 / math::tan(u[0]),
     fold: |pool, u| {
         if u[0] == Expr::ZERO { None } else { pool.fold_odd(FunctionId::Cot, u[0]) }
     },
@@ -32,7 +33,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

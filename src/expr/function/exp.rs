@@ -2,7 +2,8 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Real, Recurrence, Wide, portable};
+use crate::expr::Expr;
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = exp u: y′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -15,12 +16,12 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "exp",
     latex: "\\exp",
     arity: 1,
-    value: |u| portable::exp(u[0]),
+    value: |u| math::exp(u[0]),
     fold: |_, u| (u[0] == Expr::ZERO).then_some(Expr::ONE),
     derivative: |pool, u, _| pool.call(FunctionId::Exp, u),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

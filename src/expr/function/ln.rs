@@ -2,7 +2,8 @@
 
 use super::series::known;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Expr, Node, Real, Recurrence, Wide, portable};
+use crate::expr::{Expr, Node};
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = ln u: y′ u = u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
@@ -16,7 +17,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "ln",
     latex: "\\ln",
     arity: 1,
-    value: |u| portable::ln(u[0]),
+    value: |u| math::ln(u[0]),
     fold: |pool, u| match pool.node(u[0]) {
         Node::Call(FunctionId::Exp, inner) => Some(inner[0]),
         _ => (u[0] == Expr::ONE).then_some(Expr::ZERO),
@@ -24,7 +25,7 @@ pub(super) const FUNCTION: Function = Function {
     derivative: |pool, u, _| pool.powi(u[0], -1),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

@@ -1,7 +1,7 @@
 //! The smaller of two.
 
 use super::{Branches, Function, FunctionId, Rule};
-use crate::expr::Number;
+use crate::num::Number;
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Min,

@@ -1,6 +1,6 @@
 //! Sums that the Taylor rules share. All series are normalised: `u[j] = u⁽ʲ⁾/j!`.
 
-use crate::expr::real::Real;
+use crate::num::Real;
 
 /// `Σ_{j=1}^{k} j u_j w_{k−j}`: k times the k-th coefficient of ∫ u′ w.
 pub(super) fn chain<R: Real>(k: usize, u: &[R], w: &[R]) -> R {

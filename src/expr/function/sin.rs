@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::expr::{Double, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = sin u, w = cos u: y′ = w u′, w′ = −y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,7 +20,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "sin",
     latex: "\\sin",
     arity: 1,
-    value: |u| portable::sin(u[0]),
+    value: |u| math::sin(u[0]),
     fold: |pool, u| {
         if let Some(exact) = pool.turns(u[0]).and_then(exact_sine) {
             return Some(pool.number(exact));
@@ -30,7 +30,7 @@ pub(super) const FUNCTION: Function = Function {
     derivative: |pool, u, _| pool.call(FunctionId::Cos, u),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

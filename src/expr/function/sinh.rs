@@ -2,7 +2,7 @@
 
 use super::series::chain;
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
 
 /// y = sinh u, w = cosh u: y′ = w u′, w′ = y u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -20,12 +20,12 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "sinh",
     latex: "\\sinh",
     arity: 1,
-    value: |u| portable::sinh(u[0]),
+    value: |u| math::sinh(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Sinh, u[0]),
     derivative: |pool, u, _| pool.call(FunctionId::Cosh, u),
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

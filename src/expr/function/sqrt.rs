@@ -1,7 +1,7 @@
 //! The square root: another way of writing the power ½.
 
 use super::{Function, FunctionId, Rule};
-use crate::expr::Number;
+use crate::num::Number;
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Sqrt,

@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = tan u, w = 1 + y²: y′ = w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "tan",
     latex: "\\tan",
     arity: 1,
-    value: |u| portable::tan(u[0]),
+    value: |u| math::tan(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Tan, u[0]),
     derivative: |pool, u, _| {
         let tangent = pool.call(FunctionId::Tan, u);
@@ -30,7 +30,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

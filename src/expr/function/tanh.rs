@@ -2,7 +2,7 @@
 
 use super::series::{chain, product};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Double, Number, Real, Recurrence, Wide, portable};
+use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
 
 /// y = tanh u, w = 1 − y² = 1/cosh² u: y′ = w u′.
 fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
@@ -22,7 +22,7 @@ pub(super) const FUNCTION: Function = Function {
     unicode: "tanh",
     latex: "\\tanh",
     arity: 1,
-    value: |u| portable::tanh(u[0]),
+    value: |u| math::tanh(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Tanh, u[0]),
     derivative: |pool, u, _| {
         let tangent = pool.call(FunctionId::Tanh, u);
@@ -31,7 +31,7 @@ pub(super) const FUNCTION: Function = Function {
     },
     rule: Rule::Series(Recurrence {
         single: rule::<f64>,
-        double: rule::<Double>,
-        wide: rule::<Wide>,
+        double: rule::<DoubleDouble>,
+        wide: rule::<ExtendedRange>,
     }),
 };

@@ -2,24 +2,24 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, table II.1.1.
 
-use crate::expr::{Double, Real};
+use crate::num::{DoubleDouble, Real};
 
 /// The coefficients of one method.
 #[derive(Clone, Debug)]
 pub(super) struct Tableau {
     /// c: at which parts of a step the stages stand.
-    pub(super) nodes: Vec<Double>,
+    pub(super) nodes: Vec<DoubleDouble>,
     /// b.
-    pub(super) weights: Vec<Double>,
+    pub(super) weights: Vec<DoubleDouble>,
     /// a, row by row.
-    pub(super) matrix: Vec<Vec<Double>>,
+    pub(super) matrix: Vec<Vec<DoubleDouble>>,
     /// Row i: the polynomial through the slopes at the nodes, taken at 1 + c_i.
     pub(super) onward: Vec<Vec<f64>>,
 }
 
 pub(super) fn of_two_stages() -> Tableau {
     let root = root_of(3);
-    let quarter = Double::from(0.25);
+    let quarter = DoubleDouble::from(0.25);
     Tableau::new(
         vec![half() - root / 6.0, half() + root / 6.0],
         vec![half(), half()],
@@ -29,7 +29,7 @@ pub(super) fn of_two_stages() -> Tableau {
 
 pub(super) fn of_three_stages() -> Tableau {
     let root = root_of(15);
-    let [outer, middle] = [Double::from(5.0) / 36.0, Double::from(2.0) / 9.0];
+    let [outer, middle] = [DoubleDouble::from(5.0) / 36.0, DoubleDouble::from(2.0) / 9.0];
     Tableau::new(
         vec![half() - root / 10.0, half(), half() + root / 10.0],
         vec![outer * 2.0, middle * 2.0, outer * 2.0],
@@ -41,16 +41,20 @@ pub(super) fn of_three_stages() -> Tableau {
     )
 }
 
-fn root_of(n: i64) -> Double {
-    Double::integer(n).sqrt()
+fn root_of(n: i64) -> DoubleDouble {
+    DoubleDouble::integer(n).sqrt()
 }
 
-fn half() -> Double {
-    Double::from(0.5)
+fn half() -> DoubleDouble {
+    DoubleDouble::from(0.5)
 }
 
 impl Tableau {
-    fn new(nodes: Vec<Double>, weights: Vec<Double>, matrix: Vec<Vec<Double>>) -> Tableau {
+    fn new(
+        nodes: Vec<DoubleDouble>,
+        weights: Vec<DoubleDouble>,
+        matrix: Vec<Vec<DoubleDouble>>,
+    ) -> Tableau {
         let c: Vec<f64> = nodes.iter().map(|c| c.high).collect();
         let row = |x: f64| (0..c.len()).map(|j| lagrange(&c, j, 1.0 + x)).collect();
         let onward = c.iter().map(|&x| row(x)).collect();

@@ -3,7 +3,7 @@
 //! branch that is meant.
 
 use super::super::roots::{first_crossing, value_and_slope};
-use crate::expr::Double;
+use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Series};
 
 /// A root this small beside the terms of its series is zero: the rest is rounding.
@@ -19,7 +19,7 @@ const CLEAR: f64 = 0.2;
 pub(super) struct Passing {
     guard: usize,
     /// The time after the series' origin, in its unit.
-    pub(super) after: Double,
+    pub(super) after: DoubleDouble,
 }
 
 /// The first root that passes zero before `end`.
@@ -37,7 +37,7 @@ pub(super) fn first(series: &Series, end: f64) -> Option<Passing> {
 
 /// The first zero of what stands under a power, where its square root is followed beyond the step
 /// that the series allows: foretold, for a place that is very near.
-pub(super) fn foretold(series: &Series, end: f64) -> Option<f64> {
+pub(super) fn predicted(series: &Series, end: f64) -> Option<f64> {
     let mut first: Option<f64> = None;
     let powers = (0..series.guards()).filter(|&i| !series.guard_passes(i));
     for under in powers.filter_map(|i| series.guard_under(i)) {
@@ -76,12 +76,12 @@ pub(super) fn is_exact(
 pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
     (0..series.guards()).any(|i| {
         let coefficients = series.guard(i);
-        let (foretold, _) = value_and_slope(coefficients, after);
+        let (predicted, _) = value_and_slope(coefficients, after);
         let size = largest_term(coefficients, after);
         let value = rates.guard(i);
         // a value that is not a number has strayed
-        let agrees = (value - foretold).abs() <= STRAYED * size.max(value.abs());
-        foretold.is_finite() && !agrees
+        let agrees = (value - predicted).abs() <= STRAYED * size.max(value.abs());
+        predicted.is_finite() && !agrees
     })
 }
 
@@ -105,8 +105,8 @@ fn passes(root: &[f64], end: f64) -> Option<f64> {
 }
 
 /// A zero to the precision of the series' lowest orders.
-fn polish(series: &Series, guard: usize, x: f64) -> Double {
-    let mut x = Double::from(x);
+fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
+    let mut x = DoubleDouble::from(x);
     for _ in 0..2 {
         let (_, slope) = value_and_slope(series.guard(guard), x.high);
         let correction = series.guard_after(guard, x) / slope;

@@ -8,8 +8,8 @@
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
 use super::super::roots::{first_crossing, value_and_slope};
-use crate::expr::{Double, portable};
-use crate::system::{ExactRates, Fault, Series, Side, State};
+use crate::num::{DoubleDouble, math};
+use crate::system::{ExactRates, MotionError, Series, Side, State};
 
 /// Switches that cross within this part of a step of each other cross together.
 const TOGETHER: f64 = 1e-12;
@@ -35,7 +35,7 @@ pub(super) struct Kinks {
 /// A surface met within a step.
 pub(super) struct Crossing {
     /// The time after the series' origin, in its unit.
-    pub(super) after: Double,
+    pub(super) after: DoubleDouble,
     switches: Vec<usize>,
 }
 
@@ -48,7 +48,7 @@ impl Crossing {
     /// and to this part of every number.
     pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
         let last_of = |c: &[f64]| {
-            let term = |k: usize| (c[k] * portable::powi(self.after.high, k as i32)).abs();
+            let term = |k: usize| (c[k] * math::powi(self.after.high, k as i32)).abs();
             let last = c.len() - 1;
             (term(last).max(term(last - 1)), (0..last).map(term).fold(0.0, f64::max))
         };
@@ -68,12 +68,12 @@ impl Kinks {
         series: &mut Series,
         rates: &mut ExactRates,
         state: &State,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MotionError> {
         *self = Kinks::default();
         if series.switches() == 0 {
             return Ok(());
         }
-        let numbers: Vec<Double> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         rates.evaluate(state.exact_time(), &numbers)?;
         for i in 0..series.switches() {
             let value = rates.switch(i);
@@ -125,7 +125,7 @@ impl Kinks {
             |&i: &usize| i == first || met(i, x + width).is_some_and(|other| other >= x - width);
         let switches: Vec<usize> = (0..series.switches()).filter(together).collect();
         let after = match series.sides()[first] {
-            Side::Between => Double::from(x),
+            Side::Between => DoubleDouble::from(x),
             _ => self.polish(series, first, x),
         };
         Some(Crossing { after, switches })
@@ -144,7 +144,7 @@ impl Kinks {
         for &i in &self.on_surface {
             // a number of the state that has come to zero is zero, not a rounding error
             if let (Some(number), true) = (series.switch_number(i), moved) {
-                state.set(number, Double::ZERO);
+                state.set(number, DoubleDouble::ZERO);
             }
         }
         self.stalled < PATIENCE
@@ -164,13 +164,13 @@ impl Kinks {
     }
 
     /// A root to the precision of the series' lowest orders.
-    fn polish(&self, series: &Series, i: usize, x: f64) -> Double {
+    fn polish(&self, series: &Series, i: usize, x: f64) -> DoubleDouble {
         let origin = if self.on_surface.contains(&i) {
-            series.switch_after(i, Double::ZERO)
+            series.switch_after(i, DoubleDouble::ZERO)
         } else {
-            Double::ZERO
+            DoubleDouble::ZERO
         };
-        let mut x = Double::from(x);
+        let mut x = DoubleDouble::from(x);
         for _ in 0..2 {
             let (_, slope) = value_and_slope(series.switch(i), x.high);
             let correction = (series.switch_after(i, x) - origin) / slope;
@@ -262,7 +262,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_direction_is_told_by_a_term_above_a_billionth() {
+    fn a_direction_is_reported_by_a_term_above_a_billionth() {
         assert_eq!(first_that_matters(&[0.0, 2e-9, 1.0], 1.0), Some(1));
         assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0), Some(2));
         // in the unit of the time looked at

@@ -5,7 +5,8 @@
 //! last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j |c_j| h^j, and stays inside the radius
 //! of convergence however small those terms are: a body far from a collision hardly feels it.
 
-use crate::expr::{FunctionId, portable};
+use crate::expr::FunctionId;
+use crate::num::math;
 use crate::system::Series;
 
 /// The part of the tolerance that the last terms may have: they stand for all that is cut off,
@@ -46,7 +47,7 @@ const FAINT: f64 = 1e-290;
 /// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 where each order costs the same work;
 /// orders cost less here).
 pub(super) fn order_for(tolerance: f64) -> usize {
-    ((-portable::ln(tolerance) * 0.66).ceil() as usize).clamp(12, 44)
+    ((-math::ln(tolerance) * 0.66).ceil() as usize).clamp(12, 44)
 }
 
 /// Whether all rates of change are finite.
@@ -68,9 +69,9 @@ pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
             return None;
         }
         for (log, x) in logs.iter_mut().zip(c) {
-            *log = if x.abs() < FAINT { f64::NEG_INFINITY } else { portable::ln(x.abs()) };
+            *log = if x.abs() < FAINT { f64::NEG_INFINITY } else { math::ln(x.abs()) };
         }
-        shortest = shortest.min(of_one(&logs[..c.len()], portable::ln(tolerance)));
+        shortest = shortest.min(of_one(&logs[..c.len()], math::ln(tolerance)));
     }
     for (function, u) in series.arguments() {
         shortest = shortest.min(of_argument(function, u));
@@ -92,7 +93,7 @@ fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
         // all terms together, each with a share
         let mut safe = f64::INFINITY;
         for (k, c) in u.iter().enumerate().skip(1).filter(|(_, c)| c.abs() >= FAINT) {
-            safe = safe.min(0.5 * portable::powf(room / c.abs(), 1.0 / k as f64));
+            safe = safe.min(0.5 * math::powf(room / c.abs(), 1.0 / k as f64));
         }
         step = step.max(safe);
     }
@@ -103,7 +104,7 @@ fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
 fn moving(far: f64, u: &[f64]) -> f64 {
     let mut shortest = f64::INFINITY;
     for (k, c) in u.iter().enumerate().skip(1) {
-        let bound = portable::powf(far / c.abs(), 1.0 / k as f64);
+        let bound = math::powf(far / c.abs(), 1.0 / k as f64);
         if bound.is_finite() {
             shortest = shortest.min(bound);
         }
@@ -139,12 +140,12 @@ fn of_one(logs: &[f64], log_tolerance: f64) -> f64 {
         }
         let mut log_step = by_tolerance;
         if radius > f64::NEG_INFINITY {
-            log_step = log_step.min(radius + portable::ln(PART_OF_RADIUS));
+            log_step = log_step.min(radius + math::ln(PART_OF_RADIUS));
         }
         if k + LAST <= p {
-            log_step += portable::ln(INDULGENCE);
+            log_step += math::ln(INDULGENCE);
         }
-        shortest = shortest.min(portable::exp(log_step));
+        shortest = shortest.min(math::exp(log_step));
     }
     shortest
 }
@@ -155,22 +156,22 @@ mod tests {
 
     /// The logarithms of a series whose terms shrink by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
-        (0..29).map(|k| f64::from(k) * portable::ln(ratio)).collect()
+        (0..29).map(|k| f64::from(k) * math::ln(ratio)).collect()
     }
 
     #[test]
     fn a_step_leaves_last_terms_of_a_hundredth_of_the_tolerance() {
         // of an entire function: |c_k| h^k = 1/k! · h^k, at h where the last is ε
         let logs: Vec<f64> = std::iter::successors(Some((0.0, 0.0)), |(log, k): &(f64, f64)| {
-            Some((log - portable::ln(k + 1.0), k + 1.0))
+            Some((log - math::ln(k + 1.0), k + 1.0))
         })
         .map(|(log, _)| log)
         .take(29)
         .collect();
         let tolerance = 1e-12 * SHARE;
-        let step = of_one(&logs, portable::ln(tolerance));
-        let last = portable::exp(logs[28] + 28.0 * portable::ln(step));
-        let largest = (0..29).map(|k| portable::exp(logs[k] + k as f64 * portable::ln(step)));
+        let step = of_one(&logs, math::ln(tolerance));
+        let last = math::exp(logs[28] + 28.0 * math::ln(step));
+        let largest = (0..29).map(|k| math::exp(logs[k] + k as f64 * math::ln(step)));
         let part = last / largest.fold(0.0, f64::max);
         // earlier terms of the last ones are looked at as well: less than a hundredth is left
         assert!((0.4e-15..4e-15).contains(&part), "{part:e}");
@@ -179,10 +180,10 @@ mod tests {
     #[test]
     fn a_step_stays_within_six_tenths_of_the_radius() {
         // 1/(1 − t) has radius 1; a loose tolerance would lead beyond
-        let step = of_one(&geometric(1.0), portable::ln(0.1));
+        let step = of_one(&geometric(1.0), math::ln(0.1));
         assert!((0.59..0.61).contains(&step), "{step}");
         // in any unit
-        let step = of_one(&geometric(4.0), portable::ln(0.1));
+        let step = of_one(&geometric(4.0), math::ln(0.1));
         assert!((0.147..0.153).contains(&step), "{step}");
     }
 

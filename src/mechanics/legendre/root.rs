@@ -9,7 +9,8 @@ use std::collections::HashMap;
 
 use super::super::linear;
 use super::{Transformed, constant_in, tidy_derivative};
-use crate::expr::{Expr, Node, Number, Pool, Symbol};
+use crate::expr::{Expr, Node, Pool, Symbol};
+use crate::num::Number;
 
 /// The transform of `f`, if it has this form.
 pub(super) fn transform(

@@ -3,18 +3,18 @@
 /// What may be used where.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Allowed {
-    /// Parameters only: initial values, periods, the times of blows.
+    /// Parameters only: initial values, periods, the times of impulses.
     Parameters,
     /// Parameters, but nothing that follows from a body: what the body is made of.
     Pieces,
     /// q, t, parameters: how a frame turns, Euler's angles.
     Configuration,
-    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, forces, constraints and blows
+    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, forces, constraints and impulses
     /// beside a Lagrangian.
     Lagrangian,
-    /// q, p, t, parameters: a Hamiltonian, forces and blows beside it.
+    /// q, p, t, parameters: a Hamiltonian, forces and impulses beside it.
     Hamiltonian,
-    /// The variables, t, parameters: the H of brackets, the brackets, forces and blows.
+    /// The variables, t, parameters: the H of brackets, the brackets, forces and impulses.
     Poisson,
     /// The variables and parameters: a Casimir.
     Casimir,

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::NotFound;
+use crate::diagnostic::{Diagnostic, Diagnostics, Document, Severity};
 use crate::model::Info;
-use crate::preset::{Document, Mistake, Mistakes, Severity, draft, grammar};
+use crate::preset::{draft, toml_errors};
 use crate::printable;
 
 /// Where a preset comes from.
@@ -46,7 +47,7 @@ impl Entry {
         }
     }
 
-    /// A file in the user's folder; it is read whole, so that what is wrong with it can be told.
+    /// A file in the user's folder; it is read whole, so that what is wrong with it can be reported.
     pub(super) fn of_user(folder: &Path, path: &Path) -> Entry {
         let mut entry = Entry {
             name: stem(path),
@@ -101,11 +102,11 @@ impl Entry {
 
 /// The words at the head of a file, without the notes.
 fn head(text: &str) -> Info {
-    let table = grammar::parse(text, &mut Mistakes::default());
+    let table = toml_errors::parse(text, &mut Diagnostics::default());
     Info { notes: String::new(), ..draft::read_head(&table) }
 }
 
-fn located(document: &Document, mistake: &Mistake) -> String {
+fn located(document: &Document, mistake: &Diagnostic) -> String {
     let (line, column) = document.line_and_column(mistake.place.start);
     format!("{}:{line}:{column}: {}", document.path, printable::line(&mistake.message))
 }

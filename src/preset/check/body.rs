@@ -3,12 +3,12 @@
 use toml::Spanned;
 
 use super::Check;
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
 use crate::model::{
     Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn,
 };
 use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
-use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
     /// The names that follow from a body and its attitude, so that all expressions know them; what
@@ -65,7 +65,7 @@ impl Check<'_> {
             let is = if sum.abs() <= 1e-12 * size { 0.0 } else { sum };
             let message = format!("the masses of the pieces sum to {is}");
             let help = "a body needs a mass, or it has no centre of mass";
-            let mistake = Mistake::error(written.place.clone(), message);
+            let mistake = Diagnostic::error(written.place.clone(), message);
             self.mistakes.push(mistake.with_help(help));
         }
         if let Some(body) = &mut self.model.body {

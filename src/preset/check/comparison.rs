@@ -4,10 +4,11 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Rank, latex_of_unicode, nearest};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::expr::{Rank, latex_of_unicode};
 use crate::model::Comparison;
 use crate::preset::draft::DraftComparison;
-use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
     /// The other motion: `other_x` and `other_x'` of every coordinate.
@@ -31,7 +32,7 @@ impl Check<'_> {
                 Some(index) => match seen.iter().find(|n| n.get_ref() == name.get_ref()) {
                     Some(first) => {
                         let message = format!("`{}` is eliminated twice", name.get_ref());
-                        let mistake = Mistake::error(name.span(), message);
+                        let mistake = Diagnostic::error(name.span(), message);
                         self.mistakes.push(mistake.with_also(first.span(), "the first time"));
                     }
                     None => eliminate.push(index),
@@ -44,10 +45,10 @@ impl Check<'_> {
         self.model.comparison = Some(Comparison { eliminate, symbols, place });
     }
 
-    fn not_eliminated(&self, name: &Spanned<String>) -> Mistake {
+    fn not_eliminated(&self, name: &Spanned<String>) -> Diagnostic {
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
         let message = format!("there is no coordinate `{}`", name.get_ref());
-        Mistake::error(name.span(), message).with_help(
+        Diagnostic::error(name.span(), message).with_help(
             match nearest(name.get_ref().trim_end_matches('\''), known.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the coordinates are {}", known.join(", ")),
@@ -61,7 +62,7 @@ impl Check<'_> {
         if constraints == 0 || !self.model.is_lagrangian() {
             let message = "there is nothing to compare: the file has no constraints";
             let help = "[comparison] puts the [[constraints]] of a Lagrangian into it";
-            self.mistakes.push(Mistake::error(written.place.clone(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
         } else if written.eliminate.len() != constraints && written.list != (0..0) {
             let count =
                 |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -71,7 +72,7 @@ impl Check<'_> {
                 count(constraints, "constraint")
             );
             let help = "each constraint is solved for the velocity of one coordinate";
-            self.mistakes.push(Mistake::error(written.list.clone(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(written.list.clone(), message).with_help(help));
         }
     }
 }

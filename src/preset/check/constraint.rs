@@ -6,11 +6,11 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use super::Check;
-use super::names::tell_twice;
+use super::names::report_twice;
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
 use crate::model::{Allowed, Constraint, Scope, multiplier_name};
 use crate::preset::draft::{Draft, DraftConstraint, Formula};
-use crate::preset::mistake::Mistake;
 
 /// How many nodes may be walked to prove all constraints of a file linear: each of a constraint
 /// once for each velocity in it.
@@ -27,11 +27,12 @@ impl Check<'_> {
             let same = taken.iter().find(|(known, _)| *known == multiplier);
             let first = same.and_then(|(_, first)| first.name.as_ref());
             if let Some(first) = first.filter(|first| first.get_ref() == name.get_ref()) {
-                tell_twice(name, first.span(), "a constraint", self.mistakes);
+                report_twice(name, first.span(), "a constraint", self.mistakes);
             } else if let Some(first) = first {
                 let message =
                     format!("a constraint before this one has the multiplier `{multiplier}` too");
-                let mistake = Mistake::error(name.span(), message).with_help("rename one of them");
+                let mistake =
+                    Diagnostic::error(name.span(), message).with_help("rename one of them");
                 self.mistakes.push(mistake.with_also(first.span(), "the first one"));
             }
             taken.push((multiplier, written));
@@ -56,7 +57,7 @@ impl Check<'_> {
             let law = if self.model.is_poisson() { "[poisson]" } else { "[hamiltonian]" };
             let message = format!("constraints hold a Lagrangian; beside {law} there are none");
             let help = "give the law in [lagrangian], or leave the constrained coordinate out";
-            self.mistakes.push(Mistake::error(first.place.clone(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(first.place.clone(), message).with_help(help));
             return;
         }
         let mut scope = Scope::new(&self.model, Allowed::Lagrangian, "a constraint");
@@ -139,8 +140,10 @@ impl Check<'_> {
             true
         };
         if !binds {
-            let mistake =
-                Mistake::error(formula.span(), format!("{called} binds no coordinate or velocity"));
+            let mistake = Diagnostic::error(
+                formula.span(),
+                format!("{called} binds no coordinate or velocity"),
+            );
             self.mistakes.push(mistake.with_help("what is to vanish depends on where things are"));
             return None;
         }
@@ -170,7 +173,7 @@ impl Check<'_> {
         let message = format!("{called} is not linear {culprit}");
         let help = "a constraint is a sum of velocities, each times a function of q and t, and of \
                     such a function";
-        self.mistakes.push(Mistake::error(formula.span(), message).with_help(help));
+        self.mistakes.push(Diagnostic::error(formula.span(), message).with_help(help));
     }
 }
 

@@ -3,15 +3,16 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Expr, nearest};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{
-    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics,
-    Place, Scope,
+    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope,
 };
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
 };
-use crate::preset::mistake::Mistake;
 use crate::printable::number;
 
 /// The absolute tolerance of a claimed number where the file gives none.
@@ -45,7 +46,7 @@ impl Check<'_> {
 
     /// When something is to happen.
     fn expected_event(&mut self, written: &DraftOccurrence) -> Option<ExpectedEvent> {
-        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         let nth = match &written.nth {
             None => Some(1),
             Some(nth) => self.whole(nth, 1, "`nth` counts from 1 in whole numbers"),
@@ -65,7 +66,7 @@ impl Check<'_> {
 
     /// How often something is to happen.
     fn expected_count(&mut self, written: &DraftCount) -> Option<ExpectedCount> {
-        let name = written.name.as_ref().and_then(|name| self.happening(name));
+        let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         self.not_before_the_start(written.until.as_ref());
         let is = written.is.as_ref()?;
         let count = self.whole(is, 0, "`is` counts in whole numbers from 0");
@@ -103,7 +104,7 @@ impl Check<'_> {
     }
 
     /// The name of an event or impulse, or a complaint.
-    fn happening(&mut self, name: &Spanned<String>) -> Option<String> {
+    fn occurrence(&mut self, name: &Spanned<String>) -> Option<String> {
         let impulses = self.model.impulses.iter().map(|impulse| impulse.name.as_str());
         let events = self.model.events.iter().map(|event| event.name.as_str());
         let known: Vec<&str> = events.chain(impulses).collect();
@@ -116,7 +117,7 @@ impl Check<'_> {
             None => format!("what may happen is {}", known.join(", ")),
         };
         let message = format!("there is no event or impulse `{}`", name.get_ref());
-        self.mistakes.push(Mistake::error(name.span(), message).with_help(help));
+        self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }
 
@@ -182,14 +183,14 @@ impl Check<'_> {
                     }
                     None => "name `energy`, a momentum p_..., or an observable".to_owned(),
                 };
-                self.mistakes.push(Mistake::error(claim.span(), message).with_help(help));
+                self.mistakes.push(Diagnostic::error(claim.span(), message).with_help(help));
             }
         }
         None
     }
 
     /// The Casimirs of the file.
-    fn casimirs_by_name(&self) -> &[(String, Expr, Place)] {
+    fn casimirs_by_name(&self) -> &[(String, Expr, SourceRange)] {
         match &self.model.mechanics {
             Mechanics::Poisson { casimirs, .. } => casimirs,
             _ => &[],

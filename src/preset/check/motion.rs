@@ -2,10 +2,11 @@
 
 use super::Check;
 use super::names::Names;
-use crate::expr::{Expr, nearest};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{Allowed, Coordinate, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
-use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
     /// The coordinates or variables, and which kind of law they move by: what an expression may name
@@ -33,7 +34,7 @@ impl Check<'_> {
             _ => None,
         };
         if let Some((place, message, help)) = wrong {
-            self.mistakes.push(Mistake::error(place.clone(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(place.clone(), message).with_help(help));
         }
     }
 
@@ -42,7 +43,7 @@ impl Check<'_> {
         let (first, others) = given.split_first()?;
         for other in others {
             let message = "the file gives more than one law of motion";
-            let mistake = Mistake::error(other.place.clone(), message)
+            let mistake = Diagnostic::error(other.place.clone(), message)
                 .with_help("keep one of [lagrangian], [hamiltonian] and [poisson]")
                 .with_also(first.place.clone(), "the first one");
             self.mistakes.push(mistake);
@@ -92,10 +93,10 @@ impl Check<'_> {
         }
     }
 
-    fn no_coordinate(&self, name: &toml::Spanned<String>) -> Mistake {
+    fn no_coordinate(&self, name: &toml::Spanned<String>) -> Diagnostic {
         let kind = if self.model.is_poisson() { "variable" } else { "coordinate" };
         let message = format!("there is no {kind} `{}` for a force to act on", name.get_ref());
-        let mistake = Mistake::error(name.span(), message);
+        let mistake = Diagnostic::error(name.span(), message);
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
         let bare = name.get_ref().trim_end_matches('\'');
         match nearest(bare.strip_prefix("p_").unwrap_or(bare), known.iter().copied()) {
@@ -145,7 +146,7 @@ impl Check<'_> {
         };
         if let Some((place, _)) = wrong {
             let message = format!("a `{given}` is given, but {of} starts from a `{wanted}`");
-            let mistake = Mistake::error(place.clone(), message);
+            let mistake = Diagnostic::error(place.clone(), message);
             self.mistakes.push(mistake.with_help(format!("did you mean `{wanted}`?")));
         }
     }

@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 
 use toml::Spanned;
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Diagnostics;
+use crate::diagnostic::SourceRange;
 use crate::expr::{FUNCTIONS, latex_of_unicode};
-use crate::model::{Attitude, BodyNames, Place, multiplier_name};
-use crate::preset::Mistakes;
+use crate::model::{Attitude, BodyNames, multiplier_name};
 use crate::preset::draft::{Draft, Law};
-use crate::preset::mistake::Mistake;
 
 /// The names given so far, with what they name and where.
 pub(super) struct Names {
-    taken: BTreeMap<String, (&'static str, Place)>,
+    taken: BTreeMap<String, (&'static str, SourceRange)>,
     coordinates: Vec<String>,
     /// Whether these are variables of brackets, which have no momenta.
     poisson: bool,
@@ -22,7 +23,7 @@ pub(super) struct Names {
 
 impl Names {
     /// The names of coordinates, parameters and definitions, after they have been checked.
-    pub(super) fn of(draft: &Draft, mistakes: &mut Mistakes) -> Names {
+    pub(super) fn of(draft: &Draft, mistakes: &mut Diagnostics) -> Names {
         let coordinates = draft.moving.all.iter().map(|c| c.name.get_ref().clone()).collect();
         let constraints = draft.constraints.iter().filter_map(|c| c.name.as_ref());
         let multipliers = constraints
@@ -46,7 +47,7 @@ impl Names {
 
     /// The names that tables of the file define by being there.
     fn given(&mut self, draft: &Draft) {
-        let mut take = |name: &str, kind: &'static str, place: &Place| {
+        let mut take = |name: &str, kind: &'static str, place: &SourceRange| {
             self.taken.insert(name.to_owned(), (kind, place.clone()));
         };
         if let Some(body) = &draft.body {
@@ -68,7 +69,7 @@ impl Names {
     }
 
     /// A name that stands in expressions.
-    fn word(&mut self, name: &Spanned<String>, kind: &'static str, mistakes: &mut Mistakes) {
+    fn word(&mut self, name: &Spanned<String>, kind: &'static str, mistakes: &mut Diagnostics) {
         let written = name.get_ref();
         if is_word(written) {
             self.claim(name, kind, mistakes);
@@ -83,7 +84,7 @@ impl Names {
         } else {
             rule.to_owned()
         };
-        mistakes.push(Mistake::error(name.span(), message).with_help(help));
+        mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
     }
 
     /// A name of any letters, that must be neither reserved nor taken.
@@ -91,14 +92,14 @@ impl Names {
         &mut self,
         name: &Spanned<String>,
         kind: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) {
         let written = name.get_ref().as_str();
         if let Some(meaning) = self.reserved(written) {
             let message = format!("`{written}` cannot name {kind}: it is {meaning}");
-            mistakes.push(Mistake::error(name.span(), message).with_help("choose another name"));
+            mistakes.push(Diagnostic::error(name.span(), message).with_help("choose another name"));
         } else if let Some((first, place)) = self.taken.get(written) {
-            tell_twice(name, place.clone(), first, mistakes);
+            report_twice(name, place.clone(), first, mistakes);
         } else {
             self.taken.insert(written.to_owned(), (kind, name.span()));
         }
@@ -141,14 +142,14 @@ impl Names {
 }
 
 /// Complains of a name that something has already.
-pub(super) fn tell_twice(
+pub(super) fn report_twice(
     name: &Spanned<String>,
-    first: Place,
+    first: SourceRange,
     kind: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) {
     let message = format!("the name `{}` is given twice", name.get_ref());
-    let mistake = Mistake::error(name.span(), message)
+    let mistake = Diagnostic::error(name.span(), message)
         .with_help("rename one of them")
         .with_also(first, format!("here it names {kind}"));
     mistakes.push(mistake);

@@ -1,20 +1,21 @@
-//! Blows and events: what they name is there, and what they say is of the state before them.
+//! Impulses and events: what they name is there, and what they say is of the state before them.
 
 use toml::Spanned;
 
 use super::Check;
-use super::names::tell_twice;
-use crate::expr::{Expr, nearest};
+use super::names::report_twice;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
 use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
-use crate::preset::mistake::Mistake;
 use crate::printable::number;
 
 /// What an event can do, as messages list it.
 const ACTIONS: &str = "`mark`, `stop`, `release:CONSTRAINT` or `impulse:IMPULSE`";
 
 impl Check<'_> {
-    /// Blows and events have their names in common: what happens is told by name.
+    /// Impulses and events have their names in common: what happens is reported by name.
     pub(super) fn occurrences_named_once(&mut self, draft: &Draft) {
         let impulses = draft.impulses.iter().filter_map(|i| i.name.as_ref());
         let events = draft.events.iter().filter_map(|e| e.name.as_ref());
@@ -23,14 +24,14 @@ impl Check<'_> {
         for (name, kind) in all {
             match before.iter().find(|(known, _)| known.get_ref() == name.get_ref()) {
                 Some((first, what)) => {
-                    tell_twice(name, first.span(), what, self.mistakes);
+                    report_twice(name, first.span(), what, self.mistakes);
                 }
                 None => before.push((name, kind)),
             }
         }
     }
 
-    /// Blows.
+    /// Impulses.
     pub(super) fn impulses(&mut self, written: &[DraftImpulse]) {
         let mut times = Scope::new(&self.model, Allowed::Parameters, "the time of an impulse");
         let allowed = match self.model.mechanics {
@@ -51,9 +52,9 @@ impl Check<'_> {
             for (name, formula) in impulse.change.iter().flatten() {
                 let formula = formula.as_ref();
                 let jump = formula.and_then(|f| self.formula(&mut scope, &called, f));
-                match self.struck(name.get_ref()) {
+                match self.after_impulse(name.get_ref()) {
                     Some(index) => change[index] = jump.unwrap_or(Expr::ZERO),
-                    None => self.mistakes.push(self.not_struck(name)),
+                    None => self.mistakes.push(self.unknown_momentum(name)),
                 }
             }
             self.model.impulses.push(Impulse {
@@ -78,7 +79,7 @@ impl Check<'_> {
             let place = if at < start { "before the start" } else { "the start itself" };
             let start = number(start);
             let message = format!("this is {place}, t = {start}; it does not strike");
-            self.mistakes.push(Mistake::warning(formula.span(), message));
+            self.mistakes.push(Diagnostic::warning(formula.span(), message));
         }
         Some(e)
     }
@@ -99,12 +100,12 @@ impl Check<'_> {
     }
 
     /// The coordinate whose momentum a key of `change` names, or the variable.
-    fn struck(&self, name: &str) -> Option<usize> {
+    fn after_impulse(&self, name: &str) -> Option<usize> {
         let bare = if self.model.is_poisson() { name } else { name.strip_prefix("p_")? };
         self.model.coordinate(bare)
     }
 
-    fn not_struck(&self, name: &Spanned<String>) -> Mistake {
+    fn unknown_momentum(&self, name: &Spanned<String>) -> Diagnostic {
         let poisson = self.model.is_poisson();
         let message = if poisson {
             format!("there is no variable `{}` for an impulse to change", name.get_ref())
@@ -117,7 +118,7 @@ impl Check<'_> {
         let bare = name.get_ref().trim_end_matches('\'');
         let meant = format!("{prefix}{}", bare.strip_prefix("p_").unwrap_or(bare));
         let near = nearest(&meant, known.iter().map(String::as_str));
-        Mistake::error(name.span(), message).with_help(match near {
+        Diagnostic::error(name.span(), message).with_help(match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("an impulse may change {}", known.join(", ")),
         })
@@ -154,7 +155,7 @@ impl Check<'_> {
         };
         let moves = !self.model.pool.symbols_of(e).into_iter().all(constant);
         if !moves {
-            let mistake = Mistake::error(formula.span(), "this does not change in time");
+            let mistake = Diagnostic::error(formula.span(), "this does not change in time");
             let help = "an event happens where its expression crosses zero";
             self.mistakes.push(mistake.with_help(help));
         }
@@ -173,7 +174,7 @@ impl Check<'_> {
                     None => "a direction is `rising`, `falling` or `either`".to_owned(),
                 };
                 let message = format!("there is no direction `{other}`");
-                self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+                self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
                 Direction::Either
             }
         }
@@ -209,12 +210,12 @@ impl Check<'_> {
             None => format!("the {kind}s are {}", known.join(", ")),
         };
         let message = format!("there is no {kind} `{object}`");
-        self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
         None
     }
 }
 
-fn no_action(written: &Spanned<String>, verb: &str) -> Mistake {
+fn no_action(written: &Spanned<String>, verb: &str) -> Diagnostic {
     let text = written.get_ref();
     let message = format!("an event cannot do `{text}`");
     let help = match (verb, nearest(verb, ["mark", "stop", "release", "impulse"])) {
@@ -223,5 +224,5 @@ fn no_action(written: &Spanned<String>, verb: &str) -> Mistake {
         (_, Some(near)) => format!("did you mean `{near}:NAME`?"),
         _ => format!("it can do {ACTIONS}"),
     };
-    Mistake::error(written.span(), message).with_help(help)
+    Diagnostic::error(written.span(), message).with_help(help)
 }

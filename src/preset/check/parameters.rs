@@ -3,10 +3,12 @@
 use toml::Spanned;
 
 use super::Check;
-use crate::expr::{Rank, latex_of_unicode, nearest, portable, unicode_name};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
+use crate::expr::{Rank, latex_of_unicode, unicode_name};
 use crate::model::{Parameter, Scale};
+use crate::num::math;
 use crate::preset::draft::DraftParameter;
-use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
     /// Adds a parameter to the model.
@@ -42,7 +44,7 @@ impl Check<'_> {
                     None => "a scale is `linear` or `log`".to_owned(),
                 };
                 let message = format!("there is no scale `{other}`");
-                self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+                self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
                 Scale::Linear
             }
         }
@@ -106,7 +108,7 @@ fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: Scale) -> (f64, f
 /// The least of 1, 2, 5, 10, … times a power of ten that is not below a positive number; the
 /// number itself where none is finite.
 fn nice_above(x: f64) -> f64 {
-    let power = portable::log10(x).floor();
+    let power = math::log10(x).floor();
     let steps = [1.0, 2.0, 5.0, 10.0];
     let nice = steps.into_iter().map(|s| decimal(s, power)).find(|&nice| nice >= x);
     nice.filter(|nice| nice.is_finite()).unwrap_or(x)

@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use super::Check;
+use crate::diagnostic::Diagnostic;
 use crate::expr::Expr;
 use crate::model::{Allowed, Channel, Point, Scope, Shape, View, ViewKind};
 use crate::preset::draft::{
     DraftShape, DraftShapeKind, DraftView, DraftViewKind, Formula, Formulas,
 };
-use crate::preset::mistake::Mistake;
 
 /// Into how many pieces a path is cut where the file does not say.
 const SAMPLES: usize = 96;
@@ -52,7 +52,7 @@ impl Check<'_> {
             let names: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
             let message = "a potential runs along a coordinate, and this is none";
             let help = format!("write one of {}", names.join(", "));
-            self.mistakes.push(Mistake::error(written.span(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
         }
     }
 
@@ -68,7 +68,7 @@ impl Check<'_> {
                     if self.model.body.is_none() {
                         let message = "there is no [body] to draw";
                         let help = "put it together from pieces in [body]";
-                        let mistake = Mistake::error(written.place.clone(), message);
+                        let mistake = Diagnostic::error(written.place.clone(), message);
                         self.mistakes.push(mistake.with_help(help));
                     }
                     at.map(|at| Shape::Body { at })

@@ -1,12 +1,12 @@
 //! From a byte of an expression to a byte of the file: past the quotes, and past escapes, of which
 //! several bytes stand for one character.
 
+use crate::diagnostic::SourceRange;
 use crate::expr::Span;
-use crate::model::Place;
 use crate::preset::draft::Formula;
 
 /// Where a part of an expression stands in the file.
-pub(super) fn within(file: &str, formula: &Formula, span: Span) -> Place {
+pub(super) fn within(file: &str, formula: &Formula, span: Span) -> SourceRange {
     let whole = formula.span();
     let Some(raw) = file.get(whole.clone()) else { return whole };
     let (open, close) = quotes(raw);

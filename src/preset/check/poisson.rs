@@ -5,10 +5,12 @@ use toml::Spanned;
 
 use super::Check;
 use super::names::Names;
-use crate::expr::{Expr, nearest};
-use crate::model::{Allowed, Place, Scope};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::SourceRange;
+use crate::diagnostic::nearest;
+use crate::expr::Expr;
+use crate::model::{Allowed, Scope};
 use crate::preset::draft::{DraftBracket, NamedFormula};
-use crate::preset::mistake::Mistake;
 
 impl Check<'_> {
     /// {x_i, x_j} for all i and j; zero where the file gives none.
@@ -16,7 +18,7 @@ impl Check<'_> {
         let count = self.model.coordinates.len();
         let mut scope = Scope::new(&self.model, Allowed::Poisson, "a bracket");
         let mut matrix = vec![vec![Expr::ZERO; count]; count];
-        let mut given: Vec<Vec<Option<Place>>> = vec![vec![None; count]; count];
+        let mut given: Vec<Vec<Option<SourceRange>>> = vec![vec![None; count]; count];
         for bracket in written {
             let value = self.formula(&mut scope, "a bracket", &bracket.value);
             let [first, second] = &bracket.pair;
@@ -29,7 +31,7 @@ impl Check<'_> {
                     second.get_ref()
                 );
                 let help = "{b, a} is -{a, b}: one of them tells both";
-                let mistake = Mistake::error(bracket.place.clone(), message).with_help(help);
+                let mistake = Diagnostic::error(bracket.place.clone(), message).with_help(help);
                 self.mistakes.push(mistake.with_also(before.clone(), "the first time"));
                 continue;
             }
@@ -41,7 +43,7 @@ impl Check<'_> {
                 matrix[j][i] = self.model.pool.neg(value);
             } else if value != Expr::ZERO {
                 let message = format!("the bracket of `{}` with itself is 0", first.get_ref());
-                let mistake = Mistake::error(bracket.value.span(), message);
+                let mistake = Diagnostic::error(bracket.value.span(), message);
                 self.mistakes.push(mistake.with_help("brackets are antisymmetric: leave it out"));
             }
         }
@@ -58,7 +60,7 @@ impl Check<'_> {
                 None => format!("the variables are {}", known.join(", ")),
             };
             let message = format!("there is no variable `{}`", name.get_ref());
-            self.mistakes.push(Mistake::error(name.span(), message).with_help(help));
+            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found
     }
@@ -68,7 +70,7 @@ impl Check<'_> {
         &mut self,
         written: &[NamedFormula],
         names: &mut Names,
-    ) -> Vec<(String, Expr, Place)> {
+    ) -> Vec<(String, Expr, SourceRange)> {
         let mut scope = Scope::new(&self.model, Allowed::Casimir, "a Casimir");
         let mut all = Vec::new();
         for (name, formula) in written {

@@ -5,13 +5,14 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::vector::{self, Formulas};
-use super::{Formula, Mistake, Mistakes, Place, value};
-use crate::expr::nearest;
+use super::{Formula, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) pieces: Vec<DraftPiece>,
 }
 
@@ -25,7 +26,7 @@ pub(in crate::preset) struct DraftPiece {
     pub(in crate::preset) at: Option<Formulas>,
     pub(in crate::preset) turn: DraftTurn,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// How a piece is turned, as written.
@@ -38,7 +39,7 @@ pub(in crate::preset) enum DraftTurn {
 /// `[attitude]` as written.
 pub(in crate::preset) struct DraftAttitude {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) euler: Option<Formulas>,
     pub(in crate::preset) omega: Option<Formulas>,
     pub(in crate::preset) start: Option<Formulas>,
@@ -47,9 +48,9 @@ pub(in crate::preset) struct DraftAttitude {
 /// `[comparison]` as written.
 pub(in crate::preset) struct DraftComparison {
     /// Where the table stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// Where the list stands.
-    pub(in crate::preset) list: Place,
+    pub(in crate::preset) list: SourceRange,
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }
 
@@ -67,7 +68,7 @@ const SOLIDS: [(&str, &[&str]); 10] = [
     ("cuboid", &["size"]),
 ];
 
-pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftBody> {
+pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftBody> {
     let mut table = top.table("body", mistakes)?;
     let example = "{ solid = \"sphere\", mass = \"m\", radius = \"a\" }";
     let help = format!("write pieces = [ {example} ]");
@@ -75,7 +76,7 @@ pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<Draft
     if let Some((_, found)) = table.require("pieces", &help) {
         let items = value::list(found, "`pieces`", mistakes);
         if items.is_some_and(|items| items.is_empty()) {
-            let mistake = Mistake::error(found.span(), "a body is made of at least one piece");
+            let mistake = Diagnostic::error(found.span(), "a body is made of at least one piece");
             mistakes.push(mistake.with_help(help));
         }
         for item in items.into_iter().flatten() {
@@ -88,13 +89,13 @@ pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<Draft
     Some(DraftBody { place, pieces })
 }
 
-fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
+fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece> {
     let point = table.flag("point", mistakes).filter(|flag| *flag.get_ref());
     let (had, written) = (table.has("solid"), table.text("solid", mistakes));
     let row = match (&point, &written) {
         (Some(_), Some(solid)) => {
             let message = "a piece is a point or a solid, not both";
-            mistakes.push(Mistake::error(solid.span(), message));
+            mistakes.push(Diagnostic::error(solid.span(), message));
             return None;
         }
         (Some(_), None) => None,
@@ -103,7 +104,10 @@ fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
             if !had {
                 let message = "this piece has no `solid`";
                 let help = "write solid = \"sphere\" or another one, or point = true";
-                table.lacks("solid", Mistake::error(table.place.clone(), message).with_help(help));
+                table.lacks(
+                    "solid",
+                    Diagnostic::error(table.place.clone(), message).with_help(help),
+                );
                 for key in ["mass", "at", "turned", "radius", "length", "height", "size"] {
                     table.take(key);
                 }
@@ -137,7 +141,7 @@ fn piece(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftPiece> {
 
 fn known(
     solid: &Spanned<String>,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<&'static (&'static str, &'static [&'static str])> {
     let name = solid.get_ref().as_str();
     let row = SOLIDS.iter().find(|(known, _)| *known == name);
@@ -148,12 +152,12 @@ fn known(
             None => format!("the solids are {}", names.join(", ")),
         };
         let message = format!("there is no solid `{name}`");
-        mistakes.push(Mistake::error(solid.span(), message).with_help(help));
+        mistakes.push(Diagnostic::error(solid.span(), message).with_help(help));
     }
     row
 }
 
-fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
+fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
     let Some((place, found)) = table.take("turned") else { return DraftTurn::None };
     let shape = "turned = { axis = [\"0\", \"0\", \"1\"], angle = \"...\" }";
     let Some(mut table) = Table::of(found, "`turned`", place, shape, mistakes) else {
@@ -163,7 +167,7 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
         for key in ["axis", "angle"] {
             if let Some((place, _)) = table.take(key) {
                 let message = "a piece is turned by `axis` and `angle` or by `euler`, not by both";
-                mistakes.push(Mistake::error(place, message));
+                mistakes.push(Diagnostic::error(place, message));
             }
         }
         DraftTurn::Euler(vector::triple(&mut table, "euler", mistakes))
@@ -178,7 +182,7 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftTurn {
     turn
 }
 
-pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftAttitude> {
+pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftAttitude> {
     let mut table = top.table("attitude", mistakes)?;
     let (has_euler, has_omega) = (table.has("euler"), table.has("omega"));
     let euler = vector::optional_triple(&mut table, "euler", mistakes);
@@ -190,16 +194,16 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<D
             let message = "[attitude] has neither `euler` nor `omega`";
             let help = "write euler = [\"phi\", \"theta\", \"psi\"], or the angular velocity about \
                         the body's axes: omega = [\"w1\", \"w2\", \"w3\"]";
-            table.lacks("euler", Mistake::error(table.place.clone(), message).with_help(help));
+            table.lacks("euler", Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, true, _) => {
             let message = "[attitude] has both `euler` and `omega`";
             let help = "either angles or an angular velocity say how a body stands";
-            mistakes.push(Mistake::error(table.place.clone(), message).with_help(help));
+            mistakes.push(Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, false, Some(start)) => {
             let message = "`start` goes with `omega`; the angles of `euler` need none";
-            mistakes.push(Mistake::error(start, message));
+            mistakes.push(Diagnostic::error(start, message));
         }
         _ => {}
     }
@@ -208,7 +212,10 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<D
     Some(DraftAttitude { place, euler, omega, start })
 }
 
-pub(super) fn comparison(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftComparison> {
+pub(super) fn comparison(
+    top: &mut Table<'_>,
+    mistakes: &mut Diagnostics,
+) -> Option<DraftComparison> {
     let mut table = top.table("comparison", mistakes)?;
     let help = "write eliminate = [\"x\"], one coordinate for each constraint";
     let found = table.require("eliminate", help);

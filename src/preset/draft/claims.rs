@@ -3,7 +3,8 @@
 use toml::Spanned;
 
 use super::table::Table;
-use super::{Formula, Mistakes, Place, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostics, SourceRange};
 
 /// An observable as written.
 pub(in crate::preset) struct DraftObservable {
@@ -30,7 +31,7 @@ pub(in crate::preset) struct DraftOccurrence {
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// How often something is to happen, as written.
@@ -40,7 +41,7 @@ pub(in crate::preset) struct DraftCount {
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// What a bracket is to be, as written.
@@ -50,7 +51,7 @@ pub(in crate::preset) struct DraftBracketClaim {
     pub(in crate::preset) is: Option<Formula>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// A value claimed, as written.
@@ -62,10 +63,10 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftObservable> {
+pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftObservable> {
     let mut all = Vec::new();
     for mut table in top.tables("observables", "this observable", mistakes) {
         let name = table.require("name", "write name = \"...\"");
@@ -80,7 +81,7 @@ pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<D
     all
 }
 
-pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftExpect {
+pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftExpect {
     let Some(mut table) = top.table("expect", mistakes) else { return DraftExpect::default() };
     let conserves = table
         .list("conserves", mistakes)
@@ -105,8 +106,8 @@ fn entries<T>(
     table: &mut Table<'_>,
     key: &'static str,
     called: &str,
-    mistakes: &mut Mistakes,
-    read: fn(Table<'_>, &mut Mistakes) -> T,
+    mistakes: &mut Diagnostics,
+    read: fn(Table<'_>, &mut Diagnostics) -> T,
 ) -> Vec<T> {
     let shape = match key {
         "events" => "{ name = \"...\", at = 1.0 }",
@@ -121,7 +122,7 @@ fn entries<T>(
     all
 }
 
-fn occurrence(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftOccurrence {
+fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurrence {
     let name = table.name(mistakes);
     let at = table.require("at", "give the time: at = 1.0");
     let claim = DraftOccurrence {
@@ -136,7 +137,7 @@ fn occurrence(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftOccurrence 
     claim
 }
 
-fn count(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftCount {
+fn count(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftCount {
     let name = table.name(mistakes);
     let until = table.require("until", "give the time: until = 10.0");
     let is = table.require("is", "give the number: is = 3");
@@ -151,8 +152,8 @@ fn count(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftCount {
     claim
 }
 
-fn bracket(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftBracketClaim {
-    let mut side = |key, mistakes: &mut Mistakes| {
+fn bracket(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftBracketClaim {
+    let mut side = |key, mistakes: &mut Diagnostics| {
         let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
         value::formula(found, &format!("`{key}`"), mistakes)
     };
@@ -163,7 +164,7 @@ fn bracket(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftBracketClaim {
     DraftBracketClaim { f, g, is, source, place }
 }
 
-fn expected(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftValue {
+fn expected(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftValue {
     let name = table.line("name", mistakes);
     let expression = table.require("expression", "write expression = \"...\"");
     let at = table.require("at", "give the time: at = 1.0");

@@ -3,7 +3,8 @@
 use toml::Spanned;
 
 use super::table::Table;
-use super::{Formula, Mistakes, Place, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostics, SourceRange};
 
 /// A constraint as written.
 pub(in crate::preset) struct DraftConstraint {
@@ -12,10 +13,10 @@ pub(in crate::preset) struct DraftConstraint {
     pub(in crate::preset) unit: String,
     pub(in crate::preset) about: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftConstraint> {
+pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftConstraint> {
     let mut all = Vec::new();
     for mut table in top.tables("constraints", "this constraint", mistakes) {
         let name = table.name(mistakes);

@@ -4,7 +4,8 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::vector::{self, Formulas};
-use super::{Formula, Mistake, Mistakes, Place, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A frame as written.
 pub(in crate::preset) struct DraftFrame {
@@ -15,17 +16,17 @@ pub(in crate::preset) struct DraftFrame {
     /// Where each particle is, and its mass.
     pub(in crate::preset) particles: Vec<(Option<Formulas>, Option<Formula>)>,
     /// Where the file says that it is the frame of the body.
-    pub(in crate::preset) attitude: Option<Place>,
+    pub(in crate::preset) attitude: Option<SourceRange>,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn frames(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftFrame> {
+pub(super) fn frames(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftFrame> {
     let tables = top.tables("frames", "this frame", mistakes);
     tables.into_iter().map(|table| frame(table, mistakes)).collect()
 }
 
-fn frame(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftFrame {
+fn frame(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftFrame {
     let name = table.name(mistakes);
     let attitude = table.flag("attitude", mistakes).filter(|flag| *flag.get_ref());
     let (axis_key, _) = table.take("axis").unzip();
@@ -42,7 +43,7 @@ fn frame(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftFrame {
     if attitude.is_some() {
         for key in [axis_key, angle_key].into_iter().flatten() {
             let message = "the frame of the body turns with [attitude]; it has no axis and angle";
-            mistakes.push(Mistake::error(key, message));
+            mistakes.push(Diagnostic::error(key, message));
         }
     }
     let origin = vector::optional_triple(&mut table, "origin", mistakes);

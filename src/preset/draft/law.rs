@@ -5,14 +5,15 @@ use toml::de::DeValue;
 
 use super::system::formulas;
 use super::table::{Table, Value};
-use super::{Formula, Mistake, Mistakes, NamedFormula, Place, value};
+use super::{Formula, NamedFormula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {
     /// Which table it is.
     pub(in crate::preset) law: Law,
     /// Where the table's name stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// L or H.
     pub(in crate::preset) function: Option<Formula>,
     /// Rayleigh's function.
@@ -22,7 +23,7 @@ pub(in crate::preset) struct DraftMechanics {
     /// The brackets of variables.
     pub(in crate::preset) brackets: Vec<DraftBracket>,
     /// Where the brackets stand.
-    pub(in crate::preset) brackets_place: Place,
+    pub(in crate::preset) brackets_place: SourceRange,
     /// The Casimirs.
     pub(in crate::preset) casimirs: Vec<NamedFormula>,
 }
@@ -34,7 +35,7 @@ pub(in crate::preset) struct DraftBracket {
     /// What it is.
     pub(in crate::preset) value: Formula,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// The tables that give a law of motion.
@@ -56,11 +57,11 @@ impl Law {
     }
 }
 
-pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftMechanics> {
+pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftMechanics> {
     let laws = [Law::Lagrangian, Law::Hamiltonian, Law::Poisson];
     let given = laws.map(|one| law(one, top, mistakes));
     if !laws.into_iter().any(|law| top.has(law.table())) {
-        let missing = Mistake::error(0..0, "the file has no law of motion");
+        let missing = Diagnostic::error(0..0, "the file has no law of motion");
         let (key, help) = if top.has("variables") {
             ("poisson", "write [poisson] with H = \"...\" and brackets = [...]")
         } else {
@@ -71,7 +72,7 @@ pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<Dra
     given.into_iter().flatten().collect()
 }
 
-fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Mistakes) -> Option<DraftMechanics> {
+fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftMechanics> {
     let (key, example) = match law {
         Law::Lagrangian => ("L", "L = \"T - V\""),
         Law::Hamiltonian | Law::Poisson => ("H", "H = \"T + V\""),
@@ -118,7 +119,7 @@ fn named(
     key: &'static str,
     example: &str,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Vec<NamedFormula> {
     let Some((place, found)) = table.take(key) else { return Vec::new() };
     let shape = format!("{key} = {{ {example} = \"...\" }}");
@@ -127,7 +128,7 @@ fn named(
 }
 
 /// `["a", "b", "{a, b}"]`.
-fn bracket(found: &Value<'_>, mistakes: &mut Mistakes) -> Option<DraftBracket> {
+fn bracket(found: &Value<'_>, mistakes: &mut Diagnostics) -> Option<DraftBracket> {
     let items = match found.get_ref() {
         DeValue::Array(items) if items.len() == 3 => items,
         other => {
@@ -137,7 +138,7 @@ fn bracket(found: &Value<'_>, mistakes: &mut Mistakes) -> Option<DraftBracket> {
             };
             let message = format!("a bracket must be a list of three, not {is}");
             let help = "two variables and their bracket: [\"a\", \"b\", \"{a, b}\"]";
-            mistakes.push(Mistake::error(found.span(), message).with_help(help));
+            mistakes.push(Diagnostic::error(found.span(), message).with_help(help));
             return None;
         }
     };

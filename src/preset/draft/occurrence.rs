@@ -1,13 +1,14 @@
-//! Blows and events, as written.
+//! Impulses and events, as written.
 
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::system::formulas;
 use super::table::Table;
-use super::{Formula, Mistake, Mistakes, NamedFormula, Place, value};
+use super::{Formula, NamedFormula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
-/// A blow as written.
+/// An impulse as written.
 pub(in crate::preset) struct DraftImpulse {
     pub(in crate::preset) name: Option<Spanned<String>>,
     /// The times given, one by one.
@@ -17,7 +18,7 @@ pub(in crate::preset) struct DraftImpulse {
     pub(in crate::preset) change: Option<Vec<NamedFormula>>,
     pub(in crate::preset) about: String,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
 /// An event as written.
@@ -27,27 +28,27 @@ pub(in crate::preset) struct DraftEvent {
     pub(in crate::preset) direction: Option<Spanned<String>>,
     pub(in crate::preset) action: Option<Spanned<String>>,
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn impulses(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftImpulse> {
+pub(super) fn impulses(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftImpulse> {
     let tables = top.tables("impulses", "this impulse", mistakes);
     tables.into_iter().map(|table| impulse(table, mistakes)).collect()
 }
 
-fn impulse(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftImpulse {
+fn impulse(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftImpulse {
     let name = table.name(mistakes);
     let at = table.take("at");
     let every = table.take("every");
     if let (Some((at, _)), Some((every, _))) = (&at, &every) {
-        let mistake = Mistake::error(every.clone(), "`at` and `every` exclude each other");
+        let mistake = Diagnostic::error(every.clone(), "`at` and `every` exclude each other");
         let mistake = mistake.with_also(at.clone(), "the times are given here");
         mistakes.push(mistake.with_help("write two impulses"));
     }
     let at = at.map_or(Vec::new(), |(_, found)| match found.get_ref() {
         DeValue::Array(items) => {
             if items.is_empty() {
-                mistakes.push(Mistake::error(found.span(), "this list is empty"));
+                mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
             }
             items.iter().filter_map(|v| value::formula(v, "a time in `at`", mistakes)).collect()
         }
@@ -59,7 +60,7 @@ fn impulse(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftImpulse {
         let shape = "change = { p_x = \"...\" }";
         let changes = Table::of(found, "`change`", place, shape, mistakes)?;
         if changes.entries().next().is_none() {
-            let mistake = Mistake::error(found.span(), "this impulse changes nothing");
+            let mistake = Diagnostic::error(found.span(), "this impulse changes nothing");
             mistakes.push(mistake.with_help(format!("write {shape}")));
         }
         Some(formulas(&changes, "the change of", mistakes))
@@ -70,7 +71,7 @@ fn impulse(mut table: Table<'_>, mistakes: &mut Mistakes) -> DraftImpulse {
     DraftImpulse { name, at, every, change, about, place }
 }
 
-pub(super) fn events(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftEvent> {
+pub(super) fn events(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftEvent> {
     let mut all = Vec::new();
     for mut table in top.tables("events", "this event", mistakes) {
         let name = table.name(mistakes);

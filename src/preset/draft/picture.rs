@@ -5,13 +5,14 @@ use toml::de::DeValue;
 
 use super::table::{Table, Value};
 use super::vector::{Formulas, optional_point, point};
-use super::{Formula, Mistake, Mistakes, Place, value};
-use crate::expr::nearest;
+use super::{Formula, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) kind: DraftViewKind,
     pub(in crate::preset) title: String,
     pub(in crate::preset) x: Option<Formula>,
@@ -36,7 +37,7 @@ pub(in crate::preset) enum DraftViewKind {
 /// A shape as written.
 pub(in crate::preset) struct DraftShape {
     /// Where it stands.
-    pub(in crate::preset) place: Place,
+    pub(in crate::preset) place: SourceRange,
     /// What it is.
     pub(in crate::preset) kind: DraftShapeKind,
 }
@@ -93,12 +94,12 @@ const VIEWS_NOT_YET: [&str; 5] = ["section", "spectrum", "ensemble", "transforma
 const SHAPES: [&str; 9] =
     ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
 
-pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftView> {
+pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftView> {
     let tables = top.tables("views", "this view", mistakes);
     tables.into_iter().filter_map(|table| view(table, mistakes)).collect()
 }
 
-fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
+fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     let help = "write kind = \"phase\", \"space\", \"time\" or \"potential\"";
     let Some((_, found)) = table.require("kind", help) else {
         for key in ["title", "x", "y", "frame", "shapes"] {
@@ -111,7 +112,7 @@ fn view(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftView> {
     let kind = view_kind(&written, mistakes)?;
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title", mistakes);
-    let mut axis = |key, mistakes: &mut Mistakes| {
+    let mut axis = |key, mistakes: &mut Diagnostics| {
         let found = match kind {
             DraftViewKind::NotYet => table.take(key),
             _ => table.require(key, &format!("write {key} = \"...\"")),
@@ -142,13 +143,13 @@ fn several(
     found: &Value<'_>,
     key: &str,
     kind: DraftViewKind,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Vec<Formula> {
     let called = format!("`{key}`");
     match found.get_ref() {
         DeValue::Array(items) if kind == DraftViewKind::Time => {
             if items.is_empty() {
-                mistakes.push(Mistake::error(found.span(), "this list is empty"));
+                mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
             }
             items.iter().filter_map(|v| value::formula(v, &called, mistakes)).collect()
         }
@@ -156,14 +157,15 @@ fn several(
     }
 }
 
-fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<DraftViewKind> {
+fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<DraftViewKind> {
     let name = written.get_ref().as_str();
     if let Some((_, kind)) = VIEWS.iter().find(|(known, _)| *known == name) {
         return Some(*kind);
     }
     if VIEWS_NOT_YET.contains(&name) {
         let message = format!("views of kind `{name}` are not supported yet by this version");
-        mistakes.push(Mistake::warning(written.span(), message).with_help("the view is left out"));
+        mistakes
+            .push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
         return Some(DraftViewKind::NotYet);
     }
     let known = VIEWS.iter().map(|(name, _)| *name).chain(VIEWS_NOT_YET);
@@ -172,11 +174,11 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Mistakes) -> Option<Draft
         None => "the kinds are phase, space, time and potential".to_owned(),
     };
     let message = format!("there is no view of kind `{name}`");
-    mistakes.push(Mistake::error(written.span(), message).with_help(help));
+    mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
     None
 }
 
-pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
+pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
     let Some(mut table) = top.table("space", mistakes) else { return Vec::new() };
     let all = shapes_of(&mut table, mistakes);
     table.finish(mistakes);
@@ -184,7 +186,7 @@ pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftS
 }
 
 /// The list of shapes of a table.
-fn shapes_of(table: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> {
+fn shapes_of(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
     let mut all = Vec::new();
     for item in table.list("shapes", mistakes) {
         let shape = "{ line = [\"0\", \"0\", \"0\"], to = [\"x\", \"y\", \"0\"] }";
@@ -195,7 +197,7 @@ fn shapes_of(table: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftShape> 
     all
 }
 
-fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
+fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape> {
     let given: Vec<&'static str> = SHAPES.into_iter().filter(|kind| table.has(kind)).collect();
     let [kind] = given[..] else {
         let message = match given[..] {
@@ -207,12 +209,12 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
             .find_map(|(key, _)| nearest(key.get_ref(), SHAPES).map(|near| (key.span(), near)));
         let mistake = match misspelt {
             Some((place, near)) if given.is_empty() => {
-                Mistake::error(place, message).with_help(format!("did you mean `{near}`?"))
+                Diagnostic::error(place, message).with_help(format!("did you mean `{near}`?"))
             }
             _ => {
                 let help =
                     format!("the shapes are {}; each is a table of its own", SHAPES.join(", "));
-                Mistake::error(table.place.clone(), message).with_help(help)
+                Diagnostic::error(table.place.clone(), message).with_help(help)
             }
         };
         mistakes.push(mistake);
@@ -252,7 +254,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Mistakes) -> Option<DraftShape> {
 }
 
 /// A number or expression that has to be there.
-fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Mistakes) -> Option<Formula> {
+fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Diagnostics) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
     value::formula(found, &format!("`{key}`"), mistakes)
 }

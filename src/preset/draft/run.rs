@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
-use super::Mistakes;
 use super::table::Table;
+use crate::diagnostic::Diagnostics;
 
 /// `[run]` as written.
 #[derive(Default)]
@@ -16,7 +16,7 @@ pub(in crate::preset) struct DraftRun {
     pub(in crate::preset) tolerance: Option<Spanned<f64>>,
 }
 
-pub(super) fn read(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftRun {
+pub(super) fn read(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftRun {
     let Some(mut table) = top.table("run", mistakes) else { return DraftRun::default() };
     let run = DraftRun {
         method: table.text("method", mistakes),

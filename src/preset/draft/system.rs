@@ -4,7 +4,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, Value};
-use super::{Formula, Mistake, Mistakes, Place, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A name with its expression, if there is one that can be read.
 pub(in crate::preset) type NamedFormula = (Spanned<String>, Option<Formula>);
@@ -16,9 +17,9 @@ pub(in crate::preset) struct DraftCoordinate {
     pub(in crate::preset) unit: String,
     pub(in crate::preset) initial: Option<Formula>,
     /// The key's place and the value.
-    pub(in crate::preset) velocity: Option<(Place, Formula)>,
+    pub(in crate::preset) velocity: Option<(SourceRange, Formula)>,
     /// The key's place and the value.
-    pub(in crate::preset) momentum: Option<(Place, Formula)>,
+    pub(in crate::preset) momentum: Option<(SourceRange, Formula)>,
     pub(in crate::preset) period: Option<Formula>,
 }
 
@@ -54,16 +55,16 @@ pub(in crate::preset) struct DraftMoving {
     /// The coordinates or variables in order.
     pub(in crate::preset) all: Vec<DraftCoordinate>,
     /// Where `[coordinates]` stands.
-    pub(in crate::preset) coordinates: Option<Place>,
+    pub(in crate::preset) coordinates: Option<SourceRange>,
     /// Where `[variables]` stands.
-    pub(in crate::preset) variables: Option<Place>,
+    pub(in crate::preset) variables: Option<SourceRange>,
 }
 
-pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftMoving {
+pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMoving {
     let mut moving = DraftMoving { all: Vec::new(), coordinates: None, variables: None };
     if !top.has("coordinates") && !top.has("variables") {
         let key = if top.has("poisson") { "variables" } else { "coordinates" };
-        let missing = Mistake::error(0..0, format!("the file has no {key}"));
+        let missing = Diagnostic::error(0..0, format!("the file has no {key}"));
         let help = format!("write [{key}], and below it x = {{ initial = 1.0 }}");
         top.lacks(key, missing.with_help(help));
     }
@@ -72,7 +73,7 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftMovin
         if table.entries().next().is_none() {
             let what = key.trim_end_matches('s');
             let message = format!("there is no {what} here");
-            let missing = Mistake::error(table.place.clone(), message);
+            let missing = Diagnostic::error(table.place.clone(), message);
             mistakes.missing(key, missing.with_help("write x = { initial = 1.0 }"));
         }
         Some(table)
@@ -92,7 +93,7 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Mistakes) -> DraftMovin
 fn coordinate<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the coordinate `{}`", name.get_ref());
     let shape = format!("{} = {{ initial = ... }}", name.get_ref());
@@ -117,7 +118,7 @@ fn coordinate<'d>(
 fn variable<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the variable `{}`", name.get_ref());
     let mut variable = DraftCoordinate::unread(name);
@@ -134,7 +135,7 @@ fn variable<'d>(
     for (key, _) in table.entries() {
         if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
             let message = format!("a variable has no `{rate}`");
-            let mistake = Mistake::error(key.span(), message);
+            let mistake = Diagnostic::error(key.span(), message);
             mistakes.push(mistake.with_help("its rate of change follows from H and the brackets"));
         }
     }
@@ -144,15 +145,15 @@ fn variable<'d>(
 }
 
 /// How a name is to be shown; empty where the file does not say.
-fn symbol(table: &mut Table<'_>, mistakes: &mut Mistakes) -> String {
+fn symbol(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> String {
     let Some(text) = table.text("symbol", mistakes) else { return String::new() };
     if text.get_ref().trim().is_empty() {
-        mistakes.push(Mistake::error(text.span(), "the symbol is empty"));
+        mistakes.push(Diagnostic::error(text.span(), "the symbol is empty"));
     }
     value::one_line(&text, mistakes).unwrap_or_default()
 }
 
-pub(super) fn parameters(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<DraftParameter> {
+pub(super) fn parameters(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftParameter> {
     let Some(table) = top.table("parameters", mistakes) else { return Vec::new() };
     table.entries().map(|(name, entry)| parameter(name, entry, mistakes)).collect()
 }
@@ -160,7 +161,7 @@ pub(super) fn parameters(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<Dr
 fn parameter<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> DraftParameter {
     let called = format!("the parameter `{}`", name.get_ref());
     let mut parameter = DraftParameter {
@@ -191,7 +192,7 @@ fn parameter<'d>(
     parameter
 }
 
-pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<NamedFormula> {
+pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<NamedFormula> {
     let Some(table) = top.table("definitions", mistakes) else { return Vec::new() };
     formulas(&table, "the definition", mistakes)
 }
@@ -200,7 +201,7 @@ pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Mistakes) -> Vec<N
 pub(super) fn formulas(
     table: &Table<'_>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Vec<NamedFormula> {
     table
         .entries()

@@ -4,8 +4,9 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::{Formula, Mistake, Mistakes, Place, TOP_LEVEL, value};
-use crate::expr::nearest;
+use super::{Formula, TOP_LEVEL, value};
+use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A value of TOML with its span.
 pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
@@ -15,17 +16,17 @@ pub(in crate::preset) struct Table<'d> {
     /// What messages call it: `[run]`, `the coordinate x`.
     pub(super) called: String,
     /// Where it stands.
-    pub(super) place: Place,
+    pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
     asked: Vec<&'static str>,
     passed: Vec<&'static str>,
-    absent: Vec<(&'static str, Mistake)>,
+    absent: Vec<(&'static str, Diagnostic)>,
 }
 
 impl<'d> Table<'d> {
     pub(in crate::preset) fn new(
         called: impl Into<String>,
-        place: Place,
+        place: SourceRange,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
         let (asked, passed, absent) = (Vec::new(), Vec::new(), Vec::new());
@@ -36,16 +37,16 @@ impl<'d> Table<'d> {
     pub(super) fn of(
         value: &'d Value<'d>,
         called: impl Into<String>,
-        place: Place,
+        place: SourceRange,
         shape: &str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let called = called.into();
         match value.get_ref() {
             DeValue::Table(entries) => Some(Table::new(called, place, entries)),
             other => {
                 let message = format!("{called} must be a table, not {}", value::kind(other));
-                let mistake = Mistake::error(value.span(), message);
+                let mistake = Diagnostic::error(value.span(), message);
                 mistakes.push(mistake.with_help(format!("write {shape}")));
                 None
             }
@@ -58,7 +59,10 @@ impl<'d> Table<'d> {
     }
 
     /// A key's place and value.
-    pub(in crate::preset) fn take(&mut self, key: &'static str) -> Option<(Place, &'d Value<'d>)> {
+    pub(in crate::preset) fn take(
+        &mut self,
+        key: &'static str,
+    ) -> Option<(SourceRange, &'d Value<'d>)> {
         self.asked.push(key);
         let (written, value) = self.entries.get_key_value(key)?;
         Some((written.span(), value))
@@ -69,18 +73,18 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         help: &str,
-    ) -> Option<(Place, &'d Value<'d>)> {
+    ) -> Option<(SourceRange, &'d Value<'d>)> {
         let found = self.take(key);
         if found.is_none() {
             let message = format!("{} has no `{key}`", self.called);
-            let mistake = Mistake::error(self.place.clone(), message);
+            let mistake = Diagnostic::error(self.place.clone(), message);
             self.lacks(key, mistake.with_help(help));
         }
         found
     }
 
     /// Takes note that a key is missing; told at the end, unless it is there misspelt.
-    pub(super) fn lacks(&mut self, key: &'static str, mistake: Mistake) {
+    pub(super) fn lacks(&mut self, key: &'static str, mistake: Diagnostic) {
         self.absent.push((key, mistake));
     }
 
@@ -88,20 +92,20 @@ impl<'d> Table<'d> {
     pub(super) fn text(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
         let (_, found) = self.take(key)?;
         value::text(found, &format!("`{key}`"), mistakes)
     }
 
     /// A text to be shown on one line, or nothing.
-    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Mistakes) -> String {
+    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Diagnostics) -> String {
         let text = self.text(key, mistakes);
         text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
     }
 
     /// The name of an entry, which has to be there; messages call the entry by it from then on.
-    pub(super) fn name(&mut self, mistakes: &mut Mistakes) -> Option<Spanned<String>> {
+    pub(super) fn name(&mut self, mistakes: &mut Diagnostics) -> Option<Spanned<String>> {
         let (_, found) = self.require("name", "write name = \"...\"")?;
         let name = value::text(found, "`name`", mistakes)?;
         let shown = name.get_ref().trim();
@@ -109,7 +113,7 @@ impl<'d> Table<'d> {
             let kind = self.called.replacen("this ", "", 1);
             let article = if kind.starts_with(['e', 'i', 'o', 'a']) { "an" } else { "a" };
             let message = format!("{article} {kind} needs a name that can be shown");
-            mistakes.push(Mistake::error(name.span(), message));
+            mistakes.push(Diagnostic::error(name.span(), message));
             return None;
         }
         self.called = format!("{} `{shown}`", self.called.replacen("this", "the", 1));
@@ -120,7 +124,7 @@ impl<'d> Table<'d> {
     pub(super) fn number(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
         let (_, found) = self.take(key)?;
         value::number(found, &format!("`{key}`"), mistakes)
@@ -130,7 +134,7 @@ impl<'d> Table<'d> {
     pub(super) fn formula(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Formula> {
         let (_, found) = self.take(key)?;
         value::formula(found, &format!("`{key}`"), mistakes)
@@ -140,14 +144,18 @@ impl<'d> Table<'d> {
     pub(super) fn flag(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
         let (_, found) = self.take(key)?;
         value::flag(found, &format!("`{key}`"), mistakes)
     }
 
     /// The items of a list, none where the key is left out.
-    pub(super) fn list(&mut self, key: &'static str, mistakes: &mut Mistakes) -> &'d [Value<'d>] {
+    pub(super) fn list(
+        &mut self,
+        key: &'static str,
+        mistakes: &mut Diagnostics,
+    ) -> &'d [Value<'d>] {
         match self.take(key) {
             None => &[],
             Some((_, found)) => {
@@ -161,7 +169,7 @@ impl<'d> Table<'d> {
     pub(super) fn table(
         &mut self,
         key: &'static str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
         Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)
@@ -172,7 +180,7 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         called: &str,
-        mistakes: &mut Mistakes,
+        mistakes: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
@@ -185,7 +193,7 @@ impl<'d> Table<'d> {
                 let is = value::kind(other);
                 let message = format!("`{key}` must be a list of tables, not {is}");
                 let help = format!("head each one with {head}, in double brackets");
-                mistakes.push(Mistake::error(place, message).with_help(help));
+                mistakes.push(Diagnostic::error(place, message).with_help(help));
                 Vec::new()
             }
         }
@@ -204,7 +212,7 @@ impl<'d> Table<'d> {
     }
 
     /// Complains of every key that nobody asked for, and of those that are missing.
-    pub(in crate::preset) fn finish(mut self, mistakes: &mut Mistakes) {
+    pub(in crate::preset) fn finish(mut self, mistakes: &mut Diagnostics) {
         for (key, value) in self.entries {
             let name: &str = key.get_ref();
             if self.asked.contains(&name) || self.passed.contains(&name) {
@@ -227,7 +235,7 @@ impl<'d> Table<'d> {
                 known.dedup();
                 format!("the keys here are {}", known.join(", "))
             };
-            mistakes.push(Mistake::error(key.span(), message).with_help(help));
+            mistakes.push(Diagnostic::error(key.span(), message).with_help(help));
         }
         for (key, mistake) in self.absent {
             mistakes.missing(key, mistake);

@@ -3,8 +3,9 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
+use super::Formula;
 use super::table::Value;
-use super::{Formula, Mistake, Mistakes};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Allowed, Model, Scope};
 use crate::printable::is_steering;
 
@@ -20,16 +21,16 @@ pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-fn wrong(value: &Value<'_>, called: &str, wanted: &str, mistakes: &mut Mistakes) {
+fn wrong(value: &Value<'_>, called: &str, wanted: &str, mistakes: &mut Diagnostics) {
     let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
-    mistakes.push(Mistake::error(value.span(), message));
+    mistakes.push(Diagnostic::error(value.span(), message));
 }
 
 /// A text.
 pub(super) fn text(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Spanned<String>> {
     match value.get_ref() {
         DeValue::String(text) => Some(Spanned::new(value.span(), text.to_string())),
@@ -44,7 +45,7 @@ pub(super) fn text(
 pub(super) fn flag(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Spanned<bool>> {
     match value.get_ref() {
         DeValue::Boolean(flag) => Some(Spanned::new(value.span(), *flag)),
@@ -59,7 +60,7 @@ pub(super) fn flag(
 pub(super) fn list<'d>(
     value: &'d Value<'d>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<&'d DeArray<'d>> {
     match value.get_ref() {
         DeValue::Array(items) => Some(items),
@@ -74,13 +75,14 @@ pub(super) fn list<'d>(
 pub(super) fn number(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Spanned<f64>> {
     let digits = match value.get_ref() {
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
         DeValue::String(_) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            mistakes.push(Mistake::error(value.span(), message).with_help("leave the quotes away"));
+            mistakes
+                .push(Diagnostic::error(value.span(), message).with_help("leave the quotes away"));
             return None;
         }
         _ => {
@@ -95,7 +97,7 @@ pub(super) fn number(
 pub(super) fn constant(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Spanned<f64>> {
     let DeValue::String(text) = value.get_ref() else {
         return number(value, called, mistakes);
@@ -108,14 +110,18 @@ pub(super) fn constant(
         let message = format!("{called} must be a finite number, or an expression of numbers");
         let help =
             "write 2.5 or \"2*pi\"; what follows from other parameters stands in [definitions]";
-        mistakes.push(Mistake::error(value.span(), message).with_help(help));
+        mistakes.push(Diagnostic::error(value.span(), message).with_help(help));
         return None;
     };
     Some(Spanned::new(value.span(), found))
 }
 
 /// A number or an expression in quotes.
-pub(super) fn formula(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) -> Option<Formula> {
+pub(super) fn formula(
+    value: &Value<'_>,
+    called: &str,
+    mistakes: &mut Diagnostics,
+) -> Option<Formula> {
     let written = match value.get_ref() {
         DeValue::String(text) => text.to_string(),
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
@@ -128,7 +134,7 @@ pub(super) fn formula(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) 
 }
 
 /// The decimal digits of a number of TOML, as expressions write them.
-fn digits(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) -> Option<String> {
+fn digits(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option<String> {
     let written = match value.get_ref() {
         DeValue::Integer(integer) if integer.radix() == 10 => Some(integer.as_str().to_owned()),
         DeValue::Integer(integer) => {
@@ -142,19 +148,19 @@ fn digits(value: &Value<'_>, called: &str, mistakes: &mut Mistakes) -> Option<St
         Some(digits) => Some(digits),
         None => {
             let message = format!("{called} must be a finite number");
-            mistakes.push(Mistake::error(value.span(), message));
+            mistakes.push(Diagnostic::error(value.span(), message));
             None
         }
     }
 }
 
 /// A text to be shown on one line: without the characters that steer a terminal.
-pub(super) fn one_line(text: &Spanned<String>, mistakes: &mut Mistakes) -> Option<String> {
+pub(super) fn one_line(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
     shown(text, |_| false, mistakes).map(|text| text.trim().to_owned())
 }
 
 /// A text to be shown on several lines.
-pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Mistakes) -> Option<String> {
+pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
     shown(text, |c| matches!(c, '\n' | '\r' | '\t'), mistakes)
         .map(|text| text.trim().replace("\r\n", "\n").replace('\t', "    "))
 }
@@ -162,7 +168,7 @@ pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Mistakes) -> Option<S
 fn shown<'t>(
     text: &'t Spanned<String>,
     allowed: impl Fn(char) -> bool,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<&'t str> {
     match text.get_ref().chars().find(|&c| is_steering(c) && !allowed(c)) {
         None => Some(text.get_ref()),
@@ -173,7 +179,7 @@ fn shown<'t>(
                 '\t' => Some("use spaces"),
                 _ => None,
             };
-            let mut mistake = Mistake::error(text.span(), message);
+            let mut mistake = Diagnostic::error(text.span(), message);
             mistake.help = help.map(str::to_owned);
             mistakes.push(mistake);
             None

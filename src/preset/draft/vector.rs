@@ -4,7 +4,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::{Table, Value};
-use super::{Formula, Mistake, Mistakes, value};
+use super::{Formula, value};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// Two or three expressions, with their common place.
 pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
@@ -13,7 +14,7 @@ pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
 pub(super) fn point(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Formulas> {
     let help = format!("write {key} = [\"x\", \"y\", \"z\"]");
     let (_, found) = table.require(key, &help)?;
@@ -24,7 +25,7 @@ pub(super) fn point(
 pub(super) fn optional_point(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
     entries(found, key, 2, mistakes)
@@ -34,7 +35,7 @@ pub(super) fn optional_point(
 pub(super) fn triple(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Formulas> {
     let help = format!("write {key} = [\"...\", \"...\", \"...\"]");
     let (_, found) = table.require(key, &help)?;
@@ -45,7 +46,7 @@ pub(super) fn triple(
 pub(super) fn optional_triple(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
     entries(found, key, 3, mistakes)
@@ -56,7 +57,7 @@ fn entries(
     found: &Value<'_>,
     key: &str,
     least: usize,
-    mistakes: &mut Mistakes,
+    mistakes: &mut Diagnostics,
 ) -> Option<Formulas> {
     let items = match found.get_ref() {
         DeValue::Array(items) if (least..=3).contains(&items.len()) => items,
@@ -67,7 +68,7 @@ fn entries(
             };
             let many = if least == 3 { "three" } else { "two or three" };
             let message = format!("`{key}` must be a list of {many} expressions, not {is}");
-            mistakes.push(Mistake::error(found.span(), message));
+            mistakes.push(Diagnostic::error(found.span(), message));
             return None;
         }
     };

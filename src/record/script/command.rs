@@ -4,8 +4,8 @@
 
 use super::key;
 use super::line::Line;
-use super::{Assert, Measure, Relation, Said, Step, Text, Way, Word};
-use crate::preset::Mistake;
+use super::{Assert, Measure, Relation, Said, Step, SweepPath, Text, Word};
+use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
@@ -18,14 +18,14 @@ pub struct Command {
     pub form: &'static str,
     /// What it does, in a sentence.
     pub about: &'static str,
-    pub(super) read: fn(&mut Line<'_>) -> Result<Said, Mistake>,
+    pub(super) read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
 }
 
 const fn row(
     name: &'static str,
     form: &'static str,
     about: &'static str,
-    read: fn(&mut Line<'_>) -> Result<Said, Mistake>,
+    read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
 ) -> Command {
     Command { name, form, about, read }
 }
@@ -56,12 +56,12 @@ fn head(say: impl FnOnce(&mut super::Head) + 'static) -> Said {
     Said::Head(Box::new(say))
 }
 
-fn open(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn open(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let name = line.name("the name of a preset or file")?;
     Ok(head(|head| head.open = Some(name)))
 }
 
-fn title(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn title(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let title = line.quoted("a title")?.text;
     Ok(head(|head| head.title = Some(title)))
 }
@@ -82,48 +82,51 @@ pub fn read_size(text: &str) -> Result<(u16, u16), String> {
     Err(format!("a screen has from {a}x{b} to {c}x{d} characters"))
 }
 
-fn size(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn size(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a size")?;
-    let size = read_size(&word.text).map_err(|why| Mistake::error(word.place, why))?;
+    let size = read_size(&word.text).map_err(|why| Diagnostic::error(word.place, why))?;
     Ok(head(move |head| head.size = Some(size)))
 }
 
-fn fps(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn fps(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a number of frames")?;
     let fps = word.text.parse().ok().filter(|n| (1..=60).contains(n)).ok_or_else(|| {
-        Mistake::error(word.place, format!("`{}`: there are 1 to 60 frames in a second", word.text))
+        Diagnostic::error(
+            word.place,
+            format!("`{}`: there are 1 to 60 frames in a second", word.text),
+        )
     })?;
     Ok(head(move |head| head.fps = fps))
 }
 
-fn theme(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn theme(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let names: Vec<Word> = PALETTES.iter().map(|palette| palette.name).collect();
     let name = line.one_of("a theme", &names)?;
     Ok(head(move |head| head.theme = name))
 }
 
-fn colour(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn colour(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let name = line.one_of("a depth of colour", &["true", "256", "16", "never"])?;
     Ok(head(move |head| head.colour = ColourDepth::named(name).unwrap_or(ColourDepth::True)))
 }
 
-fn glyphs(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn glyphs(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a set of glyphs")?;
     let glyphs = Glyphs::named(&word.text).ok_or_else(|| {
         let message = format!("`{}` is no set of glyphs", word.text);
-        Mistake::error(word.place, message).with_help("there are braille half ascii")
+        Diagnostic::error(word.place, message).with_help("there are braille half ascii")
     })?;
     Ok(head(move |head| head.glyphs = glyphs))
 }
 
-fn pace(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Pace(line.time()?)))
 }
 
 /// The most times a key may be pressed in a row.
 const MOST_PRESSES: usize = 1000;
 
-fn press(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let mut keys = Vec::new();
     while let Some(word) = line.word() {
         let count = word.text.strip_prefix('x').and_then(|count| count.parse().ok());
@@ -133,15 +136,15 @@ fn press(line: &mut Line<'_>) -> Result<Said, Mistake> {
             }
             (Some(_), Some(_)) => {
                 let message = format!("a key is pressed 1 to {MOST_PRESSES} times in a row");
-                return Err(Mistake::error(word.place, message));
+                return Err(Diagnostic::error(word.place, message));
             }
             (Some(_), None) => {
                 let message = format!("`{}` stands behind a key", word.text);
-                return Err(Mistake::error(word.place, message).with_help("as in Press Down x3"));
+                return Err(Diagnostic::error(word.place, message).with_help("as in Press Down x3"));
             }
             (None, _) => keys.push(key::named(&word.text).map_err(|near| {
                 let mistake =
-                    Mistake::error(word.place, format!("there is no key `{}`", word.text));
+                    Diagnostic::error(word.place, format!("there is no key `{}`", word.text));
                 match near {
                     Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
                     None => mistake.with_help("keys are z Tab Enter Shift-Left Ctrl-r F1 …"),
@@ -152,34 +155,34 @@ fn press(line: &mut Line<'_>) -> Result<Said, Mistake> {
     if keys.is_empty() { Err(line.missing("a key")) } else { Ok(Said::Step(Step::Press(keys))) }
 }
 
-fn typed(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn typed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Type(line.quoted("a text")?.text)))
 }
 
-fn wait(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn wait(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Wait(line.time()?)))
 }
 
-fn set(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn set(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let name = line.until(&["="], "the name of a parameter or an initial value")?;
     expect(line, "=")?;
     let value = line.until(&[], "a value")?;
     Ok(Said::Step(Step::Set(name, value)))
 }
 
-fn sweep(line: &mut Line<'_>) -> Result<Said, Mistake> {
-    let mut ways: Vec<Way> = Vec::new();
+fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    let mut ways: Vec<SweepPath> = Vec::new();
     loop {
         let name = line.name("the name of a parameter or an initial value")?;
         if let Some(first) = ways.iter().find(|way| way.name.text == name.text) {
             let message = format!("`{}` cannot go two ways at once", name.text);
-            let mistake = Mistake::error(name.place, message);
+            let mistake = Diagnostic::error(name.place, message);
             return Err(mistake.with_also(first.name.place.clone(), "it is carried here already"));
         }
         let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
         expect(line, "to")?;
         let to = line.until(&["and", "in"], "a value")?;
-        ways.push(Way { name, from, to });
+        ways.push(SweepPath { name, from, to });
         if !line.take("and") {
             break;
         }
@@ -188,27 +191,27 @@ fn sweep(line: &mut Line<'_>) -> Result<Said, Mistake> {
     Ok(Said::Step(Step::Sweep { ways, time: line.time()? }))
 }
 
-fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Mistake> {
+fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
     if line.take(word) {
         return Ok(());
     }
     let here = line.word().map_or(line.here()..line.here(), |word| word.place);
-    Err(Mistake::error(here, format!("here `{word}` is missing")))
+    Err(Diagnostic::error(here, format!("here `{word}` is missing")))
 }
 
-fn speed(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn speed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Speed(line.until(&[], "a speed")?)))
 }
 
-fn caption(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn caption(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = if line.is_over() { String::new() } else { line.quoted("a text")?.text };
     Ok(Said::Step(Step::Caption(text)))
 }
 
-fn marker(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let name = line.quoted("a name")?;
     if name.text.trim().is_empty() {
-        return Err(Mistake::error(name.place, "a chapter has a name"));
+        return Err(Diagnostic::error(name.place, "a chapter has a name"));
     }
     Ok(Said::Step(Step::Marker(name.text)))
 }
@@ -222,7 +225,7 @@ pub const CLAIMS: [(&str, &str); 9] = [
     ("drift NAME < EPS", "the gauge of that name has drifted by no more since its reference"),
     ("greatest NAME = EXPR within EPS", "the greatest value of a column since the motion began"),
     ("least NAME = EXPR within EPS", "the least"),
-    ("count NAME = N", "how often an event or a blow has happened"),
+    ("count NAME = N", "how often an event or an impulse has happened"),
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
@@ -247,7 +250,7 @@ const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 /// The first words of verdicts.
 const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
 
-fn assert(line: &mut Line<'_>) -> Result<Said, Mistake> {
+fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     if line.take("status") {
         let word = line.one_of("how an experiment stands", &STATUS)?;
         return Ok(Said::Step(Step::Assert(Assert::Status(word))));
@@ -271,7 +274,7 @@ fn assert(line: &mut Line<'_>) -> Result<Said, Mistake> {
         relations.iter().find(|(sign, _)| line.take(sign)).map(|(_, relation)| *relation);
     let relation = relation.ok_or_else(|| {
         let here = line.word().map_or(line.here()..line.here(), |word| word.place);
-        Mistake::error(here, "here one of `=` `<` `>` is missing, between blanks")
+        Diagnostic::error(here, "here one of `=` `<` `>` is missing, between blanks")
     })?;
     let with = line.until(&["within"], "a value")?;
     let within = line.take("within").then(|| line.until(&[], "a tolerance")).transpose()?;
@@ -286,7 +289,7 @@ fn exactness(
     measure: Measure,
     relation: Relation,
     within: Option<&Text>,
-) -> Result<(), Mistake> {
+) -> Result<(), Diagnostic> {
     match (relation, measure, within) {
         (Relation::Equal, Measure::Count, None) => Ok(()),
         (Relation::Equal, _, None) => {
@@ -294,7 +297,7 @@ fn exactness(
         }
         (Relation::Less | Relation::More, _, Some(within)) => {
             let message = "`within` belongs to `=`";
-            Err(Mistake::error(within.place.clone(), message))
+            Err(Diagnostic::error(within.place.clone(), message))
         }
         _ => Ok(()),
     }

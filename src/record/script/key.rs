@@ -3,7 +3,7 @@
 //! In: `Tab`, `Shift-Left`, `Ctrl-r`, `F1`, `z`. Out: a [`Key`]. Never here: what it does.
 
 use crate::app::{Code, Key};
-use crate::expr::nearest;
+use crate::diagnostic::nearest;
 
 /// The names of keys that are not one character.
 const NAMES: [(&str, Code); 18] = [

@@ -2,8 +2,8 @@
 //!
 //! In: the line. Out: its pieces, or what was expected where something else stands. Never here: what they mean.
 
-use crate::expr::nearest;
-use crate::preset::Mistake;
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::nearest;
 
 use super::Text;
 use crate::record::clock::{Micros, SECOND};
@@ -65,14 +65,14 @@ impl<'a> Line<'a> {
     }
 
     /// The next word, which must be there.
-    pub(super) fn need(&mut self, what: &str) -> Result<Text, Mistake> {
+    pub(super) fn need(&mut self, what: &str) -> Result<Text, Diagnostic> {
         self.word().ok_or_else(|| self.missing(what))
     }
 
     /// A mistake at the end of the line.
-    pub(super) fn missing(&self, what: &str) -> Mistake {
+    pub(super) fn missing(&self, what: &str) -> Diagnostic {
         let end = self.start + self.text.len();
-        Mistake::error(end..end, format!("here {what} is missing"))
+        Diagnostic::error(end..end, format!("here {what} is missing"))
     }
 
     /// Whether a text in quotes comes next.
@@ -82,12 +82,12 @@ impl<'a> Line<'a> {
     }
 
     /// A text in quotes, or a single word without.
-    pub(super) fn name(&mut self, what: &str) -> Result<Text, Mistake> {
+    pub(super) fn name(&mut self, what: &str) -> Result<Text, Diagnostic> {
         if self.is_quoted() { self.quoted(what) } else { self.need(what) }
     }
 
     /// A text in quotes; `\"` and `\\` stand for themselves.
-    pub(super) fn quoted(&mut self, what: &str) -> Result<Text, Mistake> {
+    pub(super) fn quoted(&mut self, what: &str) -> Result<Text, Diagnostic> {
         self.skip();
         let (from, rest) = (self.at, &self.text[self.at..]);
         let Some(inside) = rest.strip_prefix('"') else {
@@ -95,7 +95,7 @@ impl<'a> Line<'a> {
             return Err(if rest.is_empty() {
                 self.missing(what)
             } else {
-                Mistake::error(place, format!("{what} stands in quotes"))
+                Diagnostic::error(place, format!("{what} stands in quotes"))
                     .with_help(format!("write it as \"{}\"", rest.trim_matches('"')))
             });
         };
@@ -111,7 +111,7 @@ impl<'a> Line<'a> {
                 c if c.is_control() => {
                     let place = self.start + from + 1 + at..self.start + from + 2 + at;
                     let message = "a character that cannot be shown stands in this text";
-                    return Err(Mistake::error(place, message));
+                    return Err(Diagnostic::error(place, message));
                 }
                 c => {
                     text.push(c);
@@ -120,11 +120,11 @@ impl<'a> Line<'a> {
             }
         }
         let place = self.start + from..self.start + self.text.len();
-        Err(Mistake::error(place, "this text has no end").with_help("put a \" behind it"))
+        Err(Diagnostic::error(place, "this text has no end").with_help("put a \" behind it"))
     }
 
     /// What is left of the line up to one of these words, which stand between blanks; at least one character.
-    pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<Text, Mistake> {
+    pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<Text, Diagnostic> {
         self.skip();
         let from = self.at;
         let rest = &self.text[from..];
@@ -132,8 +132,8 @@ impl<'a> Line<'a> {
             let whole = |at: &usize| {
                 let (before, after) = (rest[..*at].chars().last(), rest[at + word.len()..].chars());
                 let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
-                let letters = word.chars().all(char::is_alphanumeric);
-                !letters || blank(before) && blank(after.clone().next())
+                let messages = word.chars().all(char::is_alphanumeric);
+                !messages || blank(before) && blank(after.clone().next())
             };
             rest.match_indices(*word).map(|(at, _)| at).find(whole)
         });
@@ -141,20 +141,20 @@ impl<'a> Line<'a> {
         let text = rest[..end].trim_end();
         if text.is_empty() {
             let place = self.start + from..self.start + from + end;
-            return Err(Mistake::error(place, format!("here {what} is missing")));
+            return Err(Diagnostic::error(place, format!("here {what} is missing")));
         }
         self.at = from + text.len();
         Ok(self.piece(from, self.at))
     }
 
     /// A time: `2s`, `0.5s`, `150ms`.
-    pub(super) fn time(&mut self) -> Result<Micros, Mistake> {
+    pub(super) fn time(&mut self) -> Result<Micros, Diagnostic> {
         let word = self.need("a time")?;
         let (number, unit) = match word.text.strip_suffix("ms") {
             Some(number) => (number, SECOND / 1000),
             None => (word.text.strip_suffix('s').unwrap_or(&word.text), SECOND),
         };
-        let wrong = |message: String| Mistake::error(word.place.clone(), message);
+        let wrong = |message: String| Diagnostic::error(word.place.clone(), message);
         let seconds: f64 =
             number.parse().ok().filter(|n: &f64| n.is_finite()).ok_or_else(|| {
                 wrong(format!("`{}` is no time", word.text))
@@ -175,12 +175,12 @@ impl<'a> Line<'a> {
         &mut self,
         what: &str,
         words: &[&'static str],
-    ) -> Result<&'static str, Mistake> {
+    ) -> Result<&'static str, Diagnostic> {
         let word = self.need(what)?;
         if let Some(known) = words.iter().find(|known| **known == word.text) {
             return Ok(known);
         }
-        let mistake = Mistake::error(word.place, format!("`{}` is not {what}", word.text));
+        let mistake = Diagnostic::error(word.place, format!("`{}` is not {what}", word.text));
         Err(match nearest(&word.text, words.iter().copied()) {
             Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
             None => mistake.with_help(format!("there are {}", words.join(" "))),
@@ -188,13 +188,13 @@ impl<'a> Line<'a> {
     }
 
     /// Nothing more stands on the line.
-    pub(super) fn end(&mut self, form: &str) -> Result<(), Mistake> {
+    pub(super) fn end(&mut self, form: &str) -> Result<(), Diagnostic> {
         if self.is_over() {
             return Ok(());
         }
         let place = self.here()..self.start + self.text.len();
         let message = format!("`{}` is too much here", &self.text[self.at..]);
-        Err(Mistake::error(place, message).with_help(format!("it is written {form}")))
+        Err(Diagnostic::error(place, message).with_help(format!("it is written {form}")))
     }
 }
 

@@ -23,12 +23,12 @@ const FEEDS: u16 = 4;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pen {
     at: Option<(u16, u16)>,
-    ink: Option<Ink>,
+    ink: Option<CellStyle>,
 }
 
 /// How characters are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Ink {
+struct CellStyle {
     fg: Color,
     bg: Color,
     modifier: Modifier,
@@ -39,7 +39,8 @@ impl Pen {
     pub(super) fn clear(&mut self, out: &mut Vec<u8>) {
         out.extend(b"\x1b[0m\x1b[2J");
         self.at = None;
-        self.ink = Some(Ink { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
+        self.ink =
+            Some(CellStyle { fg: Color::Reset, bg: Color::Reset, modifier: Modifier::empty() });
     }
 
     /// Writes a cell of a screen so many columns wide.
@@ -82,7 +83,7 @@ impl Pen {
 
     /// Takes up the ink of a cell.
     fn dip(&mut self, out: &mut Vec<u8>, cell: &Cell) {
-        let mut ink = Ink { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
+        let mut ink = CellStyle { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
         if let (" ", Some(now)) = (cell.symbol(), self.ink) {
             let seen = ink.modifier & ON_BLANKS;
             ink.modifier = seen | (now.modifier - ON_BLANKS);
@@ -133,7 +134,7 @@ fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
 }
 
 /// From one ink to another.
-fn change(from: Ink, to: Ink) -> Vec<u16> {
+fn change(from: CellStyle, to: CellStyle) -> Vec<u16> {
     let mut numbers = Vec::new();
     let mut kept = from.modifier;
     for (modifier, _, off) in MODIFIERS {

@@ -97,7 +97,7 @@ impl Axes {
     /// Draws the axes and returns the frame that is left for the plot.
     pub fn draw(&self, area: Rect, buffer: &mut Buffer, theme: &Theme, glyphs: Glyphs) -> Frame {
         let plan = self.plan(area, glyphs);
-        let mut sheet = Sheet { buffer, area, theme, glyphs };
+        let mut sheet = StrokeContext { buffer, area, theme, glyphs };
         sheet.zero_lines(&plan.frame);
         if self.grid {
             sheet.grid(&plan);
@@ -165,14 +165,14 @@ fn label_places(ticks: &Ticks, frame: &Frame, area: Rect) -> impl Iterator<Item 
 }
 
 /// The buffer with what every stroke needs.
-struct Sheet<'a> {
+struct StrokeContext<'a> {
     buffer: &'a mut Buffer,
     area: Rect,
     theme: &'a Theme,
     glyphs: Glyphs,
 }
 
-impl Sheet<'_> {
+impl StrokeContext<'_> {
     fn put(&mut self, x: u16, y: u16, symbol: &str, style: Style) {
         let inside = self.area.contains(Position::new(x, y));
         if let Some(cell) = self.buffer.cell_mut((x, y)).filter(|_| inside) {

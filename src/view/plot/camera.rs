@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use ratatui::layout::Rect;
 
 use super::scale::{Frame, Scale};
-use crate::expr::portable;
+use crate::num::math;
 
 /// A view of space from far away, or with slight perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,8 +61,8 @@ impl Camera {
 
     /// Place to the right, place upwards, and how much nearer to the eye than the origin.
     pub fn project(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let (sin_yaw, cos_yaw) = portable::sin_cos(self.yaw);
-        let (sin_pitch, cos_pitch) = portable::sin_cos(self.pitch);
+        let (sin_yaw, cos_yaw) = math::sin_cos(self.yaw);
+        let (sin_pitch, cos_pitch) = math::sin_cos(self.pitch);
         let right = x * cos_yaw + y * sin_yaw;
         let away = y * cos_yaw - x * sin_yaw;
         let up = away * sin_pitch + z * cos_pitch;
@@ -82,11 +82,11 @@ impl Camera {
         let [right, up, _] = Self { distance: None, ..*self }.project(bounds.middle());
         let [x, y, z] = bounds.half();
         let plane = z == 0.0 && self.pitch == FRAC_PI_2 && self.yaw == 0.0;
-        let round = portable::hypot(x, y);
+        let round = math::hypot(x, y);
         let (wide, high) = if plane {
             (x, y)
         } else {
-            (round, round * portable::sin(self.pitch).abs() + z * portable::cos(self.pitch))
+            (round, round * math::sin(self.pitch).abs() + z * math::cos(self.pitch))
         };
         let least = wide.max(high).max(f64::MIN_POSITIVE) * 1e-3;
         let scale = |middle: f64, half: f64, pan: f64| {

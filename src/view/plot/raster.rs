@@ -5,8 +5,8 @@
 //! Never here: axes, or what the curves mean.
 
 mod cloud;
-mod hand;
 mod letter;
+mod polyline;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -14,11 +14,11 @@ use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
 use super::scale::{Frame, Scale};
-use crate::expr::portable;
+use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
-use hand::Hand;
 use letter::letter;
+use polyline::Polyline;
 
 /// More cells than this in a row or column are not drawn; no terminal has them.
 const MOST_CELLS: u16 = 1024;
@@ -94,7 +94,7 @@ impl Marker {
 
 /// One cell: its dots, and who gave it its style.
 #[derive(Clone, Copy, Debug, Default)]
-struct Spot {
+struct Cell {
     /// One bit per dot, row by row, the left dot of a row first.
     dots: u8,
     /// Those of the layer that gives the style; ASCII, which cannot show all that cross, shows these.
@@ -111,7 +111,7 @@ struct Spot {
 pub struct Raster {
     area: Rect,
     glyphs: Glyphs,
-    spots: Vec<Spot>,
+    spots: Vec<Cell>,
 }
 
 impl Raster {
@@ -120,7 +120,7 @@ impl Raster {
         let area =
             Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
         let cells = usize::from(area.width) * usize::from(area.height);
-        Self { area, glyphs, spots: vec![Spot::default(); cells] }
+        Self { area, glyphs, spots: vec![Cell::default(); cells] }
     }
 
     /// The dots set so far.
@@ -180,7 +180,7 @@ impl Raster {
         points: impl IntoIterator<Item = [f64; 2]>,
         pen: &Pen,
     ) {
-        let mut hand = Hand::new(self, frame);
+        let mut hand = Polyline::new(self, frame);
         for point in points {
             hand.to(point, pen);
         }
@@ -194,7 +194,7 @@ impl Raster {
         }
         let pens: Vec<Pen> =
             ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
-        let mut hand = Hand::new(self, frame);
+        let mut hand = Polyline::new(self, frame);
         for (index, point) in points.iter().enumerate() {
             let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
             hand.fade(age, ramp.len());
@@ -219,7 +219,7 @@ impl Raster {
         let sides = 128;
         let corner = |side: i32| {
             let (sin, cos) =
-                portable::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
+                math::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
             [x + radius * cos, y + radius * sin]
         };
         self.polyline(frame, (0..=sides).map(corner), pen);
@@ -237,7 +237,7 @@ impl Raster {
             &mut self.spots[usize::from(row) * usize::from(self.area.width) + usize::from(column)];
         let rank = (pen.layer, true, pen.fresh);
         if rank >= spot.rank {
-            *spot = Spot { sign: Some(sign), rank, style: pen.style, ..*spot };
+            *spot = Cell { sign: Some(sign), rank, style: pen.style, ..*spot };
         }
     }
 

@@ -4,7 +4,7 @@
 
 use ratatui::layout::{Position, Rect};
 
-use crate::expr::portable;
+use crate::num::math;
 use crate::view::glyphs::Glyphs;
 
 /// A cell is about twice as high as it is wide.
@@ -49,7 +49,7 @@ impl Scale {
         } else {
             (hi * 1e-3).max(f64::MIN_POSITIVE)
         };
-        let lo = if portable::log10(hi) - portable::log10(lo) > 1e-9 { lo } else { hi * 0.5 };
+        let lo = if math::log10(hi) - math::log10(lo) > 1e-9 { lo } else { hi * 0.5 };
         Self { lo, hi, kind: Kind::Log, period: None }
     }
 
@@ -108,8 +108,7 @@ impl Scale {
                 (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
             }
             Kind::Log if value > 0.0 => {
-                (portable::ln(value) - portable::ln(self.lo))
-                    / (portable::ln(self.hi) - portable::ln(self.lo))
+                (math::ln(value) - math::ln(self.lo)) / (math::ln(self.hi) - math::ln(self.lo))
             }
             Kind::Log => f64::NAN,
         }
@@ -119,9 +118,9 @@ impl Scale {
     pub fn value(&self, fraction: f64) -> f64 {
         match self.kind {
             Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
-            Kind::Log => portable::exp(
-                portable::ln(self.lo) * (1.0 - fraction) + portable::ln(self.hi) * fraction,
-            ),
+            Kind::Log => {
+                math::exp(math::ln(self.lo) * (1.0 - fraction) + math::ln(self.hi) * fraction)
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::scale::{Kind, Scale};
-use crate::expr::portable;
+use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::number::{raised, signed};
 
@@ -72,7 +72,7 @@ impl Step {
         if !length.is_finite() || length <= 0.0 {
             return None;
         }
-        let exponent = portable::log10(length).floor() as i32;
+        let exponent = math::log10(length).floor() as i32;
         let steps = [-1, 0, 1]
             .into_iter()
             .flat_map(|e| [1, 2, 5].map(|digit| Self { digit, exponent: exponent + e }));
@@ -105,9 +105,9 @@ impl Step {
     fn times(self, count: i64) -> f64 {
         let number = (count * self.digit) as f64;
         match self.exponent {
-            0.. => number * portable::powi(10.0, self.exponent),
-            -300..0 => number / portable::powi(10.0, -self.exponent),
-            _ => number / 1e300 / portable::powi(10.0, -300 - self.exponent),
+            0.. => number * math::powi(10.0, self.exponent),
+            -300..0 => number / math::powi(10.0, -self.exponent),
+            _ => number / 1e300 / math::powi(10.0, -300 - self.exponent),
         }
     }
 }
@@ -156,7 +156,7 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
 
 /// The power of ten to take out of the labels of an axis that reaches to `size`: none for everyday numbers.
 fn common_exponent(size: f64) -> i32 {
-    if (1e-2..1e5).contains(&size) { 0 } else { (portable::log10(size) / 3.0).floor() as i32 * 3 }
+    if (1e-2..1e5).contains(&size) { 0 } else { (math::log10(size) / 3.0).floor() as i32 * 3 }
 }
 
 /// `number` × 10^`exponent`, written out; zero needs no decimals.
@@ -217,7 +217,7 @@ fn of_pi(mut over: i64, mut under: i64, glyphs: Glyphs) -> String {
 
 /// Powers of ten, or 1, 2, 5 within few decades; `None` below one decade, where even steps are better.
 fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
-    let (low, high) = (portable::log10(scale.lo) - 1e-9, portable::log10(scale.hi) + 1e-9);
+    let (low, high) = (math::log10(scale.lo) - 1e-9, math::log10(scale.hi) + 1e-9);
     let (first, last) = (low.ceil() as i32, high.floor() as i32);
     if last <= first {
         return None;
@@ -236,7 +236,7 @@ fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     let fine: Vec<_> = (first - 1..=last)
         .flat_map(|exponent| [1, 2, 5].map(|digit| (digit, exponent)))
         .filter(|(digit, exponent)| {
-            (low..=high).contains(&(portable::log10(*digit as f64) + f64::from(*exponent)))
+            (low..=high).contains(&(math::log10(*digit as f64) + f64::from(*exponent)))
         })
         .collect();
     let marks: Vec<_> = if plain && fine.len() <= most {

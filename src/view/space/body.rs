@@ -5,9 +5,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::expr::{Double, Expr, portable};
+use crate::expr::Expr;
 use crate::mechanics::principal;
 use crate::model::{Model, Piece, Solid, Turn};
+use crate::num::{DoubleDouble, math};
 use crate::system::ChannelKind;
 use crate::view::quantity::Quantities;
 
@@ -52,7 +53,7 @@ impl Outline {
                 .extend(lines.into_iter().map(|line| line.into_iter().map(place).collect()));
         }
         let reach = AXES * outline.reach();
-        let inertia = body.names.inertia.map(|symbol| Double::from(q.lab.now(symbol)));
+        let inertia = body.names.inertia.map(|symbol| DoubleDouble::from(q.lab.now(symbol)));
         let (_, axes) = principal(&inertia);
         outline.axes = axes.map(|axis| vec![[0.0; 3], axis.map(|n| reach * n)]).to_vec();
         Some(outline.standing(q))
@@ -98,7 +99,7 @@ fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3
 fn about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
     let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
     let n = axis.map(|a| a / length);
-    let (sin, cos) = portable::sin_cos(angle);
+    let (sin, cos) = math::sin_cos(angle);
     let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -160,7 +161,7 @@ fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
 
 fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
     (0..=SIDES).map(move |side| {
-        let (sin, cos) = portable::sin_cos(side as f64 * TAU / SIDES as f64);
+        let (sin, cos) = math::sin_cos(side as f64 * TAU / SIDES as f64);
         [radius * cos, radius * sin]
     })
 }

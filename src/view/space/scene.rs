@@ -5,10 +5,10 @@
 use std::f64::consts::TAU;
 
 use super::body::Outline;
-use super::seat::Seat;
-use crate::app::Eye;
-use crate::expr::portable;
+use super::reference_frame::ReferenceFrame;
+use crate::app::CameraPose;
 use crate::model::{Point, Shape};
+use crate::num::math;
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};
 
@@ -26,14 +26,18 @@ impl Scene {
     ///
     /// A rod (a line that keeps its length) may swing round its one end: the box holds all its circle from the start, and the
     /// picture does not shrink while the first swing goes on.
-    pub(super) fn of(q: &Quantities<'_>, eye: Eye, seat: Option<&Seat>) -> Self {
+    pub(super) fn of(
+        q: &Quantities<'_>,
+        eye: CameraPose,
+        reference_frame: Option<&ReferenceFrame>,
+    ) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY };
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {
             scene.hold(q, shape, rod, &mut reached);
         }
-        if let (Some(ends), Some(seat)) = (scene.bounds.ends(), seat) {
-            scene.bounds = Bounds::around(seat.around(q, ends));
+        if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
+            scene.bounds = Bounds::around(reference_frame.around(q, ends));
         }
         // Rounded outwards, so that the picture stays still while the box grows a little.
         if let Some([low, high]) = scene.bounds.ends() {
@@ -114,7 +118,7 @@ impl Scene {
 
 /// 1, 2 or 5 times a power of ten, not above a length.
 fn round_step(length: f64) -> f64 {
-    let power = portable::powf(10.0, portable::log10(length).floor());
+    let power = math::powf(10.0, math::log10(length).floor());
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);
     digit.unwrap_or(1.0) * power
 }
@@ -125,7 +129,7 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
     let moves = own[0] != own[1];
-    let length = (0..3).map(|k| portable::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
+    let length = (0..3).map(|k| math::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
     let plane = is_flat(q, from) && is_flat(q, to);
     if !moves || !plane || !length.is_finite() {
         return own;
@@ -166,7 +170,7 @@ pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f6
     let sides = 96;
     let [u, v] = across(normal);
     let point = |side: i32| {
-        let (sin, cos) = portable::sin_cos(f64::from(side) * TAU / f64::from(sides));
+        let (sin, cos) = math::sin_cos(f64::from(side) * TAU / f64::from(sides));
         [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
     };
     (0..=sides).map(point).collect()

@@ -7,7 +7,7 @@
 
 use ratatui::style::{Color, Modifier};
 
-use super::{CURVES, Ink, Role};
+use super::{CURVES, PaletteColour, Role};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// A named set of colours.
@@ -22,11 +22,11 @@ pub struct Palette {
     /// The strongest colour on that background.
     pub foreground: Rgb,
     /// The inks of [`Role::ALL`], in that order.
-    pub roles: [Ink; Role::ALL.len()],
+    pub roles: [PaletteColour; Role::ALL.len()],
     /// The colours of series.
-    pub curves: [Ink; CURVES],
+    pub curves: [PaletteColour; CURVES],
     /// Anchors of the density ramp, sparse to dense, of growing contrast.
-    pub heat: [Ink; 4],
+    pub heat: [PaletteColour; 4],
     /// The most colour it uses: one of the terminal's own sixteen, or any.
     pub most: ColourDepth,
 }
@@ -40,14 +40,14 @@ const DIM: Modifier = Modifier::DIM;
 const REVERSED: Modifier = Modifier::REVERSED;
 const UNDERLINED: Modifier = Modifier::UNDERLINED;
 
-const fn ink(hex: u32, ansi: Color, weight: Modifier, mono: Modifier) -> Ink {
+const fn ink(hex: u32, ansi: Color, weight: Modifier, mono: Modifier) -> PaletteColour {
     let rgb = Rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8);
-    Ink { rgb: Some(rgb), ansi, weight, mono }
+    PaletteColour { rgb: Some(rgb), ansi, weight, mono }
 }
 
 /// The terminal's own foreground.
-const fn own(weight: Modifier, mono: Modifier) -> Ink {
-    Ink { rgb: None, ansi: Color::Reset, weight, mono }
+const fn own(weight: Modifier, mono: Modifier) -> PaletteColour {
+    PaletteColour { rgb: None, ansi: Color::Reset, weight, mono }
 }
 
 /// Middle tones: bright enough for black, and still dark enough to be read should the terminal be white.

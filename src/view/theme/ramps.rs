@@ -4,7 +4,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::{Dash, Ink, Palette, Shade};
+use super::{Dash, Palette, PaletteColour, Shade};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// Makes the ramps of a palette at a depth.
@@ -15,7 +15,7 @@ pub(super) struct Ramps {
 
 impl Ramps {
     /// `ages` steps from nearly the background to the ink, brightened.
-    pub(super) fn trail(&self, ink: &Ink, ages: usize) -> Vec<Shade> {
+    pub(super) fn trail(&self, ink: &PaletteColour, ages: usize) -> Vec<Shade> {
         let background = self.palette.background;
         let colour = ink.rgb.unwrap_or(self.palette.foreground);
         let newest = colour.mix(self.palette.foreground, 0.35);

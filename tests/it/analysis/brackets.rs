@@ -14,7 +14,7 @@ fn claim(model: &mut Model, f: &str, g: &str, is: &str) {
     model.expect.brackets.push(ExpectedBracket { f, g, is, written, source, place });
 }
 
-/// What is told of one claim; empty where it holds.
+/// What is reported of one claim; empty where it holds.
 fn told(mut model: Model, f: &str, g: &str, is: &str) -> String {
     claim(&mut model, f, g, is);
     let equations = derive(&model).expect("derivable");
@@ -34,7 +34,7 @@ fn oscillator() -> Model {
 }
 
 #[test]
-fn a_true_bracket_is_silent_and_a_false_one_is_told_with_the_right_one() {
+fn a_true_bracket_is_silent_and_a_false_one_is_reported_with_the_right_one() {
     assert_eq!(told(oscillator(), "x*p_y - y*p_x", "energy", "0"), "");
     assert_eq!(told(oscillator(), "x", "p_x", "1"), "");
     assert_eq!(told(oscillator(), "x*p_y - y*p_x", "x", "y"), "");

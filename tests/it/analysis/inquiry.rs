@@ -83,7 +83,7 @@ fn one_expression_alone_asks_whether_it_is_conserved() {
 }
 
 #[test]
-fn a_mistake_is_told_at_its_place_in_the_whole_text() {
+fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
     let (model, equations) = kepler();
     for (text, place, says) in [
         ("x*p_y - y*p_z, H", "p_z", "p_z"),

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
-use phaselab::app::{App, Choice, Drawn, Effect, Event, Key, Menu, Over, Page, Plot, Target};
+use phaselab::app::{App, Choice, Drawn, Effect, Event, Key, Menu, Overlay, Page, Plot, ValueId};
 use phaselab::experiment::Status;
 
-use super::scripts::with_blows;
+use super::scripts::with_impulses;
 use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
 
 #[test]
@@ -48,7 +48,7 @@ fn states(place: Place) -> Vec<App> {
     };
     match place {
         Place::Always | Place::Anywhere => vec![lab("")],
-        Place::Lab => vec![with_blows(&["push"]), with_frame(), lab("")],
+        Place::Lab => vec![with_impulses(&["push"]), with_frame(), lab("")],
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
         Place::Experiment => {
@@ -97,17 +97,17 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("page", format!("{:?}", app.page));
     let over = match &app.over {
         None => "nothing".to_owned(),
-        Some(Over::Help { .. }) => "the keys".to_owned(),
-        Some(Over::Message(failure)) => failure.message.clone(),
-        Some(Over::Menu(menu)) => {
+        Some(Overlay::Help { .. }) => "the keys".to_owned(),
+        Some(Overlay::Message(failure)) => failure.message.clone(),
+        Some(Overlay::Menu(menu)) => {
             format!("list {:?} line {} marked {:?}", menu.title, menu.selected, menu.marked)
         }
-        Some(Over::Field(field)) => format!("field {:?}", field.input.value()),
-        Some(Over::Prompt(prompt)) => format!("prompt {:?}", prompt.input.value()),
-        Some(Over::Workbench) => "the editor".to_owned(),
+        Some(Overlay::Field(field)) => format!("field {:?}", field.input.value()),
+        Some(Overlay::Prompt(prompt)) => format!("prompt {:?}", prompt.input.value()),
+        Some(Overlay::Workbench) => "the editor".to_owned(),
     };
     fact("over it", over);
-    let bench = app.open_sheet();
+    let bench = app.open_buffer();
     fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
@@ -130,8 +130,8 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("parameter", selection.parameter.to_string());
     fact("initial value", selection.initial.to_string());
     fact("gauge", selection.gauge.to_string());
-    for index in 0..lab.count(Target::Parameter) {
-        let target = Target::Parameter(index);
+    for index in 0..lab.count(ValueId::Parameter) {
+        let target = ValueId::Parameter(index);
         let name = lab.facts(target).unwrap().name;
         fact(&name, format!("{:?}", lab.value(target).unwrap()));
     }
@@ -143,12 +143,14 @@ fn facts(app: &App) -> Vec<(String, String)> {
                 fact(&about("zoom"), eye.zoom.to_string());
                 fact(&about("frame"), format!("{:?}", eye.frame));
             }
-            Plot::Phase { lens, .. } | Plot::Time { lens, .. } | Plot::Potential { lens, .. } => {
-                fact(&about("zoom"), format!("{:?}", lens.zoom));
-                fact(&about("pan"), format!("{:?}", lens.pan));
-                fact(&about("log"), lens.log.to_string());
-                fact(&about("one to one"), lens.equal.to_string());
-                fact(&about("cursor"), format!("{:?}", lens.cursor));
+            Plot::Phase { viewport, .. }
+            | Plot::Time { viewport, .. }
+            | Plot::Potential { viewport, .. } => {
+                fact(&about("zoom"), format!("{:?}", viewport.zoom));
+                fact(&about("pan"), format!("{:?}", viewport.pan));
+                fact(&about("log"), viewport.log.to_string());
+                fact(&about("one to one"), viewport.equal.to_string());
+                fact(&about("cursor"), format!("{:?}", viewport.cursor));
             }
         }
     }
@@ -208,7 +210,7 @@ fn every_key_in_the_table_does_what_is_written() {
 fn palette(app: &App) -> (App, Menu) {
     let mut app = app.clone();
     press(&mut app, ":");
-    let Some(Over::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    let Some(Overlay::Menu(menu)) = &app.over else { panic!("there is no palette") };
     let menu = menu.clone();
     (app, menu)
 }
@@ -233,7 +235,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 let here = places.contains(&row.place);
                 assert!(item.refusal.is_none() == (here && app.offers(row.action)), "{item:?}");
                 let mut open = open.clone();
-                if let Some(Over::Menu(menu)) = &mut open.over {
+                if let Some(Overlay::Menu(menu)) = &mut open.over {
                     menu.selected = line;
                 }
                 if !here || !app.offers(row.action) {
@@ -260,7 +262,7 @@ fn the_palette_opens_types_and_chooses() {
     let first = |query: &str| {
         let (mut app, _) = palette(&in_lab());
         app.update(Event::Paste(query.to_owned()));
-        let Some(Over::Menu(menu)) = &app.over else { panic!() };
+        let Some(Overlay::Menu(menu)) = &app.over else { panic!() };
         let label = menu.current().unwrap().1.label.clone();
         let effects = press(&mut app, "Enter");
         (
@@ -315,8 +317,8 @@ fn a_notice_goes_by_itself() {
 fn a_fault_is_answered_by_a_reset_and_not_by_play() {
     let mut app = in_lab();
     let mut faulted = snapshot(&pendulum(), 2.0);
-    let fault = phaselab::experiment::Fault { time: 2.0, message: "collision".to_owned() };
-    faulted.status = Status::Faulted(fault);
+    let fault = phaselab::experiment::Failure { time: 2.0, message: "collision".to_owned() };
+    faulted.status = Status::Failed(fault);
     app.update(Event::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
     assert!(app.notice.is_some_and(|notice| notice.text.contains("reset")));

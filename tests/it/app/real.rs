@@ -1,9 +1,9 @@
-//! The application on a real experiment: what a key asks for is done, and what then is seen is told.
+//! The application on a real experiment: what a key asks for is done, and what then is seen is reported.
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Effect, Event, Key, Lab, Loaded, Target};
-use phaselab::experiment::{Experiment, Ready, Setup, Snapshot, Status};
+use phaselab::app::{App, Effect, Event, Key, Lab, Loaded, ValueId};
+use phaselab::experiment::{Experiment, Prepared, Setup, Snapshot, Status};
 use phaselab::view::draw;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -22,8 +22,8 @@ pub(crate) struct Real {
 
 impl Real {
     pub(crate) fn of(name: &str) -> Self {
-        let ready = Ready::of(&catalog().find(name).unwrap()).unwrap();
-        let Ready { document, model, equations, system, mut experiment } = ready;
+        let ready = Prepared::of(&catalog().find(name).unwrap()).unwrap();
+        let Prepared { document, model, equations, system, mut experiment } = ready;
         experiment.set_epoch(1);
         let (mut app, _) = App::new(catalog(), Some(name));
         let name = name.to_owned();
@@ -58,10 +58,10 @@ impl Real {
     }
 
     /// Does what was asked for.
-    pub(crate) fn obey(&mut self, effects: Vec<Effect>) {
+    pub(crate) fn execute(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             if let Effect::Tell(command) = effect {
-                self.experiment.obey(command);
+                self.experiment.execute(command);
             }
         }
     }
@@ -74,7 +74,7 @@ impl Real {
 
     pub(crate) fn strike(&mut self, key: Key) {
         let effects = self.app.update(Event::Key(key));
-        self.obey(effects);
+        self.execute(effects);
         self.look();
     }
 
@@ -96,9 +96,9 @@ impl Real {
     /// All that can be undone, as text.
     fn state(&self) -> String {
         let (lab, seen) = (self.lab(), self.seen());
-        let values: Vec<_> = (0..lab.count(Target::Parameter))
-            .map(Target::Parameter)
-            .chain((0..lab.count(Target::Initial)).map(Target::Initial))
+        let values: Vec<_> = (0..lab.count(ValueId::Parameter))
+            .map(ValueId::Parameter)
+            .chain((0..lab.count(ValueId::Initial)).map(ValueId::Initial))
             .map(|target| lab.value(target))
             .collect();
         format!(

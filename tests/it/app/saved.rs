@@ -96,8 +96,8 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     let names = |lab: &phaselab::app::Lab| {
         let name = |i: &usize| lab.loaded.system.channels()[*i].name.clone();
         let names = lab.plots.iter().map(|plot| match plot {
-            Plot::Phase { x, y, lens } => (vec![name(x), name(y)], Some(*lens)),
-            Plot::Time { y, lens } => (y.iter().map(name).collect(), Some(*lens)),
+            Plot::Phase { x, y, viewport } => (vec![name(x), name(y)], Some(*viewport)),
+            Plot::Time { y, viewport } => (y.iter().map(name).collect(), Some(*viewport)),
             _ => (Vec::new(), None),
         });
         names.collect::<Vec<_>>()

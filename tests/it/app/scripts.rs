@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Effect, Event, LoadFailure, Over, Page, Pane, Plot};
+use phaselab::app::{App, Effect, Event, LoadError, Overlay, Page, Pane, Plot};
 use phaselab::experiment::Command;
 
 use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
@@ -12,12 +12,12 @@ use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, 
 fn place(app: &App) -> String {
     let over = match &app.over {
         None => String::new(),
-        Some(Over::Help { .. }) => " + help".to_owned(),
-        Some(Over::Message(_)) => " + message".to_owned(),
-        Some(Over::Menu(menu)) => format!(" + menu {:?}", menu.title),
-        Some(Over::Prompt(prompt)) => format!(" + prompt {:?}", prompt.input.value()),
-        Some(Over::Workbench) => " + editor".to_owned(),
-        Some(Over::Field(field)) => format!(" + field {:?}", field.input.value()),
+        Some(Overlay::Help { .. }) => " + help".to_owned(),
+        Some(Overlay::Message(_)) => " + message".to_owned(),
+        Some(Overlay::Menu(menu)) => format!(" + menu {:?}", menu.title),
+        Some(Overlay::Prompt(prompt)) => format!(" + prompt {:?}", prompt.input.value()),
+        Some(Overlay::Workbench) => " + editor".to_owned(),
+        Some(Overlay::Field(field)) => format!(" + field {:?}", field.input.value()),
     };
     let page = match (app.page, &app.lab) {
         (Page::Picker, _) => {
@@ -196,12 +196,12 @@ fn a_system_opened_before_it_is_there_opens_when_it_comes() {
 }
 
 #[test]
-fn what_cannot_be_loaded_is_told_and_the_rest_goes_on() {
+fn what_cannot_be_loaded_is_reported_and_the_rest_goes_on() {
     let (mut app, effects) = App::new(catalog(), Some("own.toml"));
     assert_eq!(effects, [Effect::Load("own.toml".into())]);
-    let failure = LoadFailure { name: "own.toml".into(), message: "line 1\nline 2".into() };
+    let failure = LoadError { name: "own.toml".into(), message: "line 1\nline 2".into() };
     app.update(Event::Loaded(Err(failure.clone())));
-    assert!(matches!(&app.over, Some(Over::Message(f)) if *f == failure));
+    assert!(matches!(&app.over, Some(Overlay::Message(f)) if *f == failure));
     press(&mut app, "Esc");
     assert!(app.over.is_none());
     assert_eq!(app.page, Page::Picker);
@@ -218,7 +218,7 @@ fn snapshots_of_another_system_are_dropped() {
 }
 
 #[test]
-fn news_of_the_experiment_is_told_once() {
+fn news_of_the_experiment_is_reported_once() {
     let mut app = in_lab();
     let mut told = snapshot(&pendulum(), 2.5);
     told.notices = ["the energy jumped".to_owned()].into();
@@ -241,15 +241,15 @@ fn a_page_of_text_does_not_scroll_beyond_its_end() {
     assert_eq!(app.scroll, 0);
 }
 
-/// The lab with a free particle that so many blows wait for, beside one that falls by itself.
-pub(super) fn with_blows(names: &[&str]) -> App {
+/// The lab with a free particle that so many impulses wait for, beside one that falls by itself.
+pub(super) fn with_impulses(names: &[&str]) -> App {
     let impulse = |name: &&str| {
         format!("[[impulses]]\nname = '{name}'\nchange = {{ p_x = '1' }}\nabout = 'a {name}'\n")
     };
-    let blows: String = names.iter().map(impulse).collect();
+    let impulses: String = names.iter().map(impulse).collect();
     let text = format!(
         "title = 'a test'\n[coordinates]\nx = {{ initial = 0.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
-         [[impulses]]\nname = 'tick'\nevery = 1.0\nchange = {{ p_x = '1' }}\n{blows}"
+         [[impulses]]\nname = 'tick'\nevery = 1.0\nchange = {{ p_x = '1' }}\n{impulses}"
     );
     let loaded = lowered(&text);
     let mut app = in_lab();
@@ -261,16 +261,16 @@ pub(super) fn with_blows(names: &[&str]) -> App {
 }
 
 #[test]
-fn a_blow_is_struck_by_its_key_or_by_its_name() {
+fn an_impulse_is_struck_by_its_key_or_by_its_name() {
     let mut app = in_lab();
     assert_eq!(asked(&press(&mut app, "b")), "");
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("no blows")));
-    let mut app = with_blows(&[]);
+    assert!(app.notice.is_some_and(|notice| notice.text.contains("no impulses")));
+    let mut app = with_impulses(&[]);
     assert_eq!(asked(&press(&mut app, "b")), "");
     assert!(app.notice.is_some_and(|notice| notice.text.contains("by themselves")));
-    let mut app = with_blows(&["push"]);
+    let mut app = with_impulses(&["push"]);
     assert_eq!(asked(&press(&mut app, "b")), "Strike(1)");
-    let mut app = with_blows(&["push", "kick"]);
+    let mut app = with_impulses(&["push", "kick"]);
     assert_eq!(asked(&press(&mut app, "b")), "");
     assert!(place(&app).ends_with("+ menu \"Strike\""), "{}", place(&app));
     assert_eq!(asked(&press(&mut app, "Down Enter")), "Strike(2)");
@@ -278,7 +278,7 @@ fn a_blow_is_struck_by_its_key_or_by_its_name() {
 }
 
 #[test]
-fn a_reset_takes_back_what_was_told_before() {
+fn a_reset_takes_back_what_was_reported_before() {
     for key in ["r", "R"] {
         let mut app = in_lab();
         press(&mut app, "b");

@@ -1,6 +1,6 @@
 //! Searching: what is found among the systems and among the actions, and in which order.
 
-use phaselab::app::{App, Event, Over};
+use phaselab::app::{App, Event, Overlay};
 
 use crate::hand::{at_picker, in_lab, press};
 
@@ -18,7 +18,7 @@ fn lines(app: &App, query: &str) -> Vec<String> {
     let mut app = app.clone();
     press(&mut app, ":");
     app.update(Event::Paste(query.to_owned()));
-    let Some(Over::Menu(menu)) = &app.over else { panic!("there is no palette") };
+    let Some(Overlay::Menu(menu)) = &app.over else { panic!("there is no palette") };
     menu.shown().into_iter().map(|index| menu.items[index].label.clone()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Values: steps, typed numbers, undo.
 
-use phaselab::app::{Effect, Event, Over, Target};
+use phaselab::app::{Effect, Event, Overlay, ValueId};
 use phaselab::experiment::Command;
 
 use crate::hand::{in_lab, press};
@@ -14,7 +14,7 @@ fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
     }
     let effects = press(&mut app, "Enter");
     match app.over {
-        Some(Over::Field(field)) => (effects, field.mistake, field.input.value().to_owned()),
+        Some(Overlay::Field(field)) => (effects, field.mistake, field.input.value().to_owned()),
         _ => (effects, None, String::new()),
     }
 }
@@ -37,7 +37,7 @@ fn a_typed_value_may_be_any_expression_in_parameters() {
 }
 
 #[test]
-fn a_bad_value_is_told_and_nothing_is_lost() {
+fn a_bad_value_is_reported_and_nothing_is_lost() {
     for (text, told) in [
         ("2x", "`2x` is no number"),
         ("", "is no number"),
@@ -62,7 +62,7 @@ fn steps_and_tolerances_must_be_positive() {
             press(&mut app, ": m e t h o d Space r k 4 Enter");
         }
         assert_eq!(press(&mut app, keys), [], "{keys}");
-        assert!(matches!(app.over, Some(Over::Field(f)) if f.mistake.is_some()), "{keys}");
+        assert!(matches!(app.over, Some(Overlay::Field(f)) if f.mistake.is_some()), "{keys}");
     }
 }
 
@@ -93,7 +93,7 @@ fn a_long_paste_is_cut_and_said() {
     let mut app = in_lab();
     press(&mut app, "Enter");
     app.update(Event::Paste("7".repeat(1 << 20)));
-    let Some(Over::Field(field)) = &app.over else { panic!("the field is gone") };
+    let Some(Overlay::Field(field)) = &app.over else { panic!("the field is gone") };
     assert!(field.input.value().len() <= 4096);
     assert!(app.notice.is_some());
     press(&mut app, "Esc");
@@ -108,5 +108,5 @@ fn a_held_key_counts_every_press_before_the_experiment_answers() {
         press(&mut app, "Right");
     }
     let lab = app.lab.as_ref().unwrap();
-    assert_eq!(lab.value(Target::Parameter(0)), Some(1.2));
+    assert_eq!(lab.value(ValueId::Parameter(0)), Some(1.2));
 }

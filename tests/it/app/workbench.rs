@@ -6,15 +6,16 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, NotSaved, Over, Page, Plot, Sheet, SheetState,
+    App, Caret, Checked, Effect, Event, Loaded, Overlay, Page, Plot, SaveError, SheetState,
+    SourceBuffer,
 };
-use phaselab::experiment::{Command, Ready, Snapshot, Status};
-use phaselab::preset::Document;
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 
-fn sheet(app: &App) -> &Sheet {
-    app.open_sheet().expect("the editor is open")
+fn sheet(app: &App) -> &SourceBuffer {
+    app.open_buffer().expect("the editor is open")
 }
 
 /// What the shell would answer to a check.
@@ -22,8 +23,8 @@ fn checked(app: &App, effect: &Effect) -> Event {
     let Effect::Check { ticket, title, text } = effect else { panic!("{effect:?}") };
     assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
-    let outcome = match Ready::of(&Document::new(title.as_str(), text.as_str())) {
-        Ok(Ready { document, model, equations, system, .. }) => {
+    let outcome = match Prepared::of(&Document::new(title.as_str(), text.as_str())) {
+        Ok(Prepared { document, model, equations, system, .. }) => {
             Ok(Loaded { name, epoch: 2, document, model, equations, system })
         }
         Err(unready) => Err(unready.mistakes),
@@ -87,8 +88,9 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     let lab = app.lab.as_ref().unwrap();
     assert!(lab.zoomed);
     assert_eq!(lab.plots.len(), before.len());
-    let lens = |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
-    assert_eq!(lens(&lab.plots), lens(&before));
+    let viewport =
+        |plots: &[Plot]| plots.iter().filter(|p| matches!(p, Plot::Phase { .. })).count();
+    assert_eq!(viewport(&lab.plots), viewport(&before));
     assert!(lab.loaded.system.channels().iter().any(|channel| channel.name == "new"));
 }
 
@@ -239,7 +241,7 @@ fn a_shipped_system_is_saved_as_a_copy_and_then_in_its_place() {
 fn a_name_that_is_taken_is_asked_for_again() {
     let mut app = edited();
     press(&mut app, "Ctrl-s Enter");
-    app.update(Event::FileSaved(Err(NotSaved::Exists(PathBuf::from("mine.toml")))));
+    app.update(Event::FileSaved(Err(SaveError::Exists(PathBuf::from("mine.toml")))));
     assert!(app.notice.as_ref().unwrap().text.contains("exists already"));
     assert!(sheet(&app).asking.is_some());
     press(&mut app, "Esc");
@@ -252,8 +254,8 @@ fn a_name_that_is_taken_is_asked_for_again() {
 fn own_file() -> App {
     let text = &catalog().find("pendulum").unwrap().text;
     let (mut app, _) = App::new(catalog(), Some("./my.toml"));
-    let ready = Ready::of(&Document::new("./my.toml", text.as_str())).unwrap();
-    let Ready { document, model, equations, system, .. } = ready;
+    let ready = Prepared::of(&Document::new("./my.toml", text.as_str())).unwrap();
+    let Prepared { document, model, equations, system, .. } = ready;
     let name = "./my.toml".to_owned();
     let loaded = Loaded { name, epoch: 1, document, model, equations, system };
     let seen = snapshot(&loaded, 2.0);
@@ -272,7 +274,7 @@ fn a_file_changed_by_another_program_is_written_over_only_on_demand() {
     press(&mut app, "E #");
     let save = press(&mut app, "Ctrl-s");
     assert!(matches!(&save[..], [Effect::Save { known: Some(_), .. }]), "{save:?}");
-    app.update(Event::FileSaved(Err(NotSaved::Changed)));
+    app.update(Event::FileSaved(Err(SaveError::Changed)));
     assert!(app.notice.as_ref().unwrap().text.contains("changed by another program"));
     let again = press(&mut app, "Ctrl-s");
     assert!(matches!(&again[..], [Effect::Save { known: None, .. }]), "{again:?}");
@@ -439,7 +441,7 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");
     assert!(sheet(&app).editor.text().starts_with("xyq"));
-    assert!(matches!(app.over, Some(Over::Workbench)));
+    assert!(matches!(app.over, Some(Overlay::Workbench)));
 }
 
 #[test]
@@ -504,7 +506,7 @@ fn saving_what_has_a_mistake_says_so() {
 fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
     let mut app = edited();
     press(&mut app, "x y F1");
-    assert!(matches!(app.over, Some(Over::Help { editing: true, .. })));
+    assert!(matches!(app.over, Some(Overlay::Help { editing: true, .. })));
     assert_eq!(app.places_below()[0], Place::Workbench);
     for back in ["Esc", "F1", "?"] {
         press(&mut app, back);
@@ -527,7 +529,7 @@ fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
 }
 
 #[test]
-fn what_becomes_of_a_watched_file_is_told() {
+fn what_becomes_of_a_watched_file_is_reported() {
     let mut app = own_file();
     let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();

@@ -32,7 +32,7 @@ fn oscillator(arguments: &[&str]) -> super::Done {
 }
 
 #[test]
-fn a_bracket_is_told_with_its_name_and_its_value() {
+fn a_bracket_is_reported_with_its_name_and_its_value() {
     let text = oscillator(&["D", "L + p_x^2", "--set", "a=7"]).success();
     assert_eq!(text, "[D, L + p_x^2] = 2 pₓ²\nat the start: 0.5\n");
     let text = oscillator(&["x^2 + y^2", "energy"]).success();

@@ -219,7 +219,7 @@ fn a_claim_has_a_budget() {
 }
 
 #[test]
-fn a_root_that_is_squared_away_is_told() {
+fn a_root_that_is_squared_away_is_reported() {
     let file = one("x = { initial = 1 }", "[lagrangian]\nL = \"1/2*x'^2 - (1 + sqrt(x)^2)\"");
     let said = "`x` stands under a root that is squared away";
     with_file(&file, &["check", "system.toml"]).says(said);

@@ -345,7 +345,7 @@ fn no_cast_script_or_configuration_steers_the_terminal() {
 }
 
 #[test]
-fn nothing_is_told_at_any_length() {
+fn nothing_is_reported_at_any_length() {
     let home = tempfile::tempdir().unwrap();
     let long = "x".repeat(100_000);
     let value = format!("m={long}");

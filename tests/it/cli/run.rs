@@ -350,7 +350,7 @@ fn an_event_that_stops_ends_the_run_well_and_its_moment_still_has_a_row() {
         let named: Vec<_> = events.iter().map(|e| (e["name"].as_str(), e["t"].as_f64())).collect();
         assert_eq!(named, [(Some("push"), Some(1.0)), (Some("wall"), Some(3.0))]);
         assert_eq!(events[0]["jump"]["p_x"], -0.5);
-        assert!(events[1]["jump"].is_null(), "a stop is no blow");
+        assert!(events[1]["jump"].is_null(), "a stop is no impulse");
     }
 }
 
@@ -443,7 +443,7 @@ fn told(done: &Done, words: &[&str]) {
 }
 
 #[test]
-fn an_invariant_that_is_lost_is_told_in_one_line() {
+fn an_invariant_that_is_lost_is_reported_in_one_line() {
     let coarse = ["--method", "leapfrog", "--step", "2.5", "--until", "100"];
     let done = run(&coarse);
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -458,7 +458,7 @@ fn an_invariant_that_is_lost_is_told_in_one_line() {
 }
 
 #[test]
-fn a_symplectic_swing_is_told_as_what_it_is() {
+fn a_symplectic_swing_is_reported_as_what_it_is() {
     let done = run(&["--method", "leapfrog", "--step", "0.1", "--until", "60", "--strict"]);
     assert_eq!(done.code, 1, "{}", done.stderr);
     told(&done, &["`energy` swings without trend, by "]);
@@ -534,7 +534,7 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
 }
 
 #[test]
-fn a_step_beyond_what_is_stable_is_told() {
+fn a_step_beyond_what_is_stable_is_reported() {
     // small swings of frequency 1: the leapfrog's limit is 2
     let run = |step: &str| run(&["--until", "20", "--method", "leapfrog", "--step", step]);
     let done = run("2.5");

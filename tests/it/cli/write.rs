@@ -34,7 +34,7 @@ fn a_failure_leaves_the_old_file_alone() {
 }
 
 #[test]
-fn what_is_replaced_is_told() {
+fn what_is_replaced_is_reported() {
     let home = folder();
     let run = || done(program(home.path()).args(["run", "system.toml", "-o", "out.csv"]));
     let told = |done: super::Done| (done.code, done.stdout, done.stderr);

@@ -6,9 +6,9 @@ use std::thread;
 use std::time::Duration;
 
 use phaselab::cancel::Cancel;
-use phaselab::experiment::Ready;
+use phaselab::diagnostic::Document;
+use phaselab::experiment::Prepared;
 use phaselab::expr::{Pool, Zero};
-use phaselab::preset::Document;
 
 /// A chain of pendulums, which takes minutes to derive where it has many links.
 fn chain(links: usize) -> Document {
@@ -33,7 +33,7 @@ fn chain(links: usize) -> Document {
 fn what_is_cancelled_before_it_begins_is_not_begun() {
     let cancel = Cancel::new();
     cancel.cancel();
-    let unready = Ready::with(&chain(64), &cancel).err().expect("nobody wants it");
+    let unready = Prepared::with(&chain(64), &cancel).err().expect("nobody wants it");
     assert!(unready.report.contains("stopped before it was ready"), "{}", unready.report);
 }
 
@@ -44,7 +44,7 @@ fn a_derivation_ends_soon_after_it_is_cancelled() {
         let (told, ended) = channel();
         let token = cancel.clone();
         thread::spawn(move || {
-            let _ = told.send(Ready::with(&chain(links), &token).is_err());
+            let _ = told.send(Prepared::with(&chain(links), &token).is_err());
         });
         thread::sleep(Duration::from_millis(700));
         cancel.cancel();

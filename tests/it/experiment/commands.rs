@@ -1,7 +1,7 @@
 //! What each command does.
 
 use phaselab::experiment::{Command, Experiment, Status};
-use phaselab::system::Given;
+use phaselab::system::InitialOverride;
 
 use super::{build, gauge, run, shipped, value};
 
@@ -12,7 +12,7 @@ fn parameter(experiment: &Experiment, name: &str) -> usize {
 
 fn set(experiment: &mut Experiment, name: &str, value: f64) {
     let index = parameter(experiment, name);
-    experiment.obey(Command::Parameter { index, value });
+    experiment.execute(Command::Parameter { index, value });
 }
 
 /// Every channel's value, bit by bit.
@@ -48,12 +48,12 @@ fn gauges_start_anew_after_a_parameter_and_say_by_how_much_the_energy_jumped() {
     let energy = gauge(&snapshot, "energy");
     assert_eq!((energy.reference_time, energy.drift), (2.0, 0.0));
     assert!((energy.reference - before).abs() > 0.1);
-    let notice = snapshot.notices.last().expect("the jump is told");
+    let notice = snapshot.notices.last().expect("the jump is reported");
     assert!(notice.starts_with("g: energy jumped by "), "{notice}");
 }
 
 #[test]
-fn a_parameter_turned_on_and_on_is_told_once() {
+fn a_parameter_turned_on_and_on_is_reported_once() {
     let mut pendulum = shipped("pendulum");
     for k in 0..50 {
         run(&mut pendulum, 0.01 * f64::from(k + 1));
@@ -87,7 +87,7 @@ fn a_reset_is_the_beginning_again_bit_by_bit() {
     let first = bits(&system);
     run(&mut system, 7.0);
     let later = bits(&system);
-    system.obey(Command::Reset);
+    system.execute(Command::Reset);
     assert_eq!((system.time(), bits(&system)), (0.0, first));
     assert_eq!(system.snapshot().trail.len(), 1);
     run(&mut system, 7.0);
@@ -101,11 +101,11 @@ fn a_reset_keeps_parameters_and_a_full_reset_does_not() {
     set(&mut pendulum, "theta0", 1.0);
     assert_eq!(value(&pendulum, "theta"), 2.0, "the state is left alone");
     assert_eq!(pendulum.snapshot().initial[0], 1.0, "the next reset takes it");
-    pendulum.obey(Command::Initial { index: 1, value: 0.5 });
+    pendulum.execute(Command::Initial { index: 1, value: 0.5 });
     assert_eq!((value(&pendulum, "theta"), value(&pendulum, "theta'")), (1.0, 0.5));
-    pendulum.obey(Command::Reset);
+    pendulum.execute(Command::Reset);
     assert_eq!((value(&pendulum, "theta"), value(&pendulum, "theta'")), (1.0, 0.5));
-    pendulum.obey(Command::FullReset);
+    pendulum.execute(Command::FullReset);
     assert_eq!(bits(&pendulum), first);
 }
 
@@ -113,13 +113,13 @@ fn a_reset_keeps_parameters_and_a_full_reset_does_not() {
 fn an_initial_value_starts_again_from_it() {
     let mut system = shipped("henon-heiles");
     run(&mut system, 3.0);
-    system.obey(Command::Initial { index: 3, value: 0.125 });
+    system.execute(Command::Initial { index: 3, value: 0.125 });
     assert_eq!((system.time(), value(&system, "p_y")), (0.0, 0.125));
     assert_eq!(system.snapshot().initial[3], 0.125);
-    system.obey(Command::Initial { index: 3, value: 0.25 });
+    system.execute(Command::Initial { index: 3, value: 0.25 });
     assert_eq!(system.snapshot().initial[3], 0.25);
-    system.obey(Command::Initial { index: 99, value: 0.0 });
-    system.obey(Command::Initial { index: 0, value: f64::NAN });
+    system.execute(Command::Initial { index: 99, value: 0.0 });
+    system.execute(Command::Initial { index: 0, value: f64::NAN });
     assert_eq!(system.snapshot().initial[3], 0.25);
     assert_eq!(system.snapshot().notices.len(), 2);
 }
@@ -128,19 +128,19 @@ fn an_initial_value_starts_again_from_it() {
 fn a_single_step_is_a_frame_at_the_present_speed() {
     let mut pendulum = shipped("pendulum");
     assert_eq!(pendulum.status(), Status::Running);
-    pendulum.obey(Command::Speed(3.0));
-    pendulum.obey(Command::Step(1));
+    pendulum.execute(Command::Speed(3.0));
+    pendulum.execute(Command::Step(1));
     assert_eq!(pendulum.status(), Status::Paused);
     assert!((pendulum.time() - 0.05).abs() < 1e-15);
-    pendulum.obey(Command::Speed(f64::INFINITY));
-    pendulum.obey(Command::Step(6));
+    pendulum.execute(Command::Speed(f64::INFINITY));
+    pendulum.execute(Command::Step(6));
     assert!((pendulum.time() - 0.15).abs() < 1e-15, "at the file's speed: {}", pendulum.time());
-    pendulum.obey(Command::Play);
+    pendulum.execute(Command::Play);
     assert_eq!(pendulum.status(), Status::Running);
 }
 
 #[test]
-fn what_makes_no_sense_is_told_and_changes_nothing() {
+fn what_makes_no_sense_is_reported_and_changes_nothing() {
     let mut pendulum = shipped("pendulum");
     run(&mut pendulum, 1.0);
     let before = bits(&pendulum);
@@ -153,10 +153,10 @@ fn what_makes_no_sense_is_told_and_changes_nothing() {
         Command::Method("eular".to_owned()),
     ];
     for (k, command) in wrong.into_iter().enumerate() {
-        pendulum.obey(command.clone());
+        pendulum.execute(command.clone());
         assert_eq!(pendulum.snapshot().notices.len(), k + 1, "{command:?}");
     }
-    pendulum.obey(Command::Parameter { index: 99, value: 1.0 });
+    pendulum.execute(Command::Parameter { index: 99, value: 1.0 });
     assert_eq!((bits(&pendulum), pendulum.speed()), (before, 1.0));
 }
 
@@ -164,7 +164,7 @@ fn what_makes_no_sense_is_told_and_changes_nothing() {
 fn a_reference_is_taken_when_asked_for() {
     let mut pendulum = shipped("damped-pendulum");
     run(&mut pendulum, 3.0);
-    pendulum.obey(Command::Reference);
+    pendulum.execute(Command::Reference);
     let energy = gauge(&pendulum.snapshot(), "energy");
     assert_eq!((energy.reference_time, energy.drift, energy.max_drift), (3.0, 0.0, 0.0));
     run(&mut pendulum, 4.0);
@@ -185,7 +185,7 @@ L = "1/2*x'^2 + k/x"
 
 fn fault(experiment: &Experiment) -> Option<f64> {
     match experiment.status() {
-        Status::Faulted(fault) => {
+        Status::Failed(fault) => {
             assert!(!fault.message.is_empty());
             Some(fault.time)
         }
@@ -202,7 +202,7 @@ fn a_fault_is_data_and_a_reset_goes_on() {
     let snapshot = fall.snapshot();
     assert!(snapshot.values.iter().take(4).all(|x| x.is_finite()), "the last good state is shown");
     assert!(snapshot.trail.len() > 50, "and the way there");
-    fall.obey(Command::Reset);
+    fall.execute(Command::Reset);
     assert_eq!((fault(&fall), fall.time()), (None, 0.0));
     run(&mut fall, 0.5);
 }
@@ -223,7 +223,7 @@ fn a_parameter_can_lead_out_of_a_fault() {
 #[test]
 fn a_motion_that_cannot_begin_waits_for_better_values() {
     let text = FALL.replace("1/2*x'^2", "1/2*k*x'^2").replace("k = 1.0", "k = 0.0");
-    let given = Given::Momentum(0, 3.0);
+    let given = InitialOverride::Momentum(0, 3.0);
     let mut system = build(&text, |setup| setup.given.push(given));
     assert!(fault(&system).is_some());
     assert!(system.snapshot().values.iter().all(|x| x.is_nan()));
@@ -240,7 +240,7 @@ fn a_reset_into_a_fault_is_not_mistaken_for_the_motion_before() {
     run(&mut system, 0.5);
     set(&mut system, "h", -1.0);
     assert_eq!(fault(&system), None, "the motion goes on");
-    system.obey(Command::Reset);
+    system.execute(Command::Reset);
     assert!(fault(&system).is_some());
     set(&mut system, "k", 2.0);
     assert!(fault(&system).is_some(), "there is still nothing to begin with");

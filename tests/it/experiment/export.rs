@@ -1,13 +1,14 @@
 //! The present as a file: what is written begins where the motion is, and says what was changed.
 
-use phaselab::experiment::{Command, Experiment, Export, Ready};
-use phaselab::preset::{Catalog, Document};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Command, Experiment, Export, Prepared};
+use phaselab::preset::Catalog;
 use phaselab::system::ChannelKind;
 
 use super::{PLENTY, run};
 
 fn opened(document: &Document) -> Experiment {
-    Ready::of(document).unwrap_or_else(|why| panic!("{why}\n{}", document.text)).experiment
+    Prepared::of(document).unwrap_or_else(|why| panic!("{why}\n{}", document.text)).experiment
 }
 
 fn exported(document: &Document, experiment: &Experiment) -> Export {
@@ -59,10 +60,10 @@ fn every_changed_value_is_in_it_and_the_rest_is_as_it_was_written() {
     let mut pendulum = opened(&document);
     run(&mut pendulum, 1.25);
     let index = pendulum.model().parameter("g").expect("it is there");
-    pendulum.obey(Command::Parameter { index, value: 1.62 });
-    pendulum.obey(Command::Speed(2.0));
-    pendulum.obey(Command::Method("dop853".to_owned()));
-    pendulum.obey(Command::Tolerance(1e-9));
+    pendulum.execute(Command::Parameter { index, value: 1.62 });
+    pendulum.execute(Command::Speed(2.0));
+    pendulum.execute(Command::Method("dop853".to_owned()));
+    pendulum.execute(Command::Tolerance(1e-9));
     let export = exported(&document, &pendulum);
     let written = Document::new("written.toml", export.text.as_str());
     let again = opened(&written).snapshot();
@@ -84,7 +85,7 @@ fn a_file_written_otherwise_is_understood() {
     let document = Document::new("own.toml", FILE);
     let mut left = opened(&document);
     run(&mut left, 0.5);
-    left.obey(Command::Parameter { index: 0, value: 9.0 });
+    left.execute(Command::Parameter { index: 0, value: 9.0 });
     let text = exported(&document, &left).text;
     assert!(text.starts_with("# my own\n") && text.contains("# at rest"), "{text}");
     let again = opened(&Document::new("own.toml", text.as_str()));
@@ -93,7 +94,7 @@ fn a_file_written_otherwise_is_understood() {
 }
 
 #[test]
-fn what_a_file_cannot_say_is_told() {
+fn what_a_file_cannot_say_is_reported() {
     let document = shipped("smooth-sphere");
     let mut sphere = opened(&document);
     while sphere.snapshot().released.is_empty() {
@@ -119,7 +120,7 @@ fn what_is_expected_and_still_holds_is_kept() {
     let kept = &export.text;
     // the same system passes the turning point all the same, and its stiffness is what it was
     assert!(kept.contains("turn") && kept.contains("stiffness"), "{kept}");
-    left.obey(Command::Parameter { index: 0, value: 9.0 });
+    left.execute(Command::Parameter { index: 0, value: 9.0 });
     let export = exported(&document, &left);
     let export = export.with_what_holds(&document).expect("it can be opened");
     let kept = &export.text;

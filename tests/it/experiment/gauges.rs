@@ -167,9 +167,9 @@ fn terms_may_grow_while_a_value_is_kept() {
     assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
 }
 
-/// What a blow gives is no drift, and the value at the start is told as it was.
+/// What an impulse gives is no drift, and the value at the start is reported as it was.
 #[test]
-fn a_blow_moves_the_reference_and_not_the_initial_value() {
+fn an_impulse_moves_the_reference_and_not_the_initial_value() {
     let mut rotor = shipped("kicked-rotor");
     let first = gauge(&rotor.snapshot(), "energy");
     run(&mut rotor, 5.5);

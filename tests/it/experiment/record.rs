@@ -14,9 +14,9 @@ fn the_same_commands_give_the_same_bits() {
     let drive = || {
         let mut system = shipped("double-pendulum");
         run(&mut system, 2.0);
-        system.obey(Command::Parameter { index: 0, value: 1.5 });
+        system.execute(Command::Parameter { index: 0, value: 1.5 });
         run(&mut system, 4.0);
-        system.obey(Command::Initial { index: 0, value: 1.0 });
+        system.execute(Command::Initial { index: 0, value: 1.0 });
         run(&mut system, 3.0);
         system
     };
@@ -68,8 +68,8 @@ fn rows_rise_in_time_and_lie_within_the_bounds() {
 fn a_curve_is_smooth_at_every_speed() {
     for speed in [0.01, 1.0, 1e3, f64::INFINITY] {
         let mut system = shipped("harmonic-oscillator");
-        system.obey(Command::Speed(speed));
-        system.obey(Command::Reset);
+        system.execute(Command::Speed(speed));
+        system.execute(Command::Reset);
         run(&mut system, 30.0);
         let trail = system.snapshot().trail;
         let times: Vec<f64> = trail.rows().map(|row| row[0]).collect();
@@ -101,7 +101,7 @@ fn a_motion_that_is_a_polynomial_is_not_over_in_one_row() {
     let mut system = build(text, |_| ());
     run(&mut system, 100.0);
     assert!(system.snapshot().trail.len() > 1000);
-    system.obey(Command::Speed(f64::INFINITY));
+    system.execute(Command::Speed(f64::INFINITY));
     assert_eq!(system.advance(f64::INFINITY, 1000), Progress::Underway);
     assert!(system.time().is_finite());
 }

@@ -198,7 +198,7 @@ fn beyond_a_tenth_of_what_moves_a_quantity_is_lost() {
 }
 
 #[test]
-fn beyond_a_millionth_of_what_moves_it_is_told() {
+fn beyond_a_millionth_of_what_moves_it_is_reported() {
     let (kept, left) = (leaving(0.99e-6), leaving(1.01e-6));
     assert_eq!(kept.left, None, "{kept:?}");
     assert!(left.left.is_some_and(|since| (0.9..=1.0).contains(&since)), "{left:?}");

@@ -1,9 +1,9 @@
 //! What is conserved, what is not, and what is not known: by proof, whatever the units, wherever a
 //! force hides.
 
+use phaselab::diagnostic::Document;
 use phaselab::mechanics::{self, Class, Equations, Reason};
 use phaselab::model::Model;
-use phaselab::preset::Document;
 
 fn derived(text: &str) -> (Model, Equations) {
     let document = Document::new("system.toml", text);

@@ -1,7 +1,7 @@
 //! Where p = ∂L/∂q̇ is not one-to-one: a motion stays on the branch its velocity is on.
 
 use phaselab::integrate::Settings;
-use phaselab::system::{FaultKind, Form, Given};
+use phaselab::system::{Form, InitialOverride, MotionErrorKind};
 
 use crate::build::{hamiltonian, lagrangian};
 
@@ -55,7 +55,8 @@ fn where_the_branch_ends_the_motion_does() {
 #[test]
 fn momenta_that_belong_to_several_velocities_are_refused() {
     let case = branched(1.5);
-    let start = |p: f64| case.system.initial(0.0, &case.parameters, &[Given::Momentum(0, p)]);
+    let start =
+        |p: f64| case.system.initial(0.0, &case.parameters, &[InitialOverride::Momentum(0, p)]);
     let message = start(0.1).expect_err("three roots").to_string();
     for root in ["0.9456492739235914", "0.10103125788101082", "1.046680531804602"] {
         assert!(message.contains(root), "{message}");
@@ -69,7 +70,7 @@ fn momenta_that_belong_to_several_velocities_are_refused() {
             assert!((v * v * v - v - 0.386).abs() < 1e-15, "{v}");
         }
         // from rest the iteration is caught where the branches end, and says that it found nothing
-        Err(fault) => assert_eq!(fault.kind, FaultKind::NoVelocities),
+        Err(fault) => assert_eq!(fault.kind, MotionErrorKind::NoVelocities),
     }
 }
 
@@ -77,7 +78,7 @@ fn momenta_that_belong_to_several_velocities_are_refused() {
 fn velocities_that_belong_to_several_momenta_are_refused() {
     let h = hamiltonian(&["x"], &[], "p_x^4/4 - p_x^2/2 + x^2/2");
     let case = case(h, Form::Momentum, &[0.3, 1.5]);
-    let start = |v: f64| case.system.initial(0.0, &[], &[Given::Velocity(0, v)]);
+    let start = |v: f64| case.system.initial(0.0, &[], &[InitialOverride::Velocity(0, v)]);
     assert!(start(0.1).is_err());
     assert!(start(0.5).is_ok());
 }
@@ -86,7 +87,7 @@ fn velocities_that_belong_to_several_momenta_are_refused() {
 fn a_velocity_that_is_exactly_zero_is_found() {
     let l = "3/4*a'^2 + 4/25*b'^2 + 2/5*a'*b'*cos(a - b)";
     let case = case(lagrangian(&["a", "b"], &[], l), Form::Velocity, &[0.0; 4]);
-    let given = [Given::Momentum(0, 0.5), Given::Momentum(1, 0.4)];
+    let given = [InitialOverride::Momentum(0, 0.5), InitialOverride::Momentum(1, 0.4)];
     let start = case.system.initial(0.0, &case.parameters, &given).expect("found");
     assert!(start.values[2].abs() < 1e-30, "{}", start.values[2]);
     assert_eq!(start.values[3], 1.25);
@@ -94,7 +95,7 @@ fn a_velocity_that_is_exactly_zero_is_found() {
     let l = "1/2*(x'^2 + y'^2 + x'*y') + y'^4/4";
     let case = self::case(lagrangian(&["x", "y"], &[], l), Form::Velocity, &[0.0; 4]);
     // with x' = 0, p_x = y'/2 and p_y = y' + y'³
-    let given = [Given::Momentum(0, 0.5), Given::Momentum(1, 2.0)];
+    let given = [InitialOverride::Momentum(0, 0.5), InitialOverride::Momentum(1, 2.0)];
     let start = case.system.initial(0.0, &case.parameters, &given).expect("found");
     assert!(start.values[2].abs() < 1e-25, "{}", start.values[2]);
     assert_eq!(start.values[3], 1.0);

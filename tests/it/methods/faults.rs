@@ -1,7 +1,7 @@
 //! What a method cannot do, and how it says so.
 
 use phaselab::integrate::{METHODS, Settings, Stepping};
-use phaselab::system::{FaultKind, Form};
+use phaselab::system::{Form, MotionErrorKind};
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
 
@@ -161,7 +161,7 @@ fn every_method_stops_where_somebody_asks() {
         stepper.step(1.0).expect("goes on");
         case.system.cancel().cancel();
         let fault = stepper.step(1.0).expect_err("stops");
-        assert_eq!(fault.kind, FaultKind::Cancelled, "{}", method.name);
+        assert_eq!(fault.kind, MotionErrorKind::Cancelled, "{}", method.name);
     }
 }
 

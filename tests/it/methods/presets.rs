@@ -6,7 +6,7 @@
 //! no memory of rounding. Only the coefficients are the program's, which other tests hold against the order conditions.
 
 use phaselab::experiment::Setup;
-use phaselab::integrate::{METHODS, Motion, Reached, Settings, method_named};
+use phaselab::integrate::{METHODS, Propagator, Reached, Settings, method_named};
 use phaselab::mechanics;
 use phaselab::preset::Catalog;
 use phaselab::system::{Rates, State, System};
@@ -93,8 +93,8 @@ fn by(
 ) -> Result<State, String> {
     let method = method_named(method).expect("in the table");
     let settings = Settings { step: None, tolerance };
-    let mut motion =
-        Motion::new(system, method, settings, &setup.parameters).map_err(|why| why.to_string())?;
+    let mut motion = Propagator::new(system, method, settings, &setup.parameters)
+        .map_err(|why| why.to_string())?;
     motion.begin(start, &setup.parameters).map_err(|fault| fault.to_string())?;
     let mut budget = 200_000;
     loop {
@@ -134,11 +134,11 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
         let end = ahead.time();
         let exact =
             by(&system, &setup, &start, "taylor", None, end).expect("the default method goes on");
-        // the other one knows no constraints, blows or events; there the tolerance itself is the measure
-        let occasions = system.occasions();
+        // the other one knows no constraints, impulses or events; there the tolerance itself is the measure
+        let discontinuities = system.discontinuities();
         let is_plain = system.constraints() == 0
-            && occasions.events.is_empty()
-            && occasions.impulses.is_empty();
+            && discontinuities.events.is_empty()
+            && discontinuities.impulses.is_empty();
         for tolerance in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
             let ours = match by(&system, &setup, &start, "dop853", Some(tolerance), end) {
                 Ok(state) => apart(&state.values, &exact.values, system.moving()),

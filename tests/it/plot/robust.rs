@@ -3,7 +3,7 @@
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{Axes, Axis, Bounds, Camera, Frame, Marker, Pen, Raster, Scale};
-use phaselab::view::strip::{History, RangeBar};
+use phaselab::view::sparkline::{History, RangeBar};
 use phaselab::view::theme::{Role, Theme};
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;

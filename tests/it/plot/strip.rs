@@ -2,7 +2,7 @@
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::Scale;
-use phaselab::view::strip::{History, RangeBar};
+use phaselab::view::sparkline::{History, RangeBar};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};

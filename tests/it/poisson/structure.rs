@@ -5,14 +5,14 @@ use phaselab::{mechanics, preset};
 
 use super::{BODY, LOTKA_VOLTERRA, TOP};
 
-/// What is told of a file's brackets and Casimirs, each with the text at its place.
+/// What is reported of a file's brackets and Casimirs, each with the text at its place.
 fn told(text: &str) -> Vec<String> {
     let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = mechanics::derive(&model).expect("derivable");
     let found = flaws(&model, &equations);
     let claims = false_claims(&model, &equations);
     assert_eq!(found.is_empty(), claims.is_empty(), "{claims:?}");
-    let line = |m: &preset::Mistake| {
+    let line = |m: &diagnostic::Diagnostic| {
         let place = &text[m.place.clone()];
         format!("{place}: {}; {}", m.message, m.help.as_deref().unwrap_or(""))
     };
@@ -55,7 +55,7 @@ fn the_triple_that_fails_is_named_where_the_brackets_stand() {
 }
 
 #[test]
-fn a_false_casimir_is_told_with_the_bracket_that_does_not_vanish() {
+fn a_false_casimir_is_reported_with_the_bracket_that_does_not_vanish() {
     let casimir = "\"|L|²\" = \"L1^2 + L2^2 + L3^2\"";
     let all = told(&BODY.replace(casimir, "C = \"L1^2 + 2*L2^2 + L3^2\""));
     assert_eq!(

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use phaselab::expr::{Expr, Number};
+use phaselab::diagnostic::{Severity, report};
+use phaselab::expr::Expr;
 use phaselab::model::{Mechanics, Model, Scale, Shape, ViewKind};
-use phaselab::preset::{Catalog, Checked, Origin, Severity, read, report};
+use phaselab::num::Number;
+use phaselab::preset::{Catalog, Checked, Origin, read};
 
 use super::GOOD;
 
@@ -44,8 +46,9 @@ fn every_shipped_preset_can_be_read() {
         match document.read() {
             Err(mistakes) => panic!("{}", document.report(&mistakes, false)),
             Ok(Checked { model, warnings }) => {
-                let meant =
-                    |m: &&phaselab::preset::Mistake| !m.message.contains("not supported yet");
+                let meant = |m: &&phaselab::diagnostic::Diagnostic| {
+                    !m.message.contains("not supported yet")
+                };
                 let unmeant: Vec<_> = warnings.iter().filter(meant).cloned().collect();
                 assert!(unmeant.is_empty(), "{}", document.report(&unmeant, false));
                 assert_eq!(model.info.title, entry.info.title);

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use phaselab::preset::{Catalog, Document, Mistake, TEXT_LIMIT, read, report};
+use phaselab::diagnostic::{Diagnostic, Document, report};
+use phaselab::preset::{Catalog, TEXT_LIMIT, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -98,7 +99,7 @@ proptest! {
 }
 
 /// The only mistake of a text.
-fn only(text: &str) -> Mistake {
+fn only(text: &str) -> Diagnostic {
     let mistakes = read(text).unwrap_err();
     assert_eq!(mistakes.len(), 1, "{}", report(text, "test.toml", &mistakes, false));
     mistakes[0].clone()
@@ -149,7 +150,7 @@ fn a_mebibyte_of_terms_is_read() {
 }
 
 #[test]
-fn a_mebibyte_of_mistakes_is_told_in_a_hundred() {
+fn a_mebibyte_of_mistakes_is_reported_in_a_hundred() {
     let text = filled(|i| format!("y{i}+")).replace("+\"", "\"");
     let mistakes = read(&text).unwrap_err();
     assert_eq!(mistakes.len(), 100);
@@ -163,7 +164,7 @@ fn a_mebibyte_of_mistakes_is_told_in_a_hundred() {
 }
 
 #[test]
-fn long_names_are_told_shortened() {
+fn long_names_are_reported_shortened() {
     let text = GOOD.replace('k', &"k".repeat(100_000)).replace("x^2", "x^2*y");
     assert_eq!(only(&text).message, "the name `y` is not known here");
     let text = GOOD.replace("k*x", &"k".repeat(100_000));

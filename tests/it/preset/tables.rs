@@ -102,11 +102,11 @@ fn lambda_is_a_name_like_others_without_constraints() {
 }
 
 #[test]
-fn blows_strike_at_times_at_intervals_or_by_hand() {
+fn impulses_strike_at_times_at_intervals_or_by_hand() {
     let text_of = with(
         r#"
 [[impulses]]
-name = "blow"
+name = "impulse"
 at = [2.0, "3*m"]
 change = { p_x = "k*x' + t" }
 about = "a hammer"
@@ -133,11 +133,11 @@ change = { p_x = "k" }
             (i.name.as_str(), times, period, text(&model, i.change[0]))
         })
         .collect();
-    let (blow, kick) = (vec!["2".to_owned(), "3*m".to_owned()], Some("2*m".to_owned()));
+    let (impulse, kick) = (vec!["2".to_owned(), "3*m".to_owned()], Some("2*m".to_owned()));
     assert_eq!(
         written,
         [
-            ("blow", blow, None, "k*x' + t".to_owned()),
+            ("impulse", impulse, None, "k*x' + t".to_owned()),
             ("once", vec!["1".to_owned()], None, "1".to_owned()),
             ("kick", vec![], kick, "-x".to_owned()),
             ("by hand", vec![], None, "k".to_owned()),
@@ -151,7 +151,7 @@ fn an_event_watches_and_acts() {
     let file = format!(
         r#"{HOOP}
 [[impulses]]
-name = "blow"
+name = "impulse"
 change = {{ p_x = 1 }}
 [[observables]]
 name = "height"
@@ -168,7 +168,7 @@ action = "release:no slip"
 name = "wall"
 when = "p_x - energy"
 direction = "rising"
-action = "impulse: blow"
+action = "impulse: impulse"
 [[events]]
 name = "end"
 when = "t - 3"
@@ -192,9 +192,9 @@ action = "stop"
     assert_eq!(&file[model.events[1].place.clone()], "\"lambda_no_slip\"");
 }
 
-/// A blow before the start, or at it, is allowed, and probably not meant.
+/// An impulse before the start, or at it, is allowed, and probably not meant.
 #[test]
-fn a_blow_that_is_not_after_the_start_is_a_warning() {
+fn an_impulse_that_is_not_after_the_start_is_a_warning() {
     for (at, place) in [("-1", "before the start"), ("0", "the start itself")] {
         let file =
             with(&format!("[[impulses]]\nname = \"b\"\nat = [{at}]\nchange = {{ p_x = 1 }}"));
@@ -237,7 +237,7 @@ expression = "L1' + L1'' + C"
 conserves = ["energy", "|L|²", "C", "L1^2 + L2^2 + L3^2"]
 
 [[impulses]]
-name = "blow"
+name = "impulse"
 change = { L1 = "L2 + t" }
 "#;
 

@@ -2,7 +2,7 @@
 //! program's own methods are held against.
 
 use super::case::Case;
-use super::oracle::{rates, struck};
+use super::oracle::{after_impulse, rates};
 use super::tree::Branches;
 
 /// Columns of the table: the last is of order 12.
@@ -63,7 +63,7 @@ pub(crate) fn follow(
         if stopped {
             return Ok(Arrival { time, state, stopped, way });
         }
-        state = struck(case, time, &state, i, by).ok_or(Lost::NotFinite)?;
+        state = after_impulse(case, time, &state, i, by).ok_or(Lost::NotFinite)?;
     }
     let stopped = walker.to(&mut time, &mut state, case.length, &mut way)?;
     Ok(Arrival { time, state, stopped, way })

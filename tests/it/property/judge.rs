@@ -8,10 +8,10 @@ use std::time::Duration;
 
 use phaselab::analysis::false_claims;
 use phaselab::cancel::Cancel;
+use phaselab::diagnostic::{Document, Severity};
 use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::{Document, Severity};
-use phaselab::system::{ChannelKind, Given, System};
+use phaselab::system::{ChannelKind, InitialOverride, System};
 
 use super::case::{Case, Law};
 use super::extrapolation::{Arrival, Lost, follow};
@@ -68,8 +68,8 @@ impl fmt::Display for Failure {
 pub(crate) enum Outcome {
     /// Completed and accurate.
     Accurate,
-    /// A fault with its place, where the motion indeed cannot go on or be told.
-    Faulted,
+    /// A fault with its place, where the motion indeed cannot go on or be reported.
+    Failed,
     /// The method does not fit and says so.
     Unfit,
     /// The judge cannot tell.
@@ -169,7 +169,7 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
     let units = case.state_units();
     let given = case.by_momentum.iter().map(|&i| {
         let p = momentum(case, 0.0, &case.start, i);
-        Given::Momentum(i, p * case.units.energy * case.units.time / units[i])
+        InitialOverride::Momentum(i, p * case.units.energy * case.units.time / units[i])
     });
     let setup = Setup {
         end: Some(end),
@@ -192,7 +192,7 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
         }
     };
     let reached = match experiment.status() {
-        Status::Faulted(fault) => End::Fault(fault.message),
+        Status::Failed(fault) => End::Fault(fault.message),
         _ => reached,
     };
     let snapshot = experiment.snapshot();
@@ -267,7 +267,7 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
 }
 
 /// How far a run may be from the truth beyond which the judge says nothing.
-const UNTOLD: f64 = 0.01;
+const UNREPORTED: f64 = 0.01;
 
 fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome {
     let known = know(case, budget);
@@ -280,7 +280,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
             return failed(Kind::NoPlace, message);
         }
         if message.contains("belongs to several starts") {
-            return Outcome::Faulted;
+            return Outcome::Failed;
         }
         if told.time == 0.0 && told.check.is_empty() && case.by_momentum.is_empty() {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
@@ -290,13 +290,13 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         Ok(known) => known,
         Err(Lost::AtStart) => {
             return match told.end {
-                End::Fault(_) => Outcome::Faulted,
+                End::Fault(_) => Outcome::Failed,
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
         Err(why) => {
             return match (told.end, why) {
-                (End::Fault(_), _) => Outcome::Faulted,
+                (End::Fault(_), _) => Outcome::Failed,
                 (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
                 (_, Lost::TooLong) => Outcome::Undecided("too long"),
                 (_, _) => Outcome::Undecided("a kink that holds"),
@@ -312,7 +312,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         End::Fault(message) if !message.contains("passes it") => {
             return failed(Kind::Unhelpful, message);
         }
-        End::Fault(_) => return Outcome::Faulted,
+        End::Fault(_) => return Outcome::Failed,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
             let message = format!("{} steps to t = {}", told.steps, told.time);
             return failed(Kind::Slow, message);
@@ -337,7 +337,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
     let room = if case.method == "dop853" { 30.0 } else { 100.0 };
     let steps = (10 + told.steps) as f64;
     let allowed = 1e-11 + room * steps * asked * known.growth + 10.0 * known.error;
-    if allowed.is_nan() || allowed > UNTOLD {
+    if allowed.is_nan() || allowed > UNREPORTED {
         return Outcome::Undecided("too sensitive");
     }
     if matches!(told.end, End::Stopped) != known.arrival.stopped {
@@ -388,7 +388,7 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     if drift > 1e-3 && said < 0.1 * drift {
         return wrong(
             Kind::Silent,
-            format!("the energy is off by {drift:.1e}, {said:.1e} is told"),
+            format!("the energy is off by {drift:.1e}, {said:.1e} is reported"),
         );
     }
     if drift.is_nan() || drift > 0.3 && ["exact", "bounded"].contains(&gauge.word) {
@@ -424,21 +424,21 @@ fn twin_failure(
         return None;
     }
     let wrong = |message: String| Some(Failure { kind: Kind::UnitsMatter, message });
-    let Ok(twin) = run(&natural, budget, cancel) else {
+    let Ok(vakonomic) = run(&natural, budget, cancel) else {
         return wrong("the twin is refused".to_owned());
     };
-    if twin.conserved != told.conserved {
-        let (here, there) = (told.conserved.join(", "), twin.conserved.join(", "));
+    if vakonomic.conserved != told.conserved {
+        let (here, there) = (told.conserved.join(", "), vakonomic.conserved.join(", "));
         return wrong(format!("conserved are {here}; in natural units {there}"));
     }
-    let off = distance(&twin.state, &told.state);
+    let off = distance(&vakonomic.state, &told.state);
     if off.is_nan() || off > 2.0 * allowed {
         return wrong(format!("off by {off:.1e} in natural units"));
     }
     // where drifts are those of rounding a word may change with the digits
     let differs =
         |(a, b): &(&Gauge, &Gauge)| a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10;
-    let pairs = told.gauges.iter().zip(&twin.gauges);
+    let pairs = told.gauges.iter().zip(&vakonomic.gauges);
     let (a, b) = pairs.into_iter().find(differs)?;
     wrong(format!("`{}` is {} and in natural units {}", a.name, a.word, b.word))
 }

@@ -167,7 +167,13 @@ pub(crate) fn momentum(case: &Case, time: f64, state: &[f64], i: usize) -> f64 {
 }
 
 /// The state after the momentum of a coordinate has jumped; none where the velocities are not found.
-pub(crate) fn struck(case: &Case, time: f64, state: &[f64], i: usize, by: f64) -> Option<Vec<f64>> {
+pub(crate) fn after_impulse(
+    case: &Case,
+    time: f64,
+    state: &[f64],
+    i: usize,
+    by: f64,
+) -> Option<Vec<f64>> {
     let n = case.count();
     let mut after = state.to_vec();
     if case.law != Law::Lagrangian {

@@ -1,5 +1,5 @@
 //! Expressions as trees: written in the file's language in any units, and valued with derivatives. Kinks take the branch
-//! they are told.
+//! they are reported.
 
 use std::fmt::Write as _;
 

@@ -1,7 +1,7 @@
 //! The demos that are part of the program: what they claim is true, and they are the same every time.
 
 use phaselab::preset::{Catalog, demo, demos};
-use phaselab::record::cast::{Version, write};
+use phaselab::record::cast_writer::{Version, write};
 use phaselab::record::script::Step;
 
 use super::{replay, script, shipped};

@@ -1,8 +1,8 @@
 //! Performances: the same as recordings, at the pace of whoever watches.
 
 use phaselab::preset::Catalog;
-use phaselab::record::Performance;
-use phaselab::view::Look;
+use phaselab::record::ScriptRunner;
+use phaselab::view::RenderStyle;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 
@@ -11,15 +11,19 @@ use super::{played, script};
 const SCRIPT: &str = "Size 90x28\nCaption \"It swings\"\nPress Down x2\nSweep g to 20 in 1s\n\
                       Marker \"Middle\"\nWait 1s\nAssert g = 1 within 0\nPress 2\nWait 0.5s";
 
-fn performance(text: &str) -> (Performance, Look) {
+fn performance(text: &str) -> (ScriptRunner, RenderStyle) {
     let system = Catalog::with_folder(None).find("pendulum").expect("a preset");
     let script = script(text);
     let look = script.head.look();
-    (Performance::watched(script, &system, "pendulum").expect("it can be opened"), look)
+    (ScriptRunner::watched(script, &system, "pendulum").expect("it can be opened"), look)
 }
 
 /// Goes on to a time in frames that come when they come; the screen then, if there is more to come.
-fn watched(it: &mut Performance, look: &Look, times: impl Iterator<Item = u64>) -> (Buffer, bool) {
+fn watched(
+    it: &mut ScriptRunner,
+    look: &RenderStyle,
+    times: impl Iterator<Item = u64>,
+) -> (Buffer, bool) {
     let mut screen = Buffer::empty(Rect::new(0, 0, 90, 28));
     let mut more = true;
     for time in times {

@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use phaselab::app::{Code, Key};
-use phaselab::record::Tape;
-use phaselab::shell::{Input, Page, Projector, Wish};
-use phaselab::view::Look;
+use phaselab::record::RecordedCast;
+use phaselab::shell::{CastPlayer, Input, Screen, ScreenRequest};
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -16,27 +16,27 @@ use ratatui::style::Color;
 
 use super::played;
 
-fn look() -> Look {
-    Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille }
+fn look() -> RenderStyle {
+    RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille }
 }
 
-fn projector(cast: &str) -> Projector {
-    Projector::new(Tape::read(cast).expect("a cast"), look())
+fn projector(cast: &str) -> CastPlayer {
+    CastPlayer::new(RecordedCast::read(cast).expect("a cast"), look())
 }
 
-fn shown(projector: &mut Projector, (width, height): (u16, u16)) -> String {
+fn shown(projector: &mut CastPlayer, (width, height): (u16, u16)) -> String {
     let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
     projector.draw(buffer.area, &mut buffer);
     let row = |y| (0..width).map(|x| buffer[(x, y)].symbol().to_owned()).collect::<String>();
     (0..height).map(|y| row(y).trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
-fn press(projector: &mut Projector, code: Code) -> Wish {
+fn press(projector: &mut CastPlayer, code: Code) -> ScreenRequest {
     projector.input(Input::Key(Key::plain(code)))
 }
 
 /// Lets so many milliseconds pass, in frames.
-fn pass(projector: &mut Projector, milliseconds: u64) {
+fn pass(projector: &mut CastPlayer, milliseconds: u64) {
     for _ in 0..milliseconds / 20 {
         projector.advance(Duration::from_millis(20));
     }
@@ -75,13 +75,13 @@ fn a_cast_runs_at_its_pace() {
     }
     pass(&mut it, 300);
     assert!(shown(&mut it, (30, 4)).starts_with("one two\n"), "four times as fast");
-    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    assert_eq!(press(&mut it, Code::Char('q')), ScreenRequest::Quit);
 }
 
 #[test]
 fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
     let mut it = projector(CAST);
-    let last = |it: &mut Projector| shown(it, (30, 3)).lines().nth(2).unwrap_or("").to_owned();
+    let last = |it: &mut CastPlayer| shown(it, (30, 3)).lines().nth(2).unwrap_or("").to_owned();
     assert!(last(&mut it).contains("▶ 0:00 of 0:02"), "{}", last(&mut it));
     // the cast is over before they go away by themselves
     for _ in 0..3 {
@@ -109,7 +109,7 @@ fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
 }
 
 #[test]
-fn a_window_too_small_for_a_cast_is_told() {
+fn a_window_too_small_for_a_cast_is_reported() {
     let mut it = projector(CAST);
     let whole = shown(&mut it, (100, 4));
     assert!(!whole.contains("window"), "{whole}");
@@ -126,7 +126,7 @@ fn a_window_too_small_for_a_cast_is_told() {
 fn a_recording_looks_as_it_was_drawn() {
     let recording = played("pendulum", "Size 90x28\nColor 256\nCaption \"Hello\"\nWait 2s");
     let last = recording.last.clone();
-    let mut it = Projector::new(recording.into(), look());
+    let mut it = CastPlayer::new(recording.into(), look());
     pass(&mut it, 2500);
     let mut buffer = Buffer::empty(Rect::new(0, 0, 90, 29));
     it.draw(buffer.area, &mut buffer);
@@ -147,8 +147,8 @@ fn colours_are_those_the_terminal_has() {
     let cast = "{\"version\":2,\"width\":3,\"height\":1}\n\
                 [0, \"o\", \"\\u001b[38;2;255;0;0ma\\u001b[38;5;200mb\\u001b[31mc\"]\n";
     let check = |depth, expected: [Color; 3]| {
-        let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
-        let mut it = Projector::new(Tape::read(cast).expect("a cast"), look);
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let mut it = CastPlayer::new(RecordedCast::read(cast).expect("a cast"), look);
         pass(&mut it, 20);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 2));
         it.draw(buffer.area, &mut buffer);
@@ -216,7 +216,7 @@ proptest! {
             let escapes = buffer.content.iter().filter(|c| c.symbol().contains('\u{1b}')).count();
             prop_assert_eq!(escapes, 0);
         }
-        prop_assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+        prop_assert_eq!(press(&mut it, Code::Char('q')), ScreenRequest::Quit);
     }
 }
 
@@ -231,6 +231,6 @@ fn a_bomb_does_not_keep_the_keys_waiting() {
     for _ in 0..10 {
         it.advance(Duration::from_millis(20));
     }
-    assert_eq!(press(&mut it, Code::Char('q')), Wish::Quit);
+    assert_eq!(press(&mut it, Code::Char('q')), ScreenRequest::Quit);
     assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
 }

@@ -1,7 +1,7 @@
 //! Casts as others read them: by JSON alone, by vt100, by asciinema's own terminal.
 
 use phaselab::record::Recording;
-use phaselab::record::cast::{self, Version};
+use phaselab::record::cast_writer::{self, Version};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 //!
 //! <https://docs.asciinema.org/manual/asciicast/v2/>, <https://docs.asciinema.org/manual/asciicast/v3/>.
 
-use phaselab::record::cast::Version;
+use phaselab::record::cast_writer::Version;
 use serde_json::{Map, Value};
 
 /// What a key of an object must hold.

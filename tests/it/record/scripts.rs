@@ -1,15 +1,16 @@
-//! Scripts: what they say, and what is told of mistakes.
+//! Scripts: what they say, and what is reported of mistakes.
 
-use phaselab::preset::{Catalog, Document, Mistake};
+use phaselab::diagnostic::{Diagnostic, Document};
+use phaselab::preset::Catalog;
 use phaselab::record::script::{COMMANDS, Step};
-use phaselab::record::{Script, account, play};
+use phaselab::record::{Script, play, transcript};
 
 use super::{played, script};
 
 /// The mistakes of a script as `line:column message; help`.
 fn mistakes(text: &str) -> Vec<String> {
     let document = Document::new("test.demo", text);
-    let tell = |mistake: &Mistake| {
+    let tell = |mistake: &Diagnostic| {
         let (line, column) = document.line_and_column(mistake.place.start);
         let help = mistake.help.as_deref().map_or(String::new(), |help| format!("; {help}"));
         format!("{line}:{column} {}{help}", mistake.message)
@@ -119,7 +120,10 @@ fn claims_are_held_against_the_moment() {
     check("Assert screen \"Fase\"", &["2:1 this is false: \"Fase\" is not on the screen"]);
     check("Assert t = 1", &["2:13 here how far it may be off is missing; add `within 1e-9`"]);
     check("Assert t", &["2:9 here one of `=` `<` `>` is missing, between blanks"]);
-    check("Assert count blow = 1", &["2:14 pendulum has no event or blow `blow`; there are none"]);
+    check(
+        "Assert count impulse = 1",
+        &["2:14 pendulum has no event or impulse `impulse`; there are none"],
+    );
     check(
         "Assert thetta = 1 within 1",
         &["2:8 the name `thetta` is not known here; did you mean `theta`?"],

@@ -1,6 +1,6 @@
 //! Stills: well-formed drawings with as many dots as the screen has, and text that is the screen's.
 
-use phaselab::record::still::{Form, write};
+use phaselab::record::screenshot::{Form, write};
 use ratatui::buffer::Buffer;
 
 use super::played;
@@ -44,9 +44,9 @@ fn a_drawing_has_the_words_of_its_screen_and_no_fonts() {
     for word in ["phaselab", "Parameters", "<A", "&", "B>", "\"C\""] {
         assert!(written.contains(word), "{word}");
     }
-    let letters = |text: &str| text.chars().filter(|c| c.is_alphabetic()).count();
+    let messages = |text: &str| text.chars().filter(|c| c.is_alphabetic()).count();
     let shown: String = screen.content.iter().map(ratatui::buffer::Cell::symbol).collect();
-    assert_eq!(letters(&written), letters(&shown));
+    assert_eq!(messages(&written), messages(&shown));
     for refused in ["font-face", "<script", "<style", "href", "data:"] {
         assert!(!drawing.contains(refused), "{refused}");
     }

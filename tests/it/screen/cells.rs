@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use phaselab::app::{App, Event};
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{PALETTES, Theme};
@@ -16,7 +16,7 @@ use crate::hand::{catalog, loaded, press, snapshot};
 const PAGES: [&str; 8] = ["", "2", "3", "4", "9", "?", ":", "Enter"];
 
 /// What is wrong with the cells of every page of a system.
-fn wrong(name: &str, look: &Look) -> Vec<String> {
+fn wrong(name: &str, look: &RenderStyle) -> Vec<String> {
     let loaded = loaded(name, 1);
     let seen = Arc::new(snapshot(&loaded, 1.0));
     let mut wrong = Vec::new();
@@ -38,7 +38,7 @@ fn wrong(name: &str, look: &Look) -> Vec<String> {
 fn every_cell_of_every_preset_holds_one_character_of_one_column() {
     let theme = Theme::dark(ColourDepth::True);
     for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
-        let look = Look { theme: theme.clone(), glyphs };
+        let look = RenderStyle { theme: theme.clone(), glyphs };
         let names = catalog().entries();
         assert!(names.len() > 50);
         let wrong: Vec<String> = names.iter().flat_map(|entry| wrong(&entry.name, &look)).collect();

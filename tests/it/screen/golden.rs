@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::theme::Role;
 use ratatui::buffer::{Buffer, Cell};
 
@@ -25,7 +25,7 @@ const LETTERS: [(Role, char); 10] = [
     (Role::Level, 'l'),
 ];
 
-fn letter(cell: &Cell, look: &Look) -> char {
+fn letter(cell: &Cell, look: &RenderStyle) -> char {
     if cell.modifier.contains(ratatui::style::Modifier::REVERSED) {
         return 'S';
     }
@@ -37,7 +37,7 @@ fn letter(cell: &Cell, look: &Look) -> char {
     LETTERS.into_iter().find(|(role, _)| is(*role)).map_or('#', |(_, letter)| letter)
 }
 
-fn written(buffer: &Buffer, look: &Look) -> String {
+fn written(buffer: &Buffer, look: &RenderStyle) -> String {
     let mut text = rows(buffer).join("\n");
     text.push('\n');
     for y in 0..buffer.area.height {
@@ -48,7 +48,7 @@ fn written(buffer: &Buffer, look: &Look) -> String {
     text
 }
 
-fn check(name: &str, buffer: &Buffer, look: &Look) {
+fn check(name: &str, buffer: &Buffer, look: &RenderStyle) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/screens").join(name);
     let now = written(buffer, look);
     if std::env::var_os("PHASELAB_BLESS").is_some() {

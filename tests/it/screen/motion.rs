@@ -6,7 +6,7 @@ use std::path::Path;
 /// What moves although nothing happens: how code or text names it.
 const RESTLESS: [&str; 6] = ["SLOW_BLINK", "RAPID_BLINK", "spinner", "Throbber", "⠋", "◐"];
 
-/// Where these words may stand: there it is only known how a terminal is told.
+/// Where these words may stand: there it is only known how a terminal is reported.
 const SGR: &str = "view/sgr.rs";
 
 fn check(folder: &Path, wrong: &mut Vec<String>) {

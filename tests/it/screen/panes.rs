@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Lens, Notice, Plot};
+use phaselab::app::{App, Event, Notification, Plot, Viewport};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
-use phaselab::integrate::{Happening, Kind};
+use phaselab::integrate::{Occurrence, OccurrenceKind};
 use phaselab::model::{Shape, ViewKind};
 use phaselab::system::ChannelKind;
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
@@ -108,7 +108,7 @@ fn verdicts_have_their_colours() {
 /// A motion that is not the one of its law is marked on every picture, and the status says by how much.
 #[test]
 fn a_departed_invariant_marks_the_picture() {
-    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     for (verdict, drift, word) in [
         (Verdict::Lost, 0.3, "lost 30 %"),
         (Verdict::Bounded, 2.3e-4, "swings 2.3e-4"),
@@ -176,14 +176,14 @@ fn a_mistake_in_a_field_is_read_beside_it() {
 }
 
 #[test]
-fn status_and_fault_are_told() {
+fn status_and_fault_are_reported() {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.0);
     seen.status = Status::Paused;
     app.update(Event::Snapshot(Arc::new(seen.clone())));
     assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
     let message = "the bob left the world".to_owned();
-    seen.status = Status::Faulted(phaselab::experiment::Fault { time: 2.0, message });
+    seen.status = Status::Failed(phaselab::experiment::Failure { time: 2.0, message });
     app.update(Event::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in
@@ -198,7 +198,10 @@ fn the_cursor_reads_the_cell_it_stands_on() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab c");
     let plot = &app.lab.as_ref().unwrap().plots[1];
-    assert!(matches!(plot, Plot::Phase { lens: Lens { cursor: Some([0.5, 0.5]), .. }, .. }));
+    assert!(matches!(
+        plot,
+        Plot::Phase { viewport: Viewport { cursor: Some([0.5, 0.5]), .. }, .. }
+    ));
     let buffer = screen(&app, &rich(), (120, 40));
     let (x, y) = find(&buffer, "┼").unwrap();
     assert!((40..80).contains(&x) && y < 24, "in the phase portrait");
@@ -239,8 +242,9 @@ fn the_equations_are_written_in_mathematics() {
 #[test]
 fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
-    let blow = |time: f64| Happening { name: "push".to_owned(), time, kind: Kind::Mark };
-    seen.happenings = [0.5, 1.0, 1.0005].map(blow).into_iter().collect();
+    let impulse =
+        |time: f64| Occurrence { name: "push".to_owned(), time, kind: OccurrenceKind::Mark };
+    seen.occurrences = [0.5, 1.0, 1.0005].map(impulse).into_iter().collect();
     let mut app = in_lab();
     let look = rich();
     let signs = |buffer: &ratatui::buffer::Buffer| {
@@ -454,7 +458,7 @@ fn a_body_is_drawn_as_it_stands() {
 }
 
 #[test]
-fn news_are_told_one_after_the_other_and_leave_the_hints_room() {
+fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.5);
     seen.notices = ["old news", "the bob passed", "the bob came back"].map(str::to_owned).into();
@@ -463,9 +467,9 @@ fn news_are_told_one_after_the_other_and_leave_the_hints_room() {
     app.update(Event::Snapshot(Arc::new(before)));
     app.update(Event::Tick(Duration::from_secs(6)));
     app.update(Event::Snapshot(Arc::new(seen)));
-    for news in ["the bob passed", "the bob came back"] {
+    for notifications in ["the bob passed", "the bob came back"] {
         let rows = rows(&screen(&app, &rich(), (80, 24)));
-        assert!(rows[21].contains(news), "{rows:#?}");
+        assert!(rows[21].contains(notifications), "{rows:#?}");
         assert!(rows[23].contains("? help") && rows[23].contains("q quit"), "{rows:#?}");
         app.update(Event::Tick(Duration::from_millis(2100)));
     }
@@ -546,7 +550,7 @@ fn several_curves_are_told_apart_without_colour() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab v Down Down Enter Tab Down Tab Down Tab Enter z");
     for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
-        let look = Look { theme: Theme::dark(ColourDepth::None), glyphs };
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs };
         let buffer = screen(&app, &look, (120, 40));
         let samples = [0, 1, 2].map(|i| {
             let [unicode, ascii] = look.theme.series(i).dash.sample();
@@ -583,7 +587,7 @@ fn the_theme_under_the_selection_is_previewed_and_taken_by_enter() {
 
 #[test]
 fn without_colour_what_is_selected_is_reversed_in_every_list() {
-    let look = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
     for keys in ["", "Tab", "m", ":", "T", "Tab Tab Tab v"] {
         let mut app = in_lab();
         press(&mut app, keys);
@@ -643,7 +647,7 @@ fn a_notice_leaves_the_keys_in_sight() {
     for (text, size) in [("struck", (80, 24)), (long.as_str(), (80, 24)), ("struck", (40, 10))] {
         let mut app = in_lab();
         let before = rows(&screen(&app, &rich(), size));
-        app.notice = Some(Notice::info(text));
+        app.notice = Some(Notification::info(text));
         let after = rows(&screen(&app, &rich(), size));
         let last = usize::from(size.1) - 1;
         assert_eq!(after[last - 1..], before[last - 1..], "status and keys are as they were");
@@ -675,7 +679,7 @@ fn what_is_found_is_marked_and_topics_are_headings_only_of_the_whole_list() {
 
 #[test]
 fn the_palette_names_keys_and_says_what_it_had_to_cut() {
-    let ascii = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let ascii = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let mut app = in_lab();
     press(&mut app, ": c o a r s e");
     let text = rows(&screen(&app, &ascii, (80, 24))).join("\n");
@@ -728,7 +732,7 @@ fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
     let (mut app, _) = App::new(crate::hand::catalog(), Some("rolling-race"));
     app.update(Event::Loaded(Ok(loaded)));
     app.update(Event::Snapshot(Arc::new(seen)));
-    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
     assert!(text.contains("--- x1  +++ x2  ... x3"), "{text}");
 }
@@ -755,14 +759,14 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     }
 }
 
-/// What is exact between blows, but changed by them, does not look like what never changed.
+/// What is exact between impulses, but changed by them, does not look like what never changed.
 #[test]
-fn what_blows_have_changed_is_marked() {
+fn what_impulses_have_changed_is_marked() {
     let mut seen = snapshot(&pendulum(), 2.0);
     let gauge = Gauge { verdict: Verdict::Exact(Growth::Level), ..seen.gauges[0].clone() };
-    let struck = Gauge { reference: gauge.initial + 0.25, ..gauge.clone() };
-    let ascii = Look { glyphs: Glyphs::Ascii, ..rich() };
-    for (gauge, marked) in [(gauge, false), (struck, true)] {
+    let after_impulse = Gauge { reference: gauge.initial + 0.25, ..gauge.clone() };
+    let ascii = RenderStyle { glyphs: Glyphs::Ascii, ..rich() };
+    for (gauge, marked) in [(gauge, false), (after_impulse, true)] {
         seen.gauges = [gauge].into();
         let mut app = in_lab();
         app.update(Event::Snapshot(Arc::new(seen.clone())));
@@ -775,6 +779,6 @@ fn what_blows_have_changed_is_marked() {
         press(&mut app, "9");
         let text = rows(&screen(&app, &rich(), (120, 200))).join(" ");
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(text.contains("blows have changed it by 0.25"), marked, "{text}");
+        assert_eq!(text.contains("impulses have changed it by 0.25"), marked, "{text}");
     }
 }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::keymap::{KEYS, Place};
-use phaselab::app::{App, Event, Target};
+use phaselab::app::{App, Event, ValueId};
 use phaselab::experiment::Verdict;
-use phaselab::view::Look;
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -16,7 +16,7 @@ use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, sn
 
 /// The page on a screen so long that all of it is there, as one text without line breaks.
 fn text(app: &App) -> String {
-    let plain = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
     let buffer = drawn(app, &plain, (114, 240)).0;
     let lines: Vec<String> =
         rows(&buffer).iter().map(|row| row.trim_matches(['│', ' ']).into()).collect();
@@ -56,8 +56,8 @@ fn everything_on_the_screen_can_be_read() {
             told(&parameter.unit);
         }
         let lab = app.lab.as_ref().unwrap();
-        for index in 0..lab.count(Target::Initial) {
-            told(&format!("{} is ", lab.facts(Target::Initial(index)).unwrap().shown));
+        for index in 0..lab.count(ValueId::Initial) {
+            told(&format!("{} is ", lab.facts(ValueId::Initial(index)).unwrap().shown));
         }
         let channels = system.system.channels();
         for (index, channel) in channels.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {

@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use phaselab::app::{App, Event, LoadFailure};
-use phaselab::experiment::{Fault, Snapshot, Status, Trail, Verdict};
-use phaselab::view::Look;
+use phaselab::app::{App, Event, LoadError};
+use phaselab::experiment::{Failure, Snapshot, Status, Trail, Verdict};
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -59,7 +59,7 @@ fn all_states() -> Vec<App> {
     let empty = App::new(catalog(), None).0;
     let mut failed = App::new(catalog(), Some("own.toml")).0;
     let message = "own.toml:1:1: a title is missing → add one\n".repeat(30);
-    failed.update(Event::Loaded(Err(LoadFailure { name: "own.toml".into(), message })));
+    failed.update(Event::Loaded(Err(LoadError { name: "own.toml".into(), message })));
     lab.chain(picker).chain([empty, failed, stopped(), unseen(), crowded()]).collect()
 }
 
@@ -67,7 +67,7 @@ fn all_states() -> Vec<App> {
 fn stopped() -> App {
     let mut app = in_lab();
     let mut odd = snapshot(&pendulum(), 2.0);
-    odd.status = Status::Faulted(Fault { time: 2.0, message: "the step became too small".into() });
+    odd.status = Status::Failed(Failure { time: 2.0, message: "the step became too small".into() });
     odd.time = f64::NAN;
     odd.values = odd.values.iter().map(|_| f64::NAN).collect();
     odd.bounds = odd.bounds.iter().map(|_| (f64::NEG_INFINITY, f64::INFINITY)).collect();
@@ -116,7 +116,7 @@ fn all_presets_are_drawn() {
 
 #[test]
 fn ascii_screens_hold_nothing_else() {
-    let look = Look { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
     for app in everything() {
         for size in [(40, 10), (80, 24), (120, 40), (200, 60)] {
             let buffer = screen(app, &look, size);
@@ -135,7 +135,7 @@ fn ascii_screens_hold_nothing_else() {
 
 #[test]
 fn ascii_screens_know_every_letter() {
-    let look = Look { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
     for entry in catalog().entries() {
         let (mut app, _) = App::new(catalog(), Some(&entry.name));
         let system = loaded(&entry.name, 1);
@@ -154,7 +154,7 @@ fn ascii_screens_know_every_letter() {
 
 #[test]
 fn screens_without_colour_have_none() {
-    let look = Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
     for app in everything() {
         for size in [(40, 10), (80, 24), (120, 40)] {
             for cell in &screen(app, &look, size).content {
@@ -167,7 +167,7 @@ fn screens_without_colour_have_none() {
 #[test]
 fn screens_of_few_colours_have_no_others() {
     for (depth, most) in [(ColourDepth::Ansi16, 0), (ColourDepth::Ansi256, 255)] {
-        let look = Look { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         for app in everything() {
             for cell in &screen(app, &look, (120, 40)).content {
                 let fits = match cell.fg {
@@ -187,7 +187,7 @@ proptest! {
     #[test]
     fn no_size_is_a_panic(width in 0..250_u16, height in 0..250_u16, glyphs in 0..Glyphs::ALL.len()) {
         let glyphs = Glyphs::ALL[glyphs];
-        let look = Look { theme: Theme::dark(ColourDepth::Ansi256), glyphs };
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs };
         for app in everything() {
             let mut app = app.clone();
             let (_, drawn) = super::drawn(&app, &look, (width, height));

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Act, App, Event, Hold, Over, Page, Pane, Plot, Spot, Target};
+use phaselab::app::{Act, App, Drag, Event, HitTarget, Overlay, Page, Pane, Plot, ValueId};
 use phaselab::experiment::Command;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::{spot, spots};
+use phaselab::view::{hit_test, spots};
 use ratatui::layout::Rect;
 
 use super::{find, rich, rows, screen};
@@ -14,26 +14,26 @@ use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
 
 const SIZES: [(u16, u16); 5] = [(40, 18), (66, 16), (80, 24), (120, 40), (200, 60)];
 
-fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<Spot> {
+fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<HitTarget> {
     spot(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
 }
 
 /// Every place with what lies there.
-fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), Spot)> {
+fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), HitTarget)> {
     let spots = spots(app, &rich(), Rect::new(0, 0, width, height));
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
 }
 
 /// The places of a spot.
-fn places(app: &App, size: (u16, u16), is: impl Fn(&Spot) -> bool) -> Vec<(u16, u16)> {
+fn places(app: &App, size: (u16, u16), is: impl Fn(&HitTarget) -> bool) -> Vec<(u16, u16)> {
     all(app, size).into_iter().filter(|(_, spot)| is(spot)).map(|(place, _)| place).collect()
 }
 
 fn act(real: &mut Real, size: (u16, u16), act: Act, place: (u16, u16)) {
     let Some(spot) = at(&real.app, size, place) else { return };
     let effects = real.app.update(Event::Mouse(act, spot));
-    real.obey(effects);
+    real.execute(effects);
     real.look();
 }
 
@@ -63,14 +63,14 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             let row = &text[usize::from(place.1)];
             let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
             match spot {
-                Spot::Value(target) | Spot::Bar { target, .. } => {
+                HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
                     let shown = app.lab.as_ref().unwrap().facts(target).unwrap().shown;
                     named(&rich().glyphs.text(&shown));
                 }
                 // Every second row of a gauge holds its numbers.
-                Spot::Gauge(_) => assert!(!row.contains("verdict"), "{row}"),
-                Spot::Page(page) => named(&format!("{page:?}")),
-                Spot::Hint(action) => {
+                HitTarget::Gauge(_) => assert!(!row.contains("verdict"), "{row}"),
+                HitTarget::Page(page) => named(&format!("{page:?}")),
+                HitTarget::Hint(action) => {
                     let hint = phaselab::app::keymap::KEYS.iter().find(|row| row.action == action);
                     named(hint.unwrap().hint);
                 }
@@ -96,13 +96,15 @@ fn every_pane_answers_in_its_own_frame() {
         for _ in &panes {
             press(&mut app, "Tab");
             let focus = app.lab.as_ref().unwrap().focus;
-            let belongs = |spot: &Spot| match *spot {
-                Spot::Pane(pane) => pane == focus,
-                Spot::Plot { index, .. } | Spot::Space { index, .. } => focus == Pane::Plot(index),
-                Spot::Value(Target::Parameter(_)) => focus == Pane::Parameters,
-                Spot::Bar { target: Target::Parameter(_), .. } => focus == Pane::Parameters,
-                Spot::Value(Target::Initial(_)) => focus == Pane::Initial,
-                Spot::Gauge(_) => focus == Pane::Gauges,
+            let belongs = |spot: &HitTarget| match *spot {
+                HitTarget::Pane(pane) => pane == focus,
+                HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => {
+                    focus == Pane::Plot(index)
+                }
+                HitTarget::Value(ValueId::Parameter(_)) => focus == Pane::Parameters,
+                HitTarget::Bar { target: ValueId::Parameter(_), .. } => focus == Pane::Parameters,
+                HitTarget::Value(ValueId::Initial(_)) => focus == Pane::Initial,
+                HitTarget::Gauge(_) => focus == Pane::Gauges,
                 _ => false,
             };
             let found = all(&app, size);
@@ -118,20 +120,20 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
     for size in [(80, 24), (120, 40), (200, 60)] {
         let app = in_lab();
         for (place, spot) in all(&app, size) {
-            let Spot::Plot { index, place: [x, y], at: coordinates } = spot else { continue };
+            let HitTarget::Plot { index, place: [x, y], at: coordinates } = spot else { continue };
             if place.0 % 7 != 0 || place.1 % 3 != 0 {
                 continue;
             }
             assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{spot:?}");
             let mut marked = app.clone();
             let lab = marked.lab.as_mut().unwrap();
-            let lens = match &mut lab.plots[index] {
-                Plot::Phase { lens, .. }
-                | Plot::Time { lens, .. }
-                | Plot::Potential { lens, .. } => lens,
+            let viewport = match &mut lab.plots[index] {
+                Plot::Phase { viewport, .. }
+                | Plot::Time { viewport, .. }
+                | Plot::Potential { viewport, .. } => viewport,
                 other @ Plot::Space(_) => panic!("{other:?} has no axes"),
             };
-            lens.cursor = Some([x, y]);
+            viewport.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
             assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
             // The reading in the corner, to the digits it has, is what the mouse says of the place.
@@ -151,14 +153,16 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
     let start = real.seen().initial.clone();
     let spots = all(&real.app, size);
     let pick = |want: [f64; 2]| {
-        let far = |spot: &Spot| match spot {
-            Spot::Plot { index: 1, at, .. } => (at[0] - want[0]).abs() + (at[1] - want[1]).abs(),
+        let far = |spot: &HitTarget| match spot {
+            HitTarget::Plot { index: 1, at, .. } => {
+                (at[0] - want[0]).abs() + (at[1] - want[1]).abs()
+            }
             _ => f64::INFINITY,
         };
         spots.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
     };
     let (place, spot) = pick([-1.0, 2.0]);
-    let Spot::Plot { at: [theta, momentum], .. } = spot else { panic!("{spot:?}") };
+    let HitTarget::Plot { at: [theta, momentum], .. } = spot else { panic!("{spot:?}") };
     click(&mut real, size, place);
     assert_eq!(real.seen().time, 0.0, "it begins anew");
     assert_eq!(real.seen().initial[0].to_bits(), theta.to_bits());
@@ -177,7 +181,7 @@ fn a_click_in_another_plot_reads_the_coordinates() {
     let mut real = Real::of("pendulum");
     real.run(100);
     let spots = all(&real.app, size);
-    let time = |spot: &Spot| matches!(spot, Spot::Plot { index: 2, .. });
+    let time = |spot: &HitTarget| matches!(spot, HitTarget::Plot { index: 2, .. });
     let inside: Vec<_> = spots.iter().filter(|(_, spot)| time(spot)).collect();
     let (place, _) = *inside[inside.len() / 2];
     click(&mut real, size, place);
@@ -192,11 +196,11 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let mut real = Real::of("pendulum");
     let before = real.seen().parameters.clone();
     let bar = places(&real.app, size, |spot| {
-        matches!(spot, Spot::Bar { target: Target::Parameter(1), .. })
+        matches!(spot, HitTarget::Bar { target: ValueId::Parameter(1), .. })
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Act::Press, bar[2]);
-    assert_eq!(real.app.hold, Some(Hold::Bar(Target::Parameter(1))));
+    assert_eq!(real.app.hold, Some(Drag::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Act::Drag, *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
@@ -205,7 +209,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     }
     // Beside the bar the knob stops at its end.
     act(&mut real, size, Act::Drag, (119, 0));
-    let (_, max, _) = real.lab().facts(Target::Parameter(1)).unwrap().range.unwrap();
+    let (_, max, _) = real.lab().facts(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Act::Release, (119, 0));
     assert_eq!(real.app.hold, None);
@@ -217,8 +221,8 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
 
 /// Somewhere in the middle of a picture.
 fn inside(app: &App, size: (u16, u16), picture: usize) -> (u16, u16) {
-    let here = |spot: &Spot| match *spot {
-        Spot::Plot { index, .. } | Spot::Space { index, .. } => index == picture,
+    let here = |spot: &HitTarget| match *spot {
+        HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => index == picture,
         _ => false,
     };
     let places: Vec<_> = all(app, size).into_iter().filter(|(_, spot)| here(spot)).collect();
@@ -237,7 +241,7 @@ fn the_wheel_zooms_about_the_place_under_it() {
             let (x, y) = inside(&real.app, size, picture);
             let place = (x + 6, y - 2);
             let coordinates = |real: &Real| match at(&real.app, size, place) {
-                Some(Spot::Plot { at, .. }) => at,
+                Some(HitTarget::Plot { at, .. }) => at,
                 other => panic!("{other:?}"),
             };
             let (before, plot) = (coordinates(&real), real.lab().plots[picture].clone());
@@ -275,8 +279,9 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         let after = real.lab().plots.clone();
         match (&before[picture], &after[picture], grabbed) {
             (Plot::Space(a), Plot::Space(b), _) => assert!(a.yaw != b.yaw && a.pitch != b.pitch),
-            (_, Plot::Phase { .. }, Spot::Plot { at: from, .. }) => {
-                let Some(Spot::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1)) else {
+            (_, Plot::Phase { .. }, HitTarget::Plot { at: from, .. }) => {
+                let Some(HitTarget::Plot { at: to, .. }) = at(&real.app, size, (x + 6, y - 1))
+                else {
                     panic!("nothing there")
                 };
                 assert!((from[0] - to[0]).abs() < 0.2, "{from:?} {to:?}");
@@ -310,7 +315,7 @@ fn clicks_do_what_stands_there() {
     assert_eq!(real.lab().focus, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
-    assert!(matches!(real.app.over, Some(Over::Help { .. })));
+    assert!(matches!(real.app.over, Some(Overlay::Help { .. })));
     act(&mut real, size, Act::WheelDown, (10, 10));
     real.press("Esc m");
     let place = on(&real, "leapfrog");
@@ -329,13 +334,13 @@ fn clicks_do_what_stands_there() {
 fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
-    let value = Spot::Value(Target::Parameter(2));
+    let value = HitTarget::Value(ValueId::Parameter(2));
     let place = places(&real.app, size, |spot| *spot == value)[0];
     click(&mut real, size, place);
-    assert_eq!(real.lab().selected(), Some(Target::Parameter(2)));
+    assert_eq!(real.lab().selected(), Some(ValueId::Parameter(2)));
     assert!(real.app.over.is_none());
     click(&mut real, size, place);
-    assert!(matches!(&real.app.over, Some(Over::Field(_))));
+    assert!(matches!(&real.app.over, Some(Overlay::Field(_))));
 }
 
 #[test]
@@ -345,7 +350,7 @@ fn the_wheel_scrolls_text_and_lists() {
     let (_, drawn) = super::drawn(&app, &rich(), (80, 16));
     app.update(Event::Drawn(drawn));
     let spot = at(&app, (80, 16), (20, 8)).unwrap();
-    assert_eq!(spot, Spot::Text);
+    assert_eq!(spot, HitTarget::Text);
     app.update(Event::Mouse(Act::WheelDown, spot));
     assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
     app.update(Event::Mouse(Act::WheelUp, spot));
@@ -358,18 +363,20 @@ fn the_wheel_scrolls_text_and_lists() {
     assert_eq!(app.picker.selected, before - 1);
     let systems: Vec<usize> = all(&app, (80, 24))
         .into_iter()
-        .filter_map(|(_, spot)| if let Spot::System(place) = spot { Some(place) } else { None })
+        .filter_map(
+            |(_, spot)| if let HitTarget::System(place) = spot { Some(place) } else { None },
+        )
         .collect();
     let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
-    app.update(Event::Mouse(Act::Press, Spot::System(other)));
+    app.update(Event::Mouse(Act::Press, HitTarget::System(other)));
     assert_eq!(app.picker.selected, other);
 
     let mut app = in_lab();
     press(&mut app, ":");
     let spot = at(&app, (80, 24), (20, 8)).unwrap();
-    assert!(matches!(spot, Spot::Line(_)), "{spot:?}");
+    assert!(matches!(spot, HitTarget::Line(_)), "{spot:?}");
     app.update(Event::Mouse(Act::WheelDown, spot));
-    let Some(Over::Menu(menu)) = &app.over else { panic!("the palette is gone") };
+    let Some(Overlay::Menu(menu)) = &app.over else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
 
@@ -383,11 +390,11 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A knob that is held but not shown any more, and a command that cannot be meant.
-    app.hold = Some(Hold::Bar(Target::Parameter(99)));
+    app.hold = Some(Drag::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
-    let effects = app.update(Event::Mouse(Act::Drag, Spot::Text));
+    let effects = app.update(Event::Mouse(Act::Drag, HitTarget::Text));
     assert!(effects.is_empty());
-    let spot = Spot::Bar { target: Target::Parameter(99), value: f64::NAN };
+    let spot = HitTarget::Bar { target: ValueId::Parameter(99), value: f64::NAN };
     for act in [Act::Press, Act::Drag, Act::Release, Act::WheelDown] {
         let effects = app.update(Event::Mouse(act, spot));
         let harmless = |e: &phaselab::app::Effect| {
@@ -401,10 +408,10 @@ fn nothing_is_under_a_place_that_shows_nothing() {
 fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
-    let bar = places(&real.app, size, |spot| matches!(spot, Spot::Bar { .. }));
+    let bar = places(&real.app, size, |spot| matches!(spot, HitTarget::Bar { .. }));
     act(&mut real, size, Act::Press, bar[0]);
     assert!(real.app.hold.is_some());
     real.press("2");
     assert_eq!(real.app.hold, None);
-    assert_eq!(at(&real.app, size, (20, 20)), Some(Spot::Text));
+    assert_eq!(at(&real.app, size, (20, 20)), Some(HitTarget::Text));
 }

@@ -1,7 +1,7 @@
 //! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
 
-use phaselab::app::{App, Caret, Event, Flaw, Notice, SheetState};
-use phaselab::view::Look;
+use phaselab::app::{App, BufferDiagnostic, Caret, Event, Notification, SheetState};
+use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -53,7 +53,7 @@ proptest! {
             app.update(Event::Drawn(shown));
             press(&mut app, word);
         }
-        let sheet = app.open_sheet().unwrap();
+        let sheet = app.open_buffer().unwrap();
         let Caret { row, column } = sheet.editor.cursor();
         let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ').to_string();
         let buffer = screen(&app, &rich(), (width, height));
@@ -67,7 +67,7 @@ fn a_mistake_is_underlined_marked_and_told_below() {
     let sheet = app.workbench.top_mut().unwrap();
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
-    sheet.flaws = vec![Flaw { from, to, warning: false, message, help }];
+    sheet.flaws = vec![BufferDiagnostic { from, to, warning: false, message, help }];
     sheet.state = SheetState::Wrong;
     for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
         let buffer = screen(&app, &look, (80, 24));
@@ -84,11 +84,11 @@ fn a_mistake_is_underlined_marked_and_told_below() {
 }
 
 fn sheet_line(app: &App, row: usize) -> String {
-    app.open_sheet().unwrap().editor.lines()[row].clone()
+    app.open_buffer().unwrap().editor.lines()[row].clone()
 }
 
-fn plain() -> Look {
-    Look { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
+fn plain() -> RenderStyle {
+    RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
 }
 
 #[test]
@@ -139,7 +139,7 @@ proptest! {
             app.update(Event::Drawn(shown));
             press(&mut app, word);
         }
-        let sheet = app.open_sheet().unwrap();
+        let sheet = app.open_buffer().unwrap();
         let Caret { row, column } = sheet.editor.cursor();
         let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ');
         let buffer = screen(&app, &plain(), (width, height));
@@ -148,14 +148,14 @@ proptest! {
 }
 
 #[test]
-fn what_is_told_leaves_the_keys_in_sight() {
+fn what_is_reported_leaves_the_keys_in_sight() {
     let mut app = edited();
     let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 mistake: 12:3 no such name";
     for size in [(80, 24), (120, 40), (200, 60)] {
         for look in [rich(), plain()] {
             app.notice = None;
             let before = rows(&screen(&app, &look, size));
-            app.notice = Some(Notice::error(told));
+            app.notice = Some(Notification::error(told));
             let after = rows(&screen(&app, &look, size));
             assert_eq!(before.last(), after.last(), "{size:?}");
             assert!(after.last().unwrap().contains("F1 help"), "{after:#?}");

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use phaselab::expr::{Double, Expr, Pool, Symbol};
-use phaselab::system::{Program, Values};
+use phaselab::expr::{Expr, Pool, Symbol};
+use phaselab::num::DoubleDouble;
+use phaselab::system::{Evaluator, Program};
 use proptest::prelude::*;
 
 use crate::build::{names, read, sample, try_read};
@@ -39,18 +40,18 @@ proptest! {
         prop_assume!(size < 1e12);
         let time = at(model.symbols.time);
 
-        let exact: Vec<Double> = parameters.iter().map(|&s| Double::from(at(s))).collect();
+        let exact: Vec<DoubleDouble> = parameters.iter().map(|&s| DoubleDouble::from(at(s))).collect();
         let rounded: Vec<f64> = inputs.iter().map(|&s| at(s)).collect();
-        let mut values = Values::<f64>::new(Arc::clone(&program));
+        let mut values = Evaluator::<f64>::new(Arc::clone(&program));
         values.set_parameters(&exact);
         values.evaluate(time, &rounded).expect("nothing is solved for");
         let single = values.output(0);
         prop_assert!(close(single, expected, size), "{} = {} but {}", source, expected, single);
 
-        let inputs: Vec<Double> = rounded.iter().map(|&x| Double::from(x)).collect();
-        let mut values = Values::<Double>::new(program);
+        let inputs: Vec<DoubleDouble> = rounded.iter().map(|&x| DoubleDouble::from(x)).collect();
+        let mut values = Evaluator::<DoubleDouble>::new(program);
         values.set_parameters(&exact);
-        values.evaluate(Double::from(time), &inputs).expect("nothing is solved for");
+        values.evaluate(DoubleDouble::from(time), &inputs).expect("nothing is solved for");
         let double = values.output(0).high;
         prop_assert!(close(double, expected, size), "{} = {} but {}", source, expected, double);
     }
@@ -61,8 +62,8 @@ fn value(source: &str, m: f64) -> f64 {
     let mut model = names(&["q", "u", "theta", "phi"], &["m", "g", "l", "k", "a", "b"]);
     let e = read(&mut model, source);
     let (program, _, _) = program(&mut model.pool, &[e]);
-    let mut values = Values::<f64>::new(program);
-    values.set_parameters(&[Double::from(m); 6]);
+    let mut values = Evaluator::<f64>::new(program);
+    values.set_parameters(&[DoubleDouble::from(m); 6]);
     let mut inputs = [0.0; 12];
     (inputs[0], inputs[3]) = (0.3, -0.7);
     values.evaluate(0.0, &inputs).expect("nothing is solved for");
@@ -109,7 +110,7 @@ fn equal_parts_are_computed_once_and_parameters_apart() {
 }
 
 #[test]
-fn an_unknown_symbol_is_told() {
+fn an_unknown_symbol_is_reported() {
     let mut model = names(&["q"], &["m"]);
     let e = read(&mut model, "q + m*energy");
     let inputs = [model.coordinates[0].position];

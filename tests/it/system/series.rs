@@ -4,8 +4,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use phaselab::expr::{Double, Expr, Node, Number, Pool, Real, Symbol};
+use phaselab::expr::{Expr, Node, Pool, Symbol};
 use phaselab::model::Model;
+use phaselab::num::{DoubleDouble, Number, Real};
 use phaselab::system::{Jet, Program};
 use proptest::prelude::*;
 
@@ -363,11 +364,11 @@ fn coefficients<R: Real>(program: Arc<Program>, parameters: [f64; 2]) -> Vec<R> 
     let third = R::of(Number::ratio(-1, 10).double());
     let x = [R::of(Number::HALF.double()), R::of(Number::ratio(-1, 7).double())];
     let mut jet = Jet::<R>::new(program, 9);
-    jet.set_parameters(&parameters.map(Double::written));
+    jet.set_parameters(&parameters.map(DoubleDouble::written));
     for k in 0..=9 {
         jet.set_input(0, k, *u.iter().chain([&third]).nth(k).unwrap_or(&R::ZERO));
         jet.set_input(1, k, *x.get(k).unwrap_or(&R::ZERO));
-        jet.advance(k, R::of(Double::written(0.4)), 1.0).expect("nothing is solved for");
+        jet.advance(k, R::of(DoubleDouble::written(0.4)), 1.0).expect("nothing is solved for");
     }
     (0..=9).map(|k| jet.output(0, k)).collect()
 }
@@ -380,7 +381,7 @@ fn every_function_has_the_right_series() {
         let e = read(&mut model, &source.replace("x^s", "x^(-s)"));
         let program = program(&mut model, e);
         let single = coefficients::<f64>(Arc::clone(&program), [5.0, 2.7]);
-        let double = coefficients::<Double>(program, [5.0, 2.7]);
+        let double = coefficients::<DoubleDouble>(program, [5.0, 2.7]);
         let size = expected.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
         for k in 0..10 {
             let error = (single[k] - expected[k]).abs();

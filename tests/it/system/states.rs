@@ -2,7 +2,7 @@
 
 use phaselab::integrate::METHODS;
 use phaselab::integrate::Settings;
-use phaselab::system::{FaultKind, Form, Given, State};
+use phaselab::system::{Form, InitialOverride, MotionErrorKind, State};
 
 use super::{compile, parameters};
 
@@ -55,7 +55,7 @@ fn conversions_go_there_and_back() {
 #[test]
 fn a_relativistic_momentum_finds_its_speed() {
     let (model, system) = compile(RELATIVISTIC);
-    let given = [Given::Momentum(0, 300.0), Given::Momentum(1, 400.0)];
+    let given = [InitialOverride::Momentum(0, 300.0), InitialOverride::Momentum(1, 400.0)];
     let state = system.initial(0.0, &parameters(&model), &given).expect("there is one");
     // v = p / √(1 + p²/c²)
     let root = (1.0_f64 + 250_000.0 / 2.25).sqrt();
@@ -68,11 +68,11 @@ fn given_values_take_the_place_of_the_files() {
     let (model, system) = compile(RELATIVISTIC);
     let p = [7.0, 1.5];
     assert_eq!(system.initial_values(&p), [0.5, 7.0, 0.6, 0.3]);
-    let given = [Given::Position(0, -1.0), Given::Velocity(1, 0.9)];
+    let given = [InitialOverride::Position(0, -1.0), InitialOverride::Velocity(1, 0.9)];
     let state = system.initial(2.5, &p, &given).expect("regular");
     assert_eq!((state.time, state.values), (2.5, vec![-1.0, 7.0, 0.6, 0.9]));
     // one momentum given, the other coordinate's velocity as in the file
-    let state = system.initial(0.0, &p, &[Given::Momentum(0, 0.8)]).expect("regular");
+    let state = system.initial(0.0, &p, &[InitialOverride::Momentum(0, 0.8)]).expect("regular");
     close(state.values[3], 0.3);
     let canonical = system.convert(&state, Form::Momentum, &p).expect("regular");
     close(canonical.values[2], 0.8);
@@ -91,7 +91,7 @@ y = { initial = 2.0, momentum = 0.0 }
 H = "1/2*(p_x + y)^2 + 1/2*(p_y - x)^2 + p_x^4/4"
 "#,
     );
-    let given = [Given::Velocity(0, 3.0), Given::Velocity(1, 4.0)];
+    let given = [InitialOverride::Velocity(0, 3.0), InitialOverride::Velocity(1, 4.0)];
     let state = system.initial(0.0, &parameters(&model), &given).expect("regular");
     let (px, py) = (state.values[2], state.values[3]);
     close(px + 2.0 + px.powi(3), 3.0);
@@ -111,14 +111,14 @@ fn a_jump_of_a_parameter_keeps_momenta() {
     let (_, system) = compile(include_str!("../../../presets/pendulums/pendulum.toml"));
     // m, l, g, θ₀
     let (old, new) = ([1.0, 1.0, 9.81, 2.0], [1.0, 0.5, 9.81, 2.0]);
-    let state = system.initial(0.0, &old, &[Given::Velocity(0, 0.7)]).expect("regular");
+    let state = system.initial(0.0, &old, &[InitialOverride::Velocity(0, 0.7)]).expect("regular");
     let changed = system.change_parameters(&state, &old, &new).expect("regular");
     assert_eq!(changed.values[0], state.values[0]);
     close(changed.values[1], 0.7 * 4.0);
 }
 
 #[test]
-fn a_singular_mass_matrix_is_told_with_its_place() {
+fn a_singular_mass_matrix_is_reported_with_its_place() {
     let (model, system) = compile(
         r#"
 title = "Spherical pendulum at its pole"
@@ -156,7 +156,7 @@ L = "1/2*(0.1*x' + 0.3*y')^2*10 - x^2 - y^2 + 1e-20*x'^2"
     let state = system.initial(0.0, &p, &[]).expect("a state is a state");
     let mut stepper = (METHODS[0].make)(&system, &Settings::default()).expect("it fits");
     let outcome = stepper.start(&state, &p).and_then(|()| stepper.step(1.0));
-    assert_eq!(outcome.expect_err("degenerate").kind, FaultKind::SingularMass);
+    assert_eq!(outcome.expect_err("degenerate").kind, MotionErrorKind::SingularMass);
 }
 
 #[test]
@@ -171,10 +171,14 @@ L = "x'*atan(x') - 1/2*ln(1 + x'^2)"
 "#,
     );
     // p = atan(x') stays below π/2
-    let outcome = system.initial(0.0, &parameters(&model), &[Given::Momentum(0, 2.0)]);
+    let outcome = system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 2.0)]);
     let fault = outcome.expect_err("there is no such velocity");
-    assert!(matches!(fault.kind, FaultKind::NoVelocities | FaultKind::SingularMass), "{fault}");
-    let state = system.initial(0.0, &parameters(&model), &[Given::Momentum(0, 1.5)]).expect("is");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::NoVelocities | MotionErrorKind::SingularMass),
+        "{fault}"
+    );
+    let state =
+        system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 1.5)]).expect("is");
     close(state.values[1], 1.5_f64.tan());
 }
 
@@ -183,7 +187,7 @@ fn a_first_state_has_to_be_finite() {
     let (_, system) =
         compile(RELATIVISTIC.replace("initial = \"b\"", "initial = \"ln(b)\"").as_str());
     let fault = system.initial(0.0, &[-1.0, 1.5], &[]).expect_err("ln(−1)");
-    assert_eq!(fault.kind, FaultKind::NotFinite("y".to_owned()));
+    assert_eq!(fault.kind, MotionErrorKind::NotFinite("y".to_owned()));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Kinks that hide in roots and powers: cones, chords, contacts, angles.
 
 use super::{Run, near};
-use phaselab::system::FaultKind;
+use phaselab::system::MotionErrorKind;
 
 fn line(initial: &str, velocity: &str, rest: &str) -> Run {
     Run::new(&format!(
@@ -185,9 +185,12 @@ fn a_tip_that_is_only_touched_is_not_met_again_later() {
 }
 
 #[test]
-fn a_place_without_a_limit_is_told() {
+fn a_place_without_a_limit_is_reported() {
     let mut run = potential("1.0", "0.0", "ln(abs(x))");
     let fault = run.try_to(10.0).expect_err("the velocity grows beyond all bounds");
-    assert!(matches!(fault.kind, FaultKind::Rough | FaultKind::StepUnderflow(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::Rough | MotionErrorKind::StepUnderflow(_)),
+        "{fault}"
+    );
     assert!(fault.place[0].1.abs() < 1e-9 && run.steps < 500, "{fault}");
 }

@@ -2,7 +2,7 @@
 //! that nothing acts on costs next to nothing.
 
 use super::{Run, near};
-use phaselab::system::FaultKind;
+use phaselab::system::MotionErrorKind;
 
 fn potential(initial: &str, velocity: &str, v: &str) -> Run {
     Run::new(&format!(
@@ -102,6 +102,6 @@ fn a_step_ends_when_it_is_asked_to() {
     run.to(1.0);
     run.system.cancel().cancel();
     let fault = run.try_to(2.0).expect_err("stopped");
-    assert_eq!(fault.kind, FaultKind::Cancelled);
+    assert_eq!(fault.kind, MotionErrorKind::Cancelled);
     assert_eq!(run.stepper.time(), 1.0);
 }

@@ -2,7 +2,7 @@
 
 use super::{Run, near};
 use phaselab::integrate::{METHODS, Settings};
-use phaselab::system::{FaultKind, State};
+use phaselab::system::{MotionErrorKind, State};
 
 const OSCILLATOR: &str = r#"
 title = "Oscillator"
@@ -139,7 +139,10 @@ fn a_collision_is_a_fault_and_not_an_endless_loop() {
     // the time of fall from rest: π/2 · √(r³/2)
     let fall = std::f64::consts::FRAC_PI_2 / 2.0_f64.sqrt();
     assert!((fault.time - fall).abs() < 1e-9, "{fault}");
-    assert!(matches!(fault.kind, FaultKind::StepUnderflow(_) | FaultKind::NotFinite(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{fault}"
+    );
     assert!(run.steps < 2000);
 }
 
@@ -151,7 +154,10 @@ fn leaving_the_domain_of_a_function_is_a_fault() {
             .as_str(),
     );
     let fault = run.try_to(10.0).expect_err("the potential ends at x = 0");
-    assert!(matches!(fault.kind, FaultKind::StepUnderflow(_) | FaultKind::NotFinite(_)), "{fault}");
+    assert!(
+        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{fault}"
+    );
 }
 
 #[test]
@@ -162,7 +168,7 @@ fn what_is_felt_only_from_nearby_is_not_jumped_over() {
     );
     let state = run.to(100.0);
     assert!(state[0] < -40.0 && (state[1] + 1.0).abs() < 1e-15, "it is thrown back: {state:?}");
-    // and so with a blow that comes late
+    // and so with an impulse that comes late
     let mut run = Run::new(
         "title = \"A late push\"\n[coordinates]\nx = { initial = 0.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"exp(-(t - 100)^2)\" }\n",
     );

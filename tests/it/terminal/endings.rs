@@ -162,7 +162,7 @@ fn a_dead_line_ends_it_soon_and_without_a_loop() {
     let lines = [
         // as a terminal is closed
         "echo $$ > \"$1\"; exec \"$0\" pendulum",
-        // nobody is told
+        // nobody is reported
         "trap '' HUP; echo $$ > \"$1\"; exec \"$0\" pendulum",
         // in a session of its own
         "trap '' HUP; setsid --wait sh -c 'echo $$ > \"$1\"; exec \"$0\" pendulum' \"$0\" \"$1\"",

@@ -319,7 +319,7 @@ fn a_file_that_becomes_a_pipe_freezes_nothing() {
     lab.shows("no longer there");
     lab.press(" ");
     lab.shows("paused");
-    // saving and reading it anew are told why they cannot be
+    // saving and reading it anew are reported why they cannot be
     lab.press("E");
     lab.shows("This text is the one that runs");
     lab.press("\x0f");

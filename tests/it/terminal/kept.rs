@@ -96,7 +96,7 @@ fn a_home_that_cannot_be_written_costs_a_warning() {
 }
 
 #[test]
-fn the_second_copy_is_told() {
+fn the_second_copy_is_reported() {
     let state = folder();
     let mut first = lab(&["pendulum"], state.path());
     first.shows("running");
@@ -110,7 +110,7 @@ fn the_second_copy_is_told() {
 }
 
 #[test]
-fn a_session_that_cannot_be_resumed_is_told_before_the_screen_is_touched() {
+fn a_session_that_cannot_be_resumed_is_reported_before_the_screen_is_touched() {
     let state = folder();
     let mut none = lab(&["--resume"], state.path());
     assert_eq!(none.ends().0, 2);
@@ -126,7 +126,7 @@ fn a_session_that_cannot_be_resumed_is_told_before_the_screen_is_touched() {
 }
 
 #[test]
-fn a_disk_that_is_full_at_the_end_is_told() {
+fn a_disk_that_is_full_at_the_end_is_reported() {
     let state = folder();
     let mut lab = changed(state.path());
     let folder = state.path().join("phaselab");
@@ -228,7 +228,7 @@ fn edited(state: &Path, place: &Path) -> Session {
         fs::write(place, text).expect("it is written");
     }
     let mut lab = lab(&[place.to_str().expect("text")], state);
-    // what is told of another program speaks of running too
+    // what is reported of another program speaks of running too
     lab.shows("Gauges");
     lab.press("E");
     lab.shows("This text is the one that runs.");

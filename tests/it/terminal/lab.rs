@@ -355,12 +355,12 @@ fn stills_data_and_recordings_are_written_by_keys() {
     let casts = written(folder.path(), ".cast");
     assert_eq!(casts.len(), 2);
     for (name, text) in casts {
-        let tape =
-            phaselab::record::Tape::read(&text).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let tape = phaselab::record::RecordedCast::read(&text)
+            .unwrap_or_else(|why| panic!("{name}: {why}"));
         assert_eq!(tape.size, (120, 40));
         let mut terminal = avt::Vt::new(120, 40);
         for (_, turn) in &tape.events {
-            if let phaselab::record::Turn::Output(text) = turn {
+            if let phaselab::record::CastEvent::Output(text) = turn {
                 terminal.feed_str(text);
             }
         }
@@ -378,7 +378,10 @@ fn a_recording_survives_a_signal() {
     lab.signal(Signal::TERM);
     assert_eq!(lab.ends().0, 143);
     let casts = written(folder.path(), ".cast");
-    assert!(casts.len() == 1 && phaselab::record::Tape::read(&casts[0].1).is_ok(), "{casts:?}");
+    assert!(
+        casts.len() == 1 && phaselab::record::RecordedCast::read(&casts[0].1).is_ok(),
+        "{casts:?}"
+    );
 }
 
 /// The only cast of a folder, which must be one to its last line.
@@ -387,7 +390,7 @@ fn only_cast(folder: &Path) -> String {
     let mut casts = written(folder, ".cast");
     assert_eq!(casts.len(), 1, "{casts:?}");
     let (_, text) = casts.remove(0);
-    phaselab::record::Tape::read(&text).unwrap_or_else(|why| panic!("{why}: {text}"));
+    phaselab::record::RecordedCast::read(&text).unwrap_or_else(|why| panic!("{why}: {text}"));
     assert!(written(folder, ".partial").is_empty());
     text
 }
@@ -498,7 +501,7 @@ fn a_demo_can_be_held_and_left() {
 }
 
 #[test]
-fn what_is_wrong_with_a_demo_is_told_on_the_restored_terminal() {
+fn what_is_wrong_with_a_demo_is_reported_on_the_restored_terminal() {
     let folder = tempfile::tempdir().expect("a folder");
     let check = |name: &str, text: &str, code: u32, part: &str| {
         fs::write(folder.path().join("my.demo"), text).expect("a file");

@@ -100,7 +100,7 @@ pub(super) struct Session {
     screen: vt100::Parser,
     /// The terminal's settings before the program started.
     before: String,
-    /// Where it keeps what it keeps, unless it was told otherwise.
+    /// Where it keeps what it keeps, unless it was reported otherwise.
     _state: TempDir,
 }
 

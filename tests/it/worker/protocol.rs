@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use phaselab::experiment::{Command, Progress, Snapshot, Status};
-use phaselab::worker::{Subject, Worker};
+use phaselab::worker::{Runnable, Worker};
 
 /// A subject that only counts.
 #[derive(Default)]
@@ -26,12 +26,12 @@ impl Counter {
     }
 }
 
-impl Subject for Counter {
+impl Runnable for Counter {
     fn set_epoch(&mut self, epoch: u64) {
         self.epoch = epoch;
     }
 
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::Play => self.running = true,
             Command::Pause => self.running = false,
@@ -176,8 +176,8 @@ fn an_idle_worker_waits_for_its_first_subject() {
 fn a_panic_becomes_a_fault_and_the_worker_goes_on() {
     let broken = Counter { panics_at: Some(1e3), ..Counter::running(f64::INFINITY) };
     let mut worker = Worker::spawn(broken).expect("a thread");
-    let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Faulted(_)));
-    let Status::Faulted(fault) = &snapshot.status else { unreachable!("just looked") };
+    let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Failed(_)));
+    let Status::Failed(fault) = &snapshot.status else { unreachable!("just looked") };
     assert!(fault.message.contains("out of order"), "{}", fault.message);
     assert_eq!(snapshot.epoch, 1);
     worker.load(Counter::running(f64::INFINITY));
@@ -185,11 +185,11 @@ fn a_panic_becomes_a_fault_and_the_worker_goes_on() {
 }
 
 #[test]
-fn a_command_that_panics_is_told_as_well() {
+fn a_command_that_panics_is_reported_as_well() {
     let mut worker = Worker::spawn(Counter::default()).expect("a thread");
     worker.tell(Command::Reference);
-    let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Faulted(_)));
-    let Status::Faulted(fault) = &snapshot.status else { unreachable!("just looked") };
+    let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Failed(_)));
+    let Status::Failed(fault) = &snapshot.status else { unreachable!("just looked") };
     assert!(fault.message.contains("this command panics"), "{}", fault.message);
 }
 

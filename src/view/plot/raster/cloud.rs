@@ -4,7 +4,7 @@
 //! point's history.
 
 use super::{Pen, Raster, spot_of};
-use crate::expr::portable;
+use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::Frame;
 use crate::view::theme::Shade;
@@ -42,7 +42,7 @@ impl Raster {
             if count == 0 {
                 continue;
             }
-            let level = portable::ln_1p(f64::from(count)) / portable::ln_1p(f64::from(fullest));
+            let level = math::ln_1p(f64::from(count)) / math::ln_1p(f64::from(fullest));
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
             spot.dots |= dots;

@@ -1,0 +1,66 @@
+//! The impulses that wait for a person's hand: which they are, and the list to choose one from.
+//!
+//! In: the impulses and events of a model. Out: menus and commands. Never here: what an impulse does.
+
+use super::{App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay};
+use crate::experiment::{Command, Status};
+use crate::model::Action;
+
+impl Lab {
+    /// The impulses that fall at no time of their own and by no event, by index.
+    pub fn impulses(&self) -> Vec<usize> {
+        let model = &self.loaded.model;
+        let by_event =
+            |index: usize| model.events.iter().any(|event| event.action == Action::Impulse(index));
+        let waits = |index: &usize| {
+            let impulse = &model.impulses[*index];
+            impulse.times.is_empty() && impulse.period.is_none() && !by_event(*index)
+        };
+        (0..model.impulses.len()).filter(waits).collect()
+    }
+
+    /// A line of a list for each of them.
+    pub(super) fn impulse_lines(&self) -> Vec<Item> {
+        let line = |index: usize| {
+            let impulse = &self.loaded.model.impulses[index];
+            Item {
+                label: format!("strike: {}", impulse.name),
+                about: impulse.about.clone(),
+                keys: String::new(),
+                refusal: None,
+                choice: Choice::Impulse(index),
+            }
+        };
+        self.impulses().into_iter().map(line).collect()
+    }
+}
+
+impl App {
+    /// Strikes the one impulse there is, or asks which.
+    pub(super) fn apply_one_impulse(&mut self) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        match lab.impulse_lines().as_slice() {
+            [] if lab.loaded.model.impulses.is_empty() => {
+                self.notify("This system has no impulses to strike.")
+            }
+            [] => {
+                self.notify("The impulses of this system fall by themselves; none waits for a key.")
+            }
+            [Item { choice: Choice::Impulse(only), .. }] => self.apply_impulse(*only),
+            lines => {
+                let menu = Menu::new("Strike", Choosing::Impulse, lines.to_vec());
+                self.overlay = Some(Overlay::Menu(menu));
+                Vec::new()
+            }
+        }
+    }
+
+    /// Strikes the impulse of this index.
+    pub(super) fn apply_impulse(&mut self, index: usize) -> Vec<Effect> {
+        match self.snapshot().map(|s| &s.status) {
+            Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
+            Some(Status::Failed(_)) => self.notify("It cannot go on from here: reset it with r."),
+            _ => vec![Effect::Tell(Command::ApplyImpulse(index))],
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What the user is reported in passing, beside the key hints.
+//!
+//! In: sentences. Out: the one to be shown now, and those that wait. Never here: what lasts, as a fault does.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// While another waits, a sentence is shown for this long.
+const TURN: Duration = Duration::from_secs(2);
+
+/// More sentences than this do not wait; all of them are on the page of plain reading.
+const WAITING: usize = 8;
+
+/// A sentence that goes away by itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notification {
+    /// The sentence.
+    pub text: String,
+    /// Whether something went wrong.
+    pub error: bool,
+    left: Duration,
+    shown: Duration,
+}
+
+/// Sentences that wait until the ones before were shown.
+#[derive(Clone, Debug, Default)]
+pub(super) struct NotificationQueue(VecDeque<Notification>);
+
+impl NotificationQueue {
+    /// Shows a sentence now, or after those before it.
+    pub(super) fn tell(&mut self, now: &mut Option<Notification>, notice: Notification) {
+        // The newer word on the same thing takes the place of the older.
+        let told = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
+        if let Some(told) = told {
+            *told = Notification { shown: told.shown, ..notice };
+        } else if now.is_none() {
+            *now = Some(notice);
+        } else if self.0.len() < WAITING {
+            self.0.push_back(notice);
+        }
+    }
+
+    /// Time has passed: what was shown long enough gives way to what waits.
+    pub(super) fn tick(&mut self, now: &mut Option<Notification>, elapsed: Duration) {
+        *now = now.take().and_then(|notice| notice.after(elapsed));
+        let gives_way = now.as_ref().is_none_or(|notice| notice.shown >= TURN);
+        if gives_way && let Some(next) = self.0.pop_front() {
+            *now = Some(next);
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+impl Notification {
+    /// Whether both begin with the same words before a colon: `m: energy jumped by …`.
+    fn says_more_of(&self, other: &Self) -> bool {
+        let lead = |text: &str| text.split_once(": ").map(|(lead, _)| lead.to_owned());
+        lead(&self.text).is_some_and(|of| lead(&other.text) == Some(of))
+    }
+
+    /// For what went well.
+    pub fn info(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            error: false,
+            left: Duration::from_secs(5),
+            shown: Duration::ZERO,
+        }
+    }
+
+    /// For what did not.
+    pub fn error(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            error: true,
+            left: Duration::from_secs(10),
+            shown: Duration::ZERO,
+        }
+    }
+
+    /// The notice after some time has passed.
+    #[must_use]
+    pub fn after(self, elapsed: Duration) -> Option<Self> {
+        let left = self.left.saturating_sub(elapsed);
+        let shown = self.shown.saturating_add(elapsed);
+        (!left.is_zero()).then_some(Self { left, shown, ..self })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newer_word_on_a_thing_takes_the_place_of_the_older() {
+        let (mut queue, mut now) = (NotificationQueue::default(), None);
+        for text in ["m: energy jumped by +1", "lift-off at t = 2", "m: energy jumped by +3"] {
+            queue.tell(&mut now, Notification::info(text));
+        }
+        assert_eq!(now.map(|n| n.text).as_deref(), Some("m: energy jumped by +3"));
+        assert_eq!(queue.0.len(), 1);
+    }
+}

@@ -1,0 +1,188 @@
+//! What has happened: every event and impulse, in time, sealed in shared chunks, so that a snapshot
+//! copies only the open one.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::integrate::{Occurrence, OccurrenceKind};
+
+/// Occurrences in a sealed chunk.
+const CHUNK: usize = 256;
+
+/// The most chunks kept; of more the oldest are forgotten: a million occurrences.
+const CHUNKS: usize = 4096;
+
+/// The most bytes kept, of occurrences with many numbers, such as the jumps of sixty coordinates.
+const BYTES: usize = 128 << 20;
+
+/// Occurrences, the oldest first, and how often each has come.
+#[derive(Clone, Debug, Default)]
+pub struct EventLog {
+    sealed: VecDeque<Arc<Vec<Occurrence>>>,
+    open: Arc<Vec<Occurrence>>,
+    tallies: Arc<Vec<EventCount>>,
+    /// How much the sealed ones take.
+    bytes: usize,
+    only_counts: bool,
+}
+
+/// How often something has happened, and when last.
+#[derive(Clone, PartialEq, Debug)]
+pub struct EventCount {
+    /// The event's or the impulse's name.
+    pub name: String,
+    /// How often, those counted in that are forgotten.
+    pub count: u64,
+    /// When last.
+    pub last: f64,
+}
+
+impl EventLog {
+    /// Forgets all that has happened.
+    pub(super) fn clear(&mut self) {
+        *self = EventLog { only_counts: self.only_counts, ..EventLog::default() };
+    }
+
+    /// From now on occurrences are counted only, and none is kept.
+    pub(super) fn only_count(&mut self) {
+        self.only_counts = true;
+    }
+
+    /// Adds what has happened now.
+    pub(super) fn push(&mut self, occurrence: Occurrence) {
+        let tallies = Arc::make_mut(&mut self.tallies);
+        match tallies.iter_mut().find(|tally| tally.name == occurrence.name) {
+            Some(tally) => (tally.count, tally.last) = (tally.count + 1, occurrence.time),
+            None => {
+                let (name, last) = (occurrence.name.clone(), occurrence.time);
+                tallies.push(EventCount { name, count: 1, last });
+            }
+        }
+        if self.only_counts {
+            return;
+        }
+        let open = Arc::make_mut(&mut self.open);
+        open.push(occurrence);
+        if open.len() == CHUNK {
+            let full = std::mem::take(&mut self.open);
+            self.bytes += size(&full);
+            self.sealed.push_back(full);
+            while self.sealed.len() > CHUNKS || (self.bytes > BYTES && self.sealed.len() > 1) {
+                let Some(oldest) = self.sealed.pop_front() else { break };
+                self.bytes -= size(&oldest);
+            }
+        }
+    }
+
+    /// Those that are kept, the oldest first.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Occurrence> {
+        self.sealed.iter().chain(std::iter::once(&self.open)).flat_map(|chunk| chunk.iter())
+    }
+
+    /// How often each has come, in the order of the first time.
+    pub fn tallies(&self) -> &[EventCount] {
+        &self.tallies
+    }
+
+    /// How many there were in all.
+    pub fn count(&self) -> u64 {
+        self.tallies.iter().map(|tally| tally.count).sum()
+    }
+
+    /// How many of them are kept no longer, the oldest.
+    pub fn forgotten(&self) -> u64 {
+        self.count() - (self.sealed.len() * CHUNK + self.open.len()) as u64
+    }
+
+    /// Whether nothing has happened.
+    pub fn is_empty(&self) -> bool {
+        self.tallies.is_empty()
+    }
+}
+
+/// What a chunk takes, in bytes.
+fn size(chunk: &[Occurrence]) -> usize {
+    let numbers = |occurrence: &Occurrence| match &occurrence.kind {
+        OccurrenceKind::Impulse { jump, reaction } => jump.len() + reaction.len(),
+        OccurrenceKind::Mark | OccurrenceKind::Stop | OccurrenceKind::Release(_) => 0,
+    };
+    let own = |occurrence: &Occurrence| {
+        size_of::<Occurrence>() + occurrence.name.len() + size_of::<f64>() * numbers(occurrence)
+    };
+    chunk.iter().map(own).sum()
+}
+
+impl FromIterator<Occurrence> for EventLog {
+    fn from_iter<I: IntoIterator<Item = Occurrence>>(occurrences: I) -> EventLog {
+        let mut event_log = EventLog::default();
+        occurrences.into_iter().for_each(|occurrence| event_log.push(occurrence));
+        event_log
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ticks(count: usize) -> impl Iterator<Item = Occurrence> {
+        let name = |k: usize| ["tick", "tock"][k % 2].to_owned();
+        (0..count).map(move |k| Occurrence {
+            name: name(k),
+            time: k as f64,
+            kind: OccurrenceKind::Mark,
+        })
+    }
+
+    #[test]
+    fn the_newest_are_kept_in_order_and_all_are_counted() {
+        let most = CHUNK * CHUNKS;
+        let count = most + 1000;
+        let event_log: EventLog = ticks(count).collect();
+        let times: Vec<f64> = event_log.iter().map(|occurrence| occurrence.time).collect();
+        assert!((most..most + CHUNK).contains(&times.len()), "{}", times.len());
+        assert!(times.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
+        assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
+        assert_eq!(event_log.forgotten() as usize, count - times.len());
+        let half = count as u64 / 2;
+        let tally = |name: &str, last| EventCount { name: name.to_owned(), count: half, last };
+        let last = count as f64;
+        assert_eq!(event_log.tallies(), [tally("tick", last - 2.0), tally("tock", last - 1.0)]);
+    }
+
+    #[test]
+    fn occurrences_of_many_numbers_are_bounded_by_their_size() {
+        let wide = |k: usize| Occurrence {
+            name: "kick".to_owned(),
+            time: k as f64,
+            kind: OccurrenceKind::Impulse { jump: vec![1.0; 2000], reaction: vec![1.0; 2000] },
+        };
+        let each = size(&[wide(0)]);
+        let fits = BYTES / (CHUNK * each) * CHUNK;
+        let all: EventLog = (0..fits).map(wide).collect();
+        assert_eq!(all.forgotten(), 0, "they fit just so");
+        let more: EventLog = (0..fits + 2 * CHUNK).map(wide).collect();
+        assert_eq!(more.forgotten() as usize, 2 * CHUNK);
+        assert_eq!(more.iter().next_back().map(|h| h.time), Some((fits + 2 * CHUNK) as f64 - 1.0));
+    }
+
+    #[test]
+    fn what_is_only_counted_is_not_kept() {
+        let mut event_log = EventLog::default();
+        event_log.only_count();
+        ticks(3 * CHUNK).for_each(|occurrence| event_log.push(occurrence));
+        assert_eq!((event_log.count(), event_log.iter().count()), (3 * CHUNK as u64, 0));
+        event_log.clear();
+        ticks(2).for_each(|occurrence| event_log.push(occurrence));
+        assert_eq!((event_log.count(), event_log.iter().count()), (2, 0));
+    }
+
+    #[test]
+    fn a_copy_keeps_what_it_saw() {
+        let mut event_log: EventLog = ticks(CHUNK - 1).collect();
+        let before = event_log.clone();
+        ticks(3 * CHUNK).for_each(|occurrence| event_log.push(occurrence));
+        assert_eq!((before.count(), before.iter().count()), (CHUNK as u64 - 1, CHUNK - 1));
+        assert_eq!((event_log.forgotten(), event_log.iter().count()), (0, 4 * CHUNK - 1));
+        assert!(EventLog::default().is_empty() && !before.is_empty());
+    }
+}

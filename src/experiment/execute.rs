@@ -1,0 +1,197 @@
+//! What each command does to an experiment, and what the user is reported of it.
+//!
+//! A parameter changed by a jump keeps q and p, not q̇ (L jumps, ∂L/∂q̇ does not): *The Principles
+//! of Dynamics*, § 1.3.3 with no impulse.
+
+use super::gauges::Gauges;
+use super::setup::{choose_method, with_override};
+use super::{Command, Experiment, MethodNotFound};
+use crate::integrate::{Method, Settings, Stepping};
+use crate::system::{self, ChannelKind, State};
+
+/// How many notices are kept.
+const NOTICES: usize = 16;
+
+/// A frame on the screen, in seconds.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// The most integrator steps for one single step of the user's.
+const SINGLE_STEP_BUDGET: u64 = 20_000;
+
+impl Experiment {
+    /// Does what a command asks. What cannot be done is reported in a notice.
+    pub fn execute(&mut self, command: Command) {
+        match command {
+            Command::Play => self.running = true,
+            Command::Pause => self.running = false,
+            Command::Step(count) => self.step(count),
+            Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
+            Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
+            Command::Parameter { index, value } => self.change_parameter(index, value),
+            Command::Initial { index, value } => self.change_initial(index, value),
+            Command::Start(overrides) => {
+                self.setup.overrides = overrides;
+                self.restart();
+            }
+            Command::ApplyImpulse(index) => self.strike(index),
+            Command::Reset => self.restart(),
+            Command::FullReset => {
+                self.setup.parameters = self.model.parameter_values();
+                self.setup.overrides.clear();
+                self.restart();
+            }
+            Command::Method(name) => self.take_method(&name, self.motion.settings()),
+            Command::StepSize(step) => self.change_step(step),
+            Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
+            Command::TakeUp(moment) => self.restore(&moment),
+            Command::Settings(settings) => self.change_method(self.motion.method(), settings),
+            Command::Reference => {
+                self.gauge(Gauges::refer);
+                self.tell(format!("the gauges measure from t = {}", short(self.time())));
+            }
+        }
+    }
+
+    /// Keeps a notice for the user.
+    pub fn tell(&mut self, notice: String) {
+        if self.notices.len() == NOTICES {
+            self.notices.remove(0);
+        }
+        self.notices.push(notice);
+    }
+
+    fn strike(&mut self, index: usize) {
+        let known = index < self.system().discontinuities().impulses.len();
+        if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
+            return;
+        }
+        match self.motion.strike(index).and_then(|occurrence| self.note(occurrence)) {
+            Ok(sentence) => self.tell(sentence),
+            Err(fault) => self.fault = Some(fault.into()),
+        }
+    }
+
+    fn step(&mut self, count: u32) {
+        self.running = false;
+        let speed =
+            if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
+        let time = self.time() + f64::from(count) * FRAME * speed;
+        self.advance(time, SINGLE_STEP_BUDGET);
+    }
+
+    fn change_parameter(&mut self, index: usize, value: f64) {
+        let Some(parameter) = self.model.parameters.get(index) else { return };
+        let name = parameter.shown.clone();
+        if !value.is_finite() {
+            return self.tell(format!("{name} cannot be {value}"));
+        }
+        let old = self.setup.parameters.clone();
+        self.setup.parameters[index] = value;
+        if !self.motion.has_begun() {
+            return self.restart();
+        }
+        let initial = self.initial_state();
+        self.show_initial(initial.as_ref().ok());
+        let before = self.energy();
+        let new = &self.setup.parameters;
+        let state = self.system().change_parameters(self.motion.state(), &old, new);
+        self.go_on(state);
+        self.gauge(Gauges::refer);
+        let jump = self.energy() - before;
+        if jump.abs() > 1e-12 * before.abs() {
+            self.report_jump(&format!("{name}: energy jumped by"), jump);
+        }
+    }
+
+    /// Tells of a jump; a parameter that is turned on and on tells of it once.
+    fn report_jump(&mut self, lead: &str, jump: f64) {
+        if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
+            self.notices.pop();
+        }
+        let sign = if jump < 0.0 { '−' } else { '+' };
+        self.tell(format!("{lead} {sign}{}; the gauges measure from here", short(jump.abs())));
+    }
+
+    fn energy(&self) -> f64 {
+        self.energy_of(self.motion.values())
+    }
+
+    /// The energy among the values of all channels.
+    pub(super) fn energy_of(&self, values: &[f64]) -> f64 {
+        let kinds = self.system().channels().iter().map(|c| c.kind);
+        let place = kinds.into_iter().position(|kind| kind == ChannelKind::Energy);
+        place.map_or(f64::NAN, |i| values[i])
+    }
+
+    fn change_initial(&mut self, index: usize, value: f64) {
+        if index >= self.system().moving() || !value.is_finite() {
+            return self.tell(format!("an initial value cannot be {value}"));
+        }
+        self.setup.overrides = with_override(self.system(), &self.setup.overrides, index, value);
+        self.restart();
+    }
+
+    fn change_step(&mut self, step: f64) {
+        if !(step > 0.0 && step.is_finite()) {
+            return self.tell(format!("a step is above zero; {step} is not"));
+        }
+        if self.motion.method().stepping == Stepping::Adaptive {
+            let name = self.motion.method().name;
+            return self.tell(format!("{name} chooses its steps itself; its tolerance can be set"));
+        }
+        let settings = Settings { step: Some(step), ..self.motion.settings() };
+        self.change_method(self.motion.method(), settings);
+    }
+
+    fn change_tolerance(&mut self, tolerance: f64) {
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            return self.tell(format!("a tolerance lies between 0 and 1; {tolerance} does not"));
+        }
+        if self.motion.method().stepping == Stepping::Fixed {
+            let name = self.motion.method().name;
+            return self.tell(format!("{name} has no tolerance; its step can be set"));
+        }
+        let settings = Settings { tolerance: Some(tolerance), ..self.motion.settings() };
+        self.change_method(self.motion.method(), settings);
+    }
+
+    /// Takes the method of a name, or tells why not.
+    pub(super) fn take_method(&mut self, name: &str, settings: Settings) {
+        match choose_method(self.system(), name) {
+            Ok(method) => self.change_method(method, settings),
+            Err(why) => self.tell(why.to_string()),
+        }
+    }
+
+    /// Goes on from the present state by another method. What drifted so far is not its doing, so
+    /// the gauges measure from here.
+    fn change_method(&mut self, method: &'static Method, settings: Settings) {
+        if let Err(refusal) = self.motion.change_method(method, settings) {
+            return self.tell(MethodNotFound::from(refusal).to_string());
+        }
+        self.setup.settings = settings;
+        method.name.clone_into(&mut self.setup.method);
+        if !self.motion.has_begun() {
+            return self.restart();
+        }
+        self.go_on(Ok(self.motion.state().clone()));
+        self.gauge(Gauges::refer);
+    }
+
+    /// Goes on from a state, if there is one to go on from.
+    fn go_on(&mut self, state: Result<State, system::MotionError>) {
+        let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
+        self.fault = begun.err().map(super::Failure::from);
+    }
+}
+
+/// A number in a notice: four significant digits.
+pub(super) fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    let value: f64 = digits.parse().unwrap_or(x);
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}

@@ -1,0 +1,273 @@
+//! One gauge's own memory: what its quantity was, how far it has been from that, and what to think of it.
+//!
+//! In: values, and what moves. Out: a [`Gauge`]. Never here: where the values come from.
+
+use super::LEDGER;
+use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
+use crate::experiment::{Gauge, Reference};
+use crate::expr::Expr;
+use crate::system::TermWatch;
+
+/// One gauge's own memory.
+#[derive(Clone, Debug)]
+pub(super) struct InvariantMonitor {
+    pub(super) name: String,
+    shown: String,
+    reason: String,
+    /// Whether that follows from the law of motion.
+    proved: bool,
+    /// Why it is not constant, where it is not.
+    broken: Option<String>,
+    pub(super) channel: usize,
+    /// Which quantity of a [`TermWatch`] it is, less the work where it is the ledger.
+    quantity: Option<usize>,
+    /// What its rounding is measured by.
+    pub(super) expression: Expr,
+    /// Whether its reference jumps with an impulse.
+    jumps: bool,
+    /// Its value when the reference was taken.
+    initial: f64,
+    /// What distances are measured from: the initial value, and what impulses have added to it.
+    reference: f64,
+    /// The same, added up from its terms in `f64`.
+    rough_reference: f64,
+    /// What its terms were at rest when the reference was taken.
+    at_rest: Vec<f64>,
+    /// The greatest error of its value since then, in units of ε.
+    rounding: f64,
+    /// How much of it moves on the mean.
+    moving: Mean,
+    /// The greatest distance from the reference since then.
+    farthest: f64,
+    /// The greatest distance over what moved on the mean until then, or at that time where that was more.
+    worst: f64,
+    /// When it left its value by more than it may.
+    left: Option<f64>,
+    /// The distances, with their signs.
+    distances: History,
+}
+
+/// What a monitor is about.
+pub(super) struct Subject {
+    pub(super) name: String,
+    pub(super) shown: String,
+    pub(super) reason: String,
+    pub(super) proved: bool,
+    pub(super) broken: Option<String>,
+    pub(super) channel: usize,
+    pub(super) quantity: Option<usize>,
+    pub(super) expression: Expr,
+}
+
+impl InvariantMonitor {
+    pub(super) fn new(subject: Subject) -> InvariantMonitor {
+        let Subject { name, shown, reason, proved, broken, channel, quantity, expression } =
+            subject;
+        InvariantMonitor {
+            jumps: name != LEDGER,
+            name,
+            shown,
+            reason,
+            proved,
+            broken,
+            channel,
+            quantity,
+            expression,
+            initial: f64::NAN,
+            reference: f64::NAN,
+            rough_reference: f64::NAN,
+            at_rest: Vec::new(),
+            rounding: 0.0,
+            moving: Mean::default(),
+            farthest: 0.0,
+            worst: 0.0,
+            left: None,
+            distances: History::new(),
+        }
+    }
+
+    /// Takes the present as the reference.
+    pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
+        self.initial = values[self.channel];
+        self.reference = self.initial;
+        self.rough_reference = self.rough(terms).unwrap_or(f64::NAN);
+        self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
+        self.rounding = 0.0;
+        self.moving = Mean { time, ..Mean::default() };
+        self.farthest = 0.0;
+        self.worst = 0.0;
+        self.left = None;
+        self.distances = History::new();
+    }
+
+    /// Goes on from what another monitor of this name knew of the same quantity.
+    pub(super) fn restore(&mut self, known: &Reference, time: f64) {
+        self.rough_reference += known.from - self.reference;
+        self.reference = known.from;
+        self.initial = known.initial.unwrap_or(known.from);
+        let scale = known.scale.unwrap_or_else(|| known.from.abs());
+        self.moving = Mean::of(scale, time - known.since, time);
+        self.farthest = known.farthest.unwrap_or(known.max_drift * scale);
+        self.worst = known.max_drift;
+        self.left = known.left;
+    }
+
+    /// An impulse has led from some values to others.
+    pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
+        let jump = after[self.channel] - before[self.channel];
+        if self.jumps && jump.is_finite() {
+            self.reference += jump;
+            self.rough_reference += jump;
+        }
+    }
+
+    /// Its value, as uncertain as this many units of ε.
+    pub(super) fn measure(&mut self, error: f64) {
+        if error.is_finite() {
+            self.rounding = self.rounding.max(error);
+        }
+    }
+
+    /// Its value as its terms add up in `f64`.
+    fn rough(&self, terms: &TermWatch) -> Option<f64> {
+        let quantity = self.quantity.filter(|&quantity| terms.has(quantity))?;
+        let work = if self.jumps { 0.0 } else { terms.work() };
+        Some(terms.value(quantity) - work)
+    }
+
+    /// How much of it moves; and its terms may have grown since its error was measured.
+    fn moving(&mut self, terms: &TermWatch) -> f64 {
+        let Some(quantity) = self.quantity else { return 0.0 };
+        self.measure(terms.size(quantity));
+        terms.moving(quantity, &self.at_rest)
+    }
+
+    /// Takes note of a value known to its last digit; `floor` is what rounding may do to a value of size 1.
+    pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
+        let distance = values[self.channel] - self.reference;
+        let moving = self.moving(terms);
+        self.note(time, distance, moving, floor);
+        distance
+    }
+
+    /// The same, one of those that the history is made of.
+    pub(super) fn sample(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) {
+        let distance = self.look(time, values, terms, floor);
+        self.distances.push(time, distance);
+    }
+
+    /// Takes note of the value at the end of a step, or within. What rounding explains says nothing here.
+    pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
+        let Some(value) = self.rough(terms) else { return };
+        let distance = value - self.rough_reference;
+        let moving = self.moving(terms);
+        // what moves after a motion was ruined is no measure of it
+        if self.worst <= LOST {
+            self.moving.note(time, moving);
+        }
+        if distance.abs() > floor * self.rounding {
+            self.note(time, distance, moving, floor);
+            // where rows lie within a step, they are the history
+            if !dense {
+                self.distances.push(time, distance);
+            }
+        }
+    }
+
+    fn note(&mut self, time: f64, distance: f64, moving: f64, floor: f64) {
+        let distance = distance.abs();
+        if distance > self.farthest {
+            self.farthest = distance;
+        }
+        if distance > floor * self.rounding {
+            let moving = moving.max(self.moving.value());
+            let drift = if moving > 0.0 { distance / moving } else { distance / self.rounding };
+            self.worst = self.worst.max(drift);
+            // rows lie before the end of the step that was looked at first
+            if drift > LEFT && self.left.is_none_or(|left| time < left) {
+                self.left = Some(time);
+            }
+        }
+    }
+
+    /// What drift is relative to: how much moves on the mean; where nothing does, what the terms are worth.
+    fn scale(&self) -> f64 {
+        let moving = self.moving.value();
+        if moving > 0.0 { moving } else { self.rounding }
+    }
+
+    pub(super) fn show(&self, values: &[f64], since: f64, floor: f64) -> Gauge {
+        let value = values[self.channel];
+        let (scale, rounding) = (self.scale(), floor * self.rounding);
+        // what is rounding is small beside what is rounded
+        let drift = |distance: f64| match distance {
+            0.0 => 0.0,
+            _ if distance <= rounding => distance / scale.max(self.rounding),
+            _ => distance / scale,
+        };
+        let distance = (value - self.reference).abs();
+        let beyond = self.farthest > rounding;
+        let max_drift = if beyond { self.worst } else { drift(self.farthest.max(distance)) };
+        let drift_now = drift(distance).min(max_drift);
+        let left = beyond && max_drift > LEFT;
+        let verdict = match &self.broken {
+            Some(law) => Verdict::Broken(law.clone()),
+            None if beyond && max_drift > LOST => Verdict::Lost,
+            None => match Verdict::of(&self.distances, self.farthest, rounding) {
+                Verdict::Secular(slope) => Verdict::Secular(slope / scale),
+                other => other,
+            },
+        };
+        let history = self.distances.stretches().iter().map(Stretch::peak);
+        Gauge {
+            name: self.name.clone(),
+            shown: self.shown.clone(),
+            reason: self.reason.clone(),
+            proved: self.proved && self.broken.is_none(),
+            value,
+            initial: self.initial,
+            scale,
+            farthest: self.farthest,
+            reference: self.reference,
+            reference_time: since,
+            drift: drift_now,
+            max_drift,
+            left: (left && self.broken.is_none()).then(|| self.left.unwrap_or(since)),
+            history: history.map(|peak| drift(peak) as f32).collect(),
+            verdict,
+        }
+    }
+}
+
+/// A mean over time of something looked at again and again.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mean {
+    /// When it was last looked at.
+    time: f64,
+    value: f64,
+    weight: f64,
+}
+
+impl Mean {
+    /// The one of a past so long.
+    fn of(value: f64, weight: f64, time: f64) -> Mean {
+        Mean { time, value, weight }
+    }
+
+    fn note(&mut self, time: f64, value: f64) {
+        if value.is_finite() {
+            let weight = (time - self.time).abs();
+            self.weight += weight;
+            if self.weight > 0.0 {
+                self.value += (value - self.value) * (weight / self.weight);
+            } else {
+                self.value = value;
+            }
+            self.time = time;
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.value
+    }
+}

@@ -1,0 +1,358 @@
+//! Is an expression zero? Proved by a normal form where it can be, one side of every kink at a
+//! time; refuted by a value that rounding cannot have made. Where neither succeeds, values may be
+//! consistent with zero, or nothing is known.
+
+use rustc_hash::FxHashMap;
+
+use super::expand::PROOF_TERMS;
+use super::function::{FunctionId, Rule};
+use super::pool::{Expr, Node, Pool};
+use super::sample::sample;
+use super::symbol::Symbol;
+use crate::num::Number;
+
+/// How far an expression is known to vanish.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Zero {
+    /// Proved symbolically.
+    Proved,
+    /// No proof, but nothing in it can hide and its values are zero to rounding at points of all
+    /// magnitudes.
+    Numerically,
+    /// Neither proved nor refuted: it may have a kink or a localised part where nobody looked, or
+    /// has no values at the points tried.
+    Unknown,
+    /// Not zero: it has a value that is beyond the error of its own evaluation.
+    No,
+}
+
+/// How many points are tried before a proof is.
+const QUICK: u64 = 6;
+
+/// How many points are tried in all, the later ones of ever more different magnitudes.
+const POINTS: u64 = 64;
+
+/// So many points have to speak for zero before it counts for anything.
+const WITNESSES: usize = 12;
+
+/// A point speaks for zero where rounding is this many powers of two below the terms.
+const CLEAR: i64 = 24;
+
+/// A power higher than this may be invisible beside its neighbours almost everywhere.
+const HIGHEST: f64 = 16.0;
+
+/// An expression heavier than this is not worth the symbolic attempt.
+const WEIGHT_LIMIT: u64 = 20_000;
+
+/// How many kinks are opened in a proof: each doubles the work.
+const MOST_KINKS: usize = 5;
+
+/// What the values at one point say.
+enum Witness {
+    /// The expression is not zero there.
+    Against,
+    /// It is zero to rounding; holds which of its terms are large enough to be seen.
+    For(Vec<bool>),
+    /// Nothing.
+    Silent,
+}
+
+impl Pool {
+    /// Whether `e` vanishes identically. Quick for what does not: a few values settle it.
+    pub fn is_zero(&mut self, e: Expr) -> Zero {
+        if self.is_full() {
+            // what was built since is not what it says
+            return Zero::Unknown;
+        }
+        if e == Expr::ZERO {
+            return Zero::Proved;
+        }
+        if self.is_stopped() {
+            return Zero::Unknown;
+        }
+        if self.as_number(e).is_some() {
+            return Zero::No;
+        }
+        if self.is_refuted(e, 0..QUICK) {
+            return Zero::No;
+        }
+        match self.proof(e) {
+            Zero::Unknown => self.by_values(e),
+            known => known,
+        }
+    }
+
+    /// Whether a value at one of the points named by `points` shows that `e` is not zero. `true` is
+    /// a proof: the value is beyond all rounding of its evaluation.
+    fn is_refuted(&self, e: Expr, points: std::ops::Range<u64>) -> bool {
+        points.into_iter().any(|n| self.refutes(e, &|s| sample(s, n)))
+    }
+
+    /// Whether `e` is zero at a point whose values are known to a part `slack` of themselves; `None`
+    /// where that cannot be reported.
+    pub fn vanishes_at(&self, e: Expr, slack: f64, at: &dyn Fn(Symbol) -> f64) -> Option<bool> {
+        match self.witness(e, slack, at) {
+            Witness::Against => Some(false),
+            Witness::For(_) => Some(true),
+            Witness::Silent => None,
+        }
+    }
+
+    /// Whether the value of `e` at a point shows that it is not zero.
+    pub fn refutes(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> bool {
+        self.enclosure(e, at).is_some_and(super::ball::Ball::excludes_zero)
+    }
+
+    /// The symbolic attempt: proved, refuted by what a normal form leaves, or not known.
+    fn proof(&mut self, e: Expr) -> Zero {
+        if self.weight(e) >= WEIGHT_LIMIT {
+            return Zero::Unknown;
+        }
+        let opened = self.open_roots(e);
+        let form = self.normal_form(opened);
+        if self.is_full() {
+            return Zero::Unknown;
+        }
+        if form == Expr::ZERO {
+            return Zero::Proved;
+        }
+        if self.is_refuted(form, 0..QUICK) {
+            // what cancelled by symbols no longer drowns the rest; but the form is zero wherever a
+            // denominator that was cleared is, so that the points have to be generic: they are
+            return Zero::No;
+        }
+        if self.vanishes_on_all_sides(opened, MOST_KINKS) { Zero::Proved } else { Zero::Unknown }
+    }
+
+    /// Whether `e` is proved to vanish whatever side of each kink one is on.
+    fn vanishes_on_all_sides(&mut self, e: Expr, most: usize) -> bool {
+        let Some(switch) = self.first_switch(e) else { return false };
+        if most == 0 {
+            return false;
+        }
+        [true, false].into_iter().all(|positive| {
+            let side = self.on_side(e, switch, positive);
+            let form = self.normal_form(side);
+            !self.is_full() && (form == Expr::ZERO || self.vanishes_on_all_sides(side, most - 1))
+        })
+    }
+
+    /// The switch of a kinked call, and whether its sign was turned to make it one of two.
+    fn switch_of(&mut self, call: Expr) -> Option<(Expr, bool)> {
+        let shared = self.shared(call);
+        let Node::Call(function, arguments) = &*shared else { return None };
+        let Rule::Branch(branches) = function.row().rule else { return None };
+        let switch = branches(self, arguments).switch;
+        let turned = self.neg(switch);
+        Some(if turned < switch { (turned, true) } else { (switch, false) })
+    }
+
+    /// The switch of the innermost kink.
+    fn first_switch(&mut self, e: Expr) -> Option<Expr> {
+        let parts = self.reachable(&[e]);
+        parts.into_iter().find_map(|part| self.switch_of(part)).map(|(switch, _)| switch)
+    }
+
+    /// The expression where a switch is positive, or negative.
+    fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let mut rebuilt = self.rebuild(part, &done);
+            if let Some((own, turned)) = self.switch_of(rebuilt)
+                && own == switch
+                && let Node::Call(function, arguments) = &*self.shared(rebuilt)
+                && let Rule::Branch(branches) = function.row().rule
+            {
+                let branches = branches(self, arguments);
+                rebuilt = if positive == turned { branches.negative } else { branches.positive };
+            }
+            done.insert(part, rebuilt);
+        }
+        done[&e]
+    }
+
+    /// Roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) = u.
+    fn open_roots(&mut self, e: Expr) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rebuilt = self.rebuild(part, &done);
+            if let Node::Call(FunctionId::Exp, arguments) = &*self.shared(rebuilt)
+                && let Node::Call(FunctionId::Ln, inner) = &*self.shared(arguments[0])
+            {
+                done.insert(part, inner[0]);
+                continue;
+            }
+            let Node::Product(c, factors) = &*self.shared(rebuilt) else {
+                done.insert(part, rebuilt);
+                continue;
+            };
+            let mut opened: Vec<(Expr, Number)> = Vec::new();
+            for &(base, n) in factors {
+                match &*self.shared(base) {
+                    Node::Product(k, inner)
+                        if k.is_one()
+                            && n.as_integer().is_none()
+                            && inner
+                                .iter()
+                                .all(|(_, m)| m.as_integer().is_some_and(|m| m % 2 == 0)) =>
+                    {
+                        for &(u, m) in inner {
+                            opened.push((self.call(FunctionId::Abs, &[u]), m * n));
+                        }
+                    }
+                    _ => opened.push((base, n)),
+                }
+            }
+            let opened = self.monomial(*c, &opened);
+            done.insert(part, opened);
+        }
+        done[&e]
+    }
+
+    /// A numerator of `e`, multiplied out: zero where `e` is, and a polynomial in its symbols, roots,
+    /// sines and cosines where it can be written as one.
+    pub fn numerator(&mut self, e: Expr) -> Expr {
+        if self.weight(e) < WEIGHT_LIMIT { self.normal_form(e) } else { e }
+    }
+
+    /// A sum of monomials with every square of a symbol replaced.
+    pub fn with_square(&mut self, e: Expr, symbol: Symbol, square: Expr) -> Expr {
+        let base = self.variable(symbol);
+        let mut terms = Vec::new();
+        for (c, term) in self.summands(e) {
+            let factors = match &*self.shared(term) {
+                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
+                _ => vec![(term, Number::ONE)],
+            };
+            let replaced: Vec<(Expr, Number)> = factors
+                .into_iter()
+                .flat_map(|(b, n)| match n.as_integer() {
+                    Some(k) if b == base && k >= 2 => {
+                        vec![(square, Number::integer(k / 2)), (base, Number::integer(k % 2))]
+                    }
+                    _ => vec![(b, n)],
+                })
+                .collect();
+            terms.push((c, self.monomial(Number::ONE, &replaced)));
+        }
+        let replaced = self.linear(Number::ZERO, &terms);
+        self.expand(replaced, PROOF_TERMS)
+    }
+
+    /// What the values say of an expression without a proof.
+    fn by_values(&self, e: Expr) -> Zero {
+        let mut witnesses = 0;
+        let mut seen: Vec<bool> = Vec::new();
+        for n in QUICK..POINTS {
+            match self.witness(e, 0.0, &|s| sample(s, n)) {
+                Witness::Against => return Zero::No,
+                Witness::Silent => {}
+                Witness::For(visible) => {
+                    witnesses += 1;
+                    seen.resize(visible.len(), false);
+                    seen.iter_mut().zip(visible).for_each(|(all, one)| *all |= one);
+                }
+            }
+        }
+        let spoken = witnesses >= WITNESSES && seen.iter().all(|&seen| seen);
+        if spoken && !self.may_hide(e) { Zero::Numerically } else { Zero::Unknown }
+    }
+
+    fn witness(&self, e: Expr, slack: f64, at: &dyn Fn(Symbol) -> f64) -> Witness {
+        let values = self.enclosures(e, slack, at);
+        let Some(whole) = values[&e] else { return Witness::Silent };
+        if whole.excludes_zero() {
+            return Witness::Against;
+        }
+        let Node::Sum(_, terms) = self.node(e) else { return Witness::Silent };
+        let magnitude = |&(c, term): &(Number, Expr)| {
+            values[&term]?.mul(super::ball::Ball::number(c)?)?.magnitude()
+        };
+        let sizes: Vec<Option<i64>> = terms.iter().map(magnitude).collect();
+        let Some(largest) = sizes.iter().copied().flatten().max() else { return Witness::Silent };
+        let noise = whole.uncertainty().unwrap_or(i64::MIN / 2);
+        if noise > largest - CLEAR {
+            return Witness::Silent;
+        }
+        Witness::For(sizes.iter().map(|size| size.is_some_and(|size| size > noise + 4)).collect())
+    }
+
+    /// Whether an expression has a part that may be there and not be seen at a few points: a kink,
+    /// a function that saturates or is localised, a high power.
+    pub fn may_hide(&self, e: Expr) -> bool {
+        self.reachable(&[e]).into_iter().any(|part| match self.node(part) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => false,
+            Node::Product(_, factors) => factors.iter().any(|(_, n)| n.value().abs() > HIGHEST),
+            Node::Power(..) => true,
+            Node::Call(function, _) => !matches!(
+                function,
+                FunctionId::Sin
+                    | FunctionId::Cos
+                    | FunctionId::Tan
+                    | FunctionId::Cot
+                    | FunctionId::Ln
+                    | FunctionId::Sqrt
+            ),
+        })
+    }
+
+    /// A form in which an expression that is zero as a rational function of symbols, roots, sines
+    /// and cosines *is* 0: angles opened, denominators cleared, multiplied out, squares of
+    /// cosines replaced. For anything else it is some numerator of `e`.
+    pub(super) fn normal_form(&mut self, e: Expr) -> Expr {
+        let mut e = self.open_angles(e);
+        e = self.expand(e, PROOF_TERMS);
+        e = self.reduce_squares(e, PROOF_TERMS);
+        for _ in 0..8 {
+            let cleared = self.clear_denominators(e);
+            let cleared = self.expand(cleared, PROOF_TERMS);
+            let cleared = self.reduce_squares(cleared, PROOF_TERMS);
+            if cleared == e || cleared == Expr::ZERO {
+                return cleared;
+            }
+            e = cleared;
+        }
+        e
+    }
+
+    /// Multiplies a sum through by the lowest power of every base that stands below a line, or
+    /// that is a sum under a root; afterwards such powers are non-negative.
+    fn clear_denominators(&mut self, e: Expr) -> Expr {
+        let terms = self.summands(e);
+        if terms.len() < 2 {
+            return e;
+        }
+        let mut exponents: FxHashMap<Expr, Vec<Number>> = FxHashMap::default();
+        let mut factor_lists = Vec::new();
+        for &(c, term) in &terms {
+            let factors = match &*self.shared(term) {
+                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
+                _ => vec![(term, Number::ONE)],
+            };
+            for &(base, n) in &factors {
+                exponents.entry(base).or_default().push(n);
+            }
+            factor_lists.push((c, factors));
+        }
+        let count = terms.len();
+        let mut lowest: Vec<(Expr, Number)> = Vec::new();
+        for (base, seen) in exponents {
+            let mut low = seen.iter().copied().min().unwrap_or(Number::ZERO);
+            if seen.len() < count {
+                low = low.min(Number::ZERO);
+            }
+            if low.is_negative() || (seen.len() == count && !low.is_zero()) {
+                lowest.push((base, -low));
+            }
+        }
+        lowest.sort_unstable_by_key(|&(base, _)| base);
+        let cleared: Vec<(Number, Expr)> = factor_lists
+            .into_iter()
+            .map(|(c, mut factors)| {
+                factors.extend_from_slice(&lowest);
+                (c, self.monomial(Number::ONE, &factors))
+            })
+            .collect();
+        self.linear(Number::ZERO, &cleared)
+    }
+}

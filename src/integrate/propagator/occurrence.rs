@@ -1,0 +1,136 @@
+//! What happens on the way of a motion: impulses fall, events are passed, constraints are let go.
+//!
+//! In: a motion at the time of it. Out: the state after it, and a [`Occurrence`]. Never here: when it is due.
+
+use super::Propagator;
+use crate::integrate::event_location::LocatedEvent;
+use crate::model::Action;
+use crate::system::{MotionError, MotionErrorKind, State, System};
+
+/// Something that happened.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Occurrence {
+    /// The event's or the impulse's name.
+    pub name: String,
+    /// When.
+    pub time: f64,
+    /// What it was.
+    pub kind: OccurrenceKind,
+}
+
+/// What happened.
+#[derive(Clone, PartialEq, Debug)]
+pub enum OccurrenceKind {
+    /// An event was passed.
+    Mark,
+    /// An event ended the motion.
+    Stop,
+    /// The constraint of this index was let go.
+    Release(usize),
+    /// An impulse fell.
+    Impulse {
+        /// Δp of each coordinate, or the jump of each variable.
+        jump: Vec<f64>,
+        /// Λ of each constraint.
+        reaction: Vec<f64>,
+    },
+}
+
+impl Propagator {
+    pub(super) fn apply_scheduled(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
+        let time = self.impulse_schedule.apply_scheduled(impulse, self.clear);
+        self.look_exactly(time)?;
+        self.impulse_at(impulse, None)
+    }
+
+    /// The present is struck, as by the user's hand.
+    ///
+    /// # Errors
+    /// Where no motion has the momenta the impulse gives.
+    pub fn apply_impulse_now(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
+        self.impulse_at(impulse, None)
+    }
+
+    /// Strikes the present state.
+    fn impulse_at(
+        &mut self,
+        impulse: usize,
+        event: Option<usize>,
+    ) -> Result<Occurrence, MotionError> {
+        let mut before = self.own()?;
+        let time = before.time;
+        if let Some(projector) = &mut self.projector {
+            projector.project(&mut before)?;
+        }
+        let after_impulse = self.system.apply_impulse(impulse, &before, &self.parameters)?;
+        let kind =
+            OccurrenceKind::Impulse { jump: after_impulse.jump, reaction: after_impulse.reaction };
+        if let Some(crossings) = &mut self.crossings {
+            crossings.after_impulse(&before, &after_impulse.after, event)?;
+        }
+        self.before.copy_from(&before);
+        self.resume(&after_impulse.after)?;
+        let discontinuities = self.system.discontinuities();
+        let name = match event {
+            Some(event) => discontinuities.events[event].name.clone(),
+            None => discontinuities.impulses[impulse].name.clone(),
+        };
+        Ok(Occurrence { name, time, kind })
+    }
+
+    /// An event is passed, and what it does is done.
+    pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, MotionError> {
+        self.look_exactly(found.exact)?;
+        self.check_accumulation(found)?;
+        let trigger = self.system.discontinuities().events[found.event].clone();
+        let kind = match trigger.action {
+            Action::Mark => OccurrenceKind::Mark,
+            Action::Stop => {
+                self.ended = true;
+                OccurrenceKind::Stop
+            }
+            Action::Release(constraint) => {
+                self.before.copy_from(&self.state);
+                let state = self.own()?;
+                self.release(constraint, &state)?;
+                OccurrenceKind::Release(constraint)
+            }
+            Action::Impulse(impulse) => return self.impulse_at(impulse, Some(found.event)),
+        };
+        Ok(Occurrence { name: trigger.name, time: found.exact.high, kind })
+    }
+
+    /// Lets a constraint go at the present, which is `state` in the system's own form.
+    pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), MotionError> {
+        let system = self.system.release(constraint, state, &self.parameters);
+        self.take_holding(system, state)
+    }
+
+    /// Goes on at a state with other constraints held.
+    pub(super) fn take_holding(
+        &mut self,
+        system: System,
+        state: &State,
+    ) -> Result<(), MotionError> {
+        self.system = system;
+        if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
+            self.stepper = stepper;
+        }
+        let known = self.crossings.take();
+        self.take_system();
+        if let (Some(crossings), Some(known)) = (&mut self.crossings, known) {
+            crossings.inherit(known, state)?;
+        }
+        self.resume(state)
+    }
+
+    /// An event that comes again and again without end stops the motion with a reason.
+    fn check_accumulation(&mut self, found: LocatedEvent) -> Result<(), MotionError> {
+        let time = found.exact.high;
+        if !self.accumulation[found.event].record(time, self.start) {
+            return Ok(());
+        }
+        let name = self.system.discontinuities().events[found.event].name.clone();
+        Err(self.system.fault(MotionErrorKind::PilesUp(name), time, &self.state.values))
+    }
+}

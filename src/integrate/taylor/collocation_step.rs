@@ -1,0 +1,323 @@
+//! A short step away from a place where no series can be built: from the edge of a fractional
+//! power, the tip of a cone, a surface where 0/0 stands for a sign.
+//!
+//! One-sided, the rates are continuous there, only not smooth; or they grow without bound, but
+//! slower than 1/t. Gauss's collocation with three stages looks at them inside the step only, never
+//! at its ends, and the step is made so small that a part of it taken in two agrees with the whole
+//! to the last digit. The step is also tried in another measure of time, t = h s^k, in which a
+//! fractional power of t becomes a whole one.
+//!
+//! In: a state, the longest step wanted. Out: the step taken and the state behind it, or nothing,
+//! where the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential
+//! Equations II, IV.5.
+
+use crate::num::{DoubleDouble, Real};
+use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
+
+/// The part of the wanted step that is tried first, and the part that is left after each failure.
+const FIRST: f64 = 1.0 / 64.0;
+const AGAIN: f64 = 0.125;
+
+/// How often a step is made shorter before the rates count as having no limit.
+const TRIALS: u32 = 40;
+
+/// A step found this short beside the one wanted says that the wanted one was no measure: a
+/// smaller one is taken.
+const SHORT: f64 = 1e-10;
+
+/// How far two ways of taking a step may differ, in parts of the size of each number.
+const AGREEMENT: f64 = 1e-18;
+
+/// Rounds in which the stages have to settle, and what they may still move then.
+const ROUNDS: u32 = 60;
+const SETTLED: f64 = 1e-26;
+
+/// The part of a step after which it is taken in two, in its measure of time.
+const PART: f64 = 0.125;
+
+/// The measures of time, by their power k: those of square, cube and fourth roots, and of both of
+/// the first.
+const POWERS: [i32; 5] = [1, 2, 3, 4, 6];
+
+/// A step of this part of the wanted one is long enough that no other measure is tried.
+const LONG: f64 = 1e-6;
+
+/// The three stages: their places, weights, and what each takes of each.
+struct Scheme {
+    at: [DoubleDouble; 3],
+    weight: [DoubleDouble; 3],
+    from: [[DoubleDouble; 3]; 3],
+}
+
+impl Scheme {
+    fn new() -> Scheme {
+        let part = |n: f64, d: f64| DoubleDouble::from(n) / d;
+        let root = Real::sqrt(DoubleDouble::from(15.0));
+        let half = part(1.0, 2.0);
+        Scheme {
+            at: [half - root / 10.0, half, half + root / 10.0],
+            weight: [part(5.0, 18.0), part(4.0, 9.0), part(5.0, 18.0)],
+            from: [
+                [part(5.0, 36.0), part(2.0, 9.0) - root / 15.0, part(5.0, 36.0) - root / 30.0],
+                [part(5.0, 36.0) + root / 24.0, part(2.0, 9.0), part(5.0, 36.0) - root / 24.0],
+                [part(5.0, 36.0) + root / 30.0, part(2.0, 9.0) + root / 15.0, part(5.0, 36.0)],
+            ],
+        }
+    }
+}
+
+/// A part of a step, from `begin` to `end` in its measure of time.
+struct Piece {
+    step: DoubleDouble,
+    begin: f64,
+    end: f64,
+}
+
+/// Takes such steps.
+pub(super) struct CollocationStep {
+    scheme: Scheme,
+    /// How many numbers of a state move; the rest is carried along.
+    moving: usize,
+    /// The power of the measure of time of the step taken last.
+    power: i32,
+    stages: [Vec<DoubleDouble>; 3],
+    numbers: Vec<DoubleDouble>,
+    end: Vec<DoubleDouble>,
+    two: Vec<DoubleDouble>,
+}
+
+impl std::fmt::Debug for CollocationStep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Bridge")
+    }
+}
+
+impl CollocationStep {
+    pub(super) fn new(len: usize, moving: usize) -> CollocationStep {
+        let blank = || vec![DoubleDouble::ZERO; len];
+        CollocationStep {
+            scheme: Scheme::new(),
+            moving,
+            power: 1,
+            stages: [blank(), blank(), blank()],
+            numbers: blank(),
+            end: blank(),
+            two: blank(),
+        }
+    }
+
+    /// Goes from a state a part of `wanted` and `least` at least, into `out`; the step taken, if
+    /// one could be. Rates that have no value at the state itself may be given by `toward`.
+    pub(super) fn cross(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        (wanted, least): (f64, f64),
+        toward: Option<&[DoubleDouble]>,
+        out: &mut State,
+    ) -> Result<Option<f64>, MotionError> {
+        let mut longest: Option<(f64, i32)> = None;
+        // only a place that was reached is one from which powers of the time count
+        let powers = if least > 0.0 { &POWERS[..1] } else { &POWERS[..] };
+        for &power in powers {
+            let Some(step) = self.longest(rates, from, (wanted, least), toward, power)? else {
+                continue;
+            };
+            if longest.is_none_or(|(best, _)| step.abs() > best.abs()) {
+                longest = Some((step, power));
+            }
+            if step.abs() >= LONG * wanted.abs() {
+                break;
+            }
+        }
+        let Some((step, power)) = longest else { return Ok(None) };
+        self.power = power;
+        self.inside(rates, from, DoubleDouble::from(step), toward, out)?;
+        Ok(Some(step))
+    }
+
+    /// The longest step that can be taken in one measure of time.
+    fn longest(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        (wanted, least): (f64, f64),
+        toward: Option<&[DoubleDouble]>,
+        power: i32,
+    ) -> Result<Option<f64>, MotionError> {
+        self.power = power;
+        let (mut step, mut wanted) = (wanted * FIRST, wanted);
+        let mut found = None;
+        for _ in 0..TRIALS {
+            if step.abs() <= 1e-30 * from.time.abs() || step.abs() < least.max(1e-290) {
+                break;
+            }
+            let jumps = least > 0.0 && !self.begins_inside(rates, from, step);
+            if jumps || !self.agree(rates, from, step, wanted, toward)? {
+                step *= AGAIN;
+                continue;
+            }
+            found = Some(step);
+            if step.abs() >= SHORT * wanted.abs() {
+                break;
+            }
+            wanted *= FIRST;
+        }
+        Ok(found)
+    }
+
+    /// The state a time `after` one from which a step was taken.
+    pub(super) fn inside(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        after: DoubleDouble,
+        toward: Option<&[DoubleDouble]>,
+        out: &mut State,
+    ) -> Result<(), MotionError> {
+        self.take_two(rates, from, after, toward)?;
+        self.put(from, after, out);
+        Ok(())
+    }
+
+    fn put(&self, from: &State, after: DoubleDouble, out: &mut State) {
+        out.copy_from(from);
+        for (i, &x) in self.two.iter().enumerate() {
+            out.set(i, x);
+        }
+        let time = from.exact_time() + after;
+        (out.time, out.time_carry) = (time.high, time.low);
+    }
+
+    /// Whether a step as a whole and the same in two end at the same place; the second one stays.
+    fn agree(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        step: f64,
+        wanted: f64,
+        toward: Option<&[DoubleDouble]>,
+    ) -> Result<bool, MotionError> {
+        let start = numbers_of(from);
+        let whole = Piece { step: DoubleDouble::from(step), begin: 0.0, end: 1.0 };
+        if !self.take(rates, from.exact_time(), &start, &whole, toward)? {
+            return Ok(false);
+        }
+        let whole = self.end.clone();
+        if !self.take_two(rates, from, DoubleDouble::from(step), toward)? {
+            return Ok(false);
+        }
+        Ok((0..whole.len()).all(|i| {
+            let change = (self.two[i] - start[i]).high / step * wanted;
+            let size = start[i].high.abs().max(self.two[i].high.abs()).max(change.abs());
+            (self.two[i] - whole[i]).high.abs() <= AGREEMENT * size
+        }))
+    }
+
+    /// Whether the rates at the beginning of a step change no velocity by more than the fastest in it:
+    /// else something lies there that the stages would step over.
+    fn begins_inside(&self, rates: &mut ExactRates, from: &State, step: f64) -> bool {
+        let start = numbers_of(from);
+        if rates.evaluate(from.exact_time(), &start).is_err() {
+            return true;
+        }
+        let (moving, half) = (self.moving, self.moving / 2);
+        let fastest = start[half..moving].iter().fold(0.0_f64, |m, v| m.max(v.high.abs()));
+        let changes = (half..moving).map(|i| (rates.rate(i).high * step).abs());
+        let largest = changes.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        fastest == 0.0 || largest <= fastest
+    }
+
+    fn take_two(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        step: DoubleDouble,
+        toward: Option<&[DoubleDouble]>,
+    ) -> Result<bool, MotionError> {
+        let time = from.exact_time();
+        let first = Piece { step, begin: 0.0, end: PART };
+        if !self.take(rates, time, &numbers_of(from), &first, toward)? {
+            return Ok(false);
+        }
+        let middle = self.end.clone();
+        let second = Piece { step, begin: PART, end: 1.0 };
+        let done = self.take(rates, time, &middle, &second, None)?;
+        self.two.clone_from(&self.end);
+        Ok(done)
+    }
+
+    /// One piece of a step that begins at a time, from the numbers where the piece begins, into
+    /// `end`; false where the stages do not settle.
+    fn take(
+        &mut self,
+        rates: &mut ExactRates,
+        time: DoubleDouble,
+        start: &[DoubleDouble],
+        piece: &Piece,
+        toward: Option<&[DoubleDouble]>,
+    ) -> Result<bool, MotionError> {
+        let Piece { step, begin, end } = *piece;
+        let width = end - begin;
+        let power =
+            |s: DoubleDouble, n: i32| (0..n).fold(DoubleDouble::ONE, |product, _| product * s);
+        let places = self.scheme.at.map(|c| DoubleDouble::from(begin) + c * width);
+        let times = places.map(|s| time + step * power(s, self.power));
+        // dt/ds, times the length of the piece
+        let lengths =
+            places.map(|s| step * power(s, self.power - 1) * f64::from(self.power) * width);
+        let outcome =
+            rates.evaluate(time + step * power(DoubleDouble::from(begin), self.power), start);
+        let known = outcome.is_ok();
+        for i in 0..start.len() {
+            let rate = if known { rates.rate(i) } else { DoubleDouble::ZERO };
+            let rate = toward.map_or(rate, |toward| toward[i]);
+            let rate = if rate.is_finite() { rate } else { DoubleDouble::ZERO };
+            for stage in &mut self.stages {
+                stage[i] = rate;
+            }
+        }
+        let from = self.scheme.from;
+        let mut settled = false;
+        for round in 0..ROUNDS {
+            let mut moved = 0.0_f64;
+            for s in 0..3 {
+                for (i, &x) in start.iter().enumerate() {
+                    let part = |j: usize| from[s][j] * lengths[j] * self.stages[j][i];
+                    self.numbers[i] = x + (0..3).fold(DoubleDouble::ZERO, |sum, j| sum + part(j));
+                }
+                match rates.evaluate(times[s], &self.numbers) {
+                    Ok(()) => {}
+                    Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                    Err(_) => return Ok(false),
+                }
+                for i in 0..start.len() {
+                    let new = rates.rate(i);
+                    let change = (new - self.stages[s][i]).high.abs();
+                    let size = start[i].high.abs().max((lengths[s] * new).high.abs());
+                    let part = (change * lengths[s].high).abs() / size;
+                    if change > 0.0 || change.is_nan() {
+                        moved = if part.is_nan() { f64::INFINITY } else { moved.max(part) };
+                    }
+                    self.stages[s][i] = new;
+                }
+            }
+            if moved == f64::INFINITY && round > 2 {
+                return Ok(false);
+            }
+            if moved <= SETTLED {
+                settled = true;
+                break;
+            }
+        }
+        for (i, &x) in start.iter().enumerate() {
+            let part = |s: usize| self.scheme.weight[s] * lengths[s] * self.stages[s][i];
+            self.end[i] = x + (0..3).fold(DoubleDouble::ZERO, |sum, s| sum + part(s));
+        }
+        Ok(settled && self.end.iter().all(|x| x.is_finite()))
+    }
+}
+
+fn numbers_of(state: &State) -> Vec<DoubleDouble> {
+    (0..state.values.len()).map(|i| state.exact(i)).collect()
+}

@@ -1,0 +1,198 @@
+//! Double-double arithmetic: a real number as the unevaluated sum of two `f64`, some 31 decimal
+//! digits. Where rounding must not be seen: the lowest orders of a Taylor step, constants and
+//! parameters, what is shown of a state. No fused multiply-add, so every machine agrees.
+//!
+//! Sources: T. J. Dekker, Numer. Math. 18 (1971) 224 (products); D. E. Knuth, The Art of Computer
+//! Programming 2, 4.2.2 (sums); Y. Hida, X. S. Li, D. H. Bailey, 15th IEEE Symposium on Computer
+//! Arithmetic (2001) 155 (division, root).
+
+mod elementary;
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// `high + low`, with `low` at most half a unit in the last place of `high`. Good for magnitudes
+/// below 1e290.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct DoubleDouble {
+    /// The nearest `f64`.
+    pub high: f64,
+    /// What it leaves over.
+    pub low: f64,
+}
+
+impl DoubleDouble {
+    /// Zero.
+    pub const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
+    /// One.
+    pub const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };
+    /// The circle constant.
+    pub const PI: DoubleDouble =
+        DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+
+    /// `a + b` exactly.
+    pub fn sum(a: f64, b: f64) -> DoubleDouble {
+        let high = a + b;
+        let part = high - a;
+        DoubleDouble { high, low: (a - (high - part)) + (b - part) }
+    }
+
+    /// `a + b` exactly, for `|a| ≥ |b|`.
+    fn ordered_sum(a: f64, b: f64) -> DoubleDouble {
+        let high = a + b;
+        DoubleDouble { high, low: b - (high - a) }
+    }
+
+    /// `a · b` exactly.
+    pub fn product(a: f64, b: f64) -> DoubleDouble {
+        let high = a * b;
+        let ((a1, a2), (b1, b2)) = (split(a), split(b));
+        DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+    }
+
+    /// An integer, exactly.
+    pub fn integer(n: i64) -> DoubleDouble {
+        let low = n & 0xFFFF_FFFF;
+        DoubleDouble::sum((n - low) as f64, low as f64)
+    }
+
+    /// The number that the shortest decimal which reads as `x` stands for: what a user meant by
+    /// 0.1, which no `f64` is. `x` itself is its nearest `f64`.
+    pub fn written(x: f64) -> DoubleDouble {
+        if (x.fract() == 0.0 && x.abs() < 9e15) || !x.is_finite() {
+            return DoubleDouble::from(x);
+        }
+        let text = format!("{x:e}");
+        let parts = text.split_once('e').and_then(|(mantissa, exponent)| {
+            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+            let digits: i64 = format!("{whole}{fraction}").parse().ok()?;
+            let exponent: i32 = exponent.parse().ok()?;
+            Some((digits, exponent - fraction.len() as i32))
+        });
+        match parts {
+            Some((digits, exponent)) if exponent.abs() < 250 => {
+                let (mantissa, power) =
+                    (DoubleDouble::integer(digits), power_of_ten(exponent.abs()));
+                if exponent < 0 { mantissa / power } else { mantissa * power }
+            }
+            _ => DoubleDouble::from(x),
+        }
+    }
+
+    /// The absolute value.
+    #[must_use]
+    pub fn abs(self) -> DoubleDouble {
+        if self.high < 0.0 { -self } else { self }
+    }
+
+    /// Whether it is finite.
+    pub fn is_finite(self) -> bool {
+        self.high.is_finite() && self.low.is_finite()
+    }
+
+    /// `self²`.
+    #[must_use]
+    pub fn squared(self) -> DoubleDouble {
+        self * self
+    }
+
+    /// The square root.
+    fn root(self) -> DoubleDouble {
+        if self.high <= 0.0 {
+            return DoubleDouble::from(self.high.sqrt());
+        }
+        let x = 1.0 / self.high.sqrt();
+        let y = self.high * x;
+        let rest = (self - DoubleDouble::product(y, y)).high;
+        DoubleDouble::sum(y, rest * (x * 0.5))
+    }
+}
+
+/// Ten to a power, to the last digits.
+fn power_of_ten(n: i32) -> DoubleDouble {
+    let (mut result, mut base, mut n) = (DoubleDouble::ONE, DoubleDouble::from(10.0), n);
+    while n > 0 {
+        if n & 1 == 1 {
+            result = result * base;
+        }
+        base = base * base;
+        n >>= 1;
+    }
+    result
+}
+
+/// Two halves of 26 bits each whose sum is `a` (Veltkamp).
+fn split(a: f64) -> (f64, f64) {
+    let t = 134_217_729.0 * a;
+    let high = t - (t - a);
+    (high, a - high)
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(high: f64) -> DoubleDouble {
+        DoubleDouble { high, low: 0.0 }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = DoubleDouble;
+    fn add(self, other: DoubleDouble) -> DoubleDouble {
+        let (s, t) =
+            (DoubleDouble::sum(self.high, other.high), DoubleDouble::sum(self.low, other.low));
+        let v = DoubleDouble::ordered_sum(s.high, s.low + t.high);
+        DoubleDouble::ordered_sum(v.high, t.low + v.low)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = DoubleDouble;
+    fn sub(self, other: DoubleDouble) -> DoubleDouble {
+        self + -other
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = DoubleDouble;
+    fn neg(self) -> DoubleDouble {
+        DoubleDouble { high: -self.high, low: -self.low }
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = DoubleDouble;
+    fn mul(self, other: DoubleDouble) -> DoubleDouble {
+        let p = DoubleDouble::product(self.high, other.high);
+        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+    }
+}
+
+impl Mul<f64> for DoubleDouble {
+    type Output = DoubleDouble;
+    fn mul(self, other: f64) -> DoubleDouble {
+        let p = DoubleDouble::product(self.high, other);
+        DoubleDouble::ordered_sum(p.high, p.low + self.low * other)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = DoubleDouble;
+    fn div(self, other: DoubleDouble) -> DoubleDouble {
+        let first = self.high / other.high;
+        if !first.is_finite() || !other.high.is_finite() {
+            return DoubleDouble::from(first);
+        }
+        let rest = self - other * first;
+        let second = rest.high / other.high;
+        let third = (rest - other * second).high / other.high;
+        let quotient = DoubleDouble::ordered_sum(first, second);
+        DoubleDouble::ordered_sum(quotient.high, quotient.low + third)
+    }
+}
+
+impl Div<f64> for DoubleDouble {
+    type Output = DoubleDouble;
+    fn div(self, other: f64) -> DoubleDouble {
+        let first = self.high / other;
+        let rest = self - DoubleDouble::product(first, other);
+        DoubleDouble::ordered_sum(first, (rest.high + rest.low) / other)
+    }
+}

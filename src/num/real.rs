@@ -1,0 +1,147 @@
+//! The arithmetic an expression is evaluated in: `f64`, or [`DoubleDouble`] where twice its digits are
+//! wanted, or [`ExtendedRange`] where something leaves the range of both.
+//! Every rule that is written for a [`Real`] serves all three.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::double_double::DoubleDouble;
+use super::wide::ExtendedRange;
+use crate::num::math;
+
+/// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the
+/// arguments up to `k`, the function's own series `y` up to `k − 1` and that of a companion `w`
+/// (cos beside sin, 1 + u² beside atan, …); it sets `y[k]` and `w[k]`.
+pub type RecurrenceStep<R> = fn(usize, &[&[R]], &mut [R], &mut [R]);
+
+/// A recurrence for normalised Taylor coefficients, in every precision.
+#[derive(Clone, Copy, Debug)]
+pub struct Recurrence {
+    /// In `f64`.
+    pub single: RecurrenceStep<f64>,
+    /// In double-double.
+    pub double: RecurrenceStep<DoubleDouble>,
+    /// In double-double of unlimited range.
+    pub wide: RecurrenceStep<ExtendedRange>,
+}
+
+/// A real number of some precision, with the functions an expression may call.
+pub trait Real:
+    Copy
+    + Send
+    + Sync
+    + std::fmt::Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+    + 'static
+{
+    /// Zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// Whether its range has no end in practice.
+    const UNBOUNDED: bool = false;
+
+    /// The number nearest to a [`DoubleDouble`].
+    fn of(x: DoubleDouble) -> Self;
+    /// The nearest `f64`.
+    fn value(self) -> f64;
+    /// Itself as a [`DoubleDouble`].
+    fn double(self) -> DoubleDouble;
+    /// A rule's form in this precision.
+    fn step_of(rule: &Recurrence) -> RecurrenceStep<Self>;
+
+    /// The square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// e to this power.
+    #[must_use]
+    fn exp(self) -> Self;
+    /// The natural logarithm.
+    #[must_use]
+    fn ln(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// The tangent.
+    #[must_use]
+    fn tan(self) -> Self;
+    /// Hyperbolic sine and cosine.
+    fn sinh_cosh(self) -> (Self, Self);
+    /// The hyperbolic tangent.
+    #[must_use]
+    fn tanh(self) -> Self;
+    /// The angle of the point with this ordinate and abscissa `x`.
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+    /// The inverse sine.
+    #[must_use]
+    fn asin(self) -> Self;
+    /// The inverse cosine.
+    #[must_use]
+    fn acos(self) -> Self;
+    /// This number to a fixed real power.
+    #[must_use]
+    fn power(self, exponent: DoubleDouble) -> Self;
+}
+
+impl Real for f64 {
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+
+    fn of(x: DoubleDouble) -> f64 {
+        x.high
+    }
+    fn value(self) -> f64 {
+        self
+    }
+    fn double(self) -> DoubleDouble {
+        DoubleDouble::from(self)
+    }
+    fn step_of(rule: &Recurrence) -> RecurrenceStep<f64> {
+        rule.single
+    }
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    fn exp(self) -> f64 {
+        math::exp(self)
+    }
+    fn ln(self) -> f64 {
+        math::ln(self)
+    }
+    fn sin_cos(self) -> (f64, f64) {
+        math::sin_cos(self)
+    }
+    fn tan(self) -> f64 {
+        math::tan(self)
+    }
+    fn sinh_cosh(self) -> (f64, f64) {
+        (math::sinh(self), math::cosh(self))
+    }
+    fn tanh(self) -> f64 {
+        math::tanh(self)
+    }
+    fn atan2(self, x: f64) -> f64 {
+        math::atan2(self, x)
+    }
+    fn asin(self) -> f64 {
+        math::asin(self)
+    }
+    fn acos(self) -> f64 {
+        math::acos(self)
+    }
+    fn power(self, exponent: DoubleDouble) -> f64 {
+        let n = exponent.high;
+        match (n.fract() == 0.0, (2.0 * n).fract() == 0.0) {
+            _ if exponent.low != 0.0 || n.abs() > 1024.0 => math::powf(self, n),
+            (true, _) => math::powi(self, n as i32),
+            (_, true) if n < 0.0 => 1.0 / (f64::sqrt(self) * math::powi(self, -(n + 0.5) as i32)),
+            (_, true) => f64::sqrt(self) * math::powi(self, (n - 0.5) as i32),
+            _ => math::powf(self, n),
+        }
+    }
+}

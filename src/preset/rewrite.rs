@@ -1,0 +1,173 @@
+//! Another edition of a file: its text with other values in it, and all else as its author wrote it, comments included.
+//!
+//! In: a text, values by name. Out: a text. Never here: which values; whether the new text is right.
+
+use std::ops::Range;
+
+use toml_edit::{
+    Array, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError, Value, value,
+};
+
+/// The values to be put into a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rewrite {
+    /// The time of the initial values.
+    pub start: Option<f64>,
+    /// Of each coordinate or variable that is to begin elsewhere.
+    pub initial: Vec<Beginning>,
+    /// Euler's angles at the start, of a body whose attitude is integrated.
+    pub attitude: Option<[f64; 3]>,
+    /// Parameters.
+    pub parameters: Vec<(String, f64)>,
+    /// The method.
+    pub method: Option<String>,
+    /// Numbers of `[run]`: `step`, `tolerance`, `speed`.
+    pub run: Vec<(&'static str, f64)>,
+}
+
+/// Where a coordinate or variable begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beginning {
+    /// Its name.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// The key `velocity` or `momentum`, and its value; a variable has neither.
+    pub rate: Option<(&'static str, f64)>,
+}
+
+impl Rewrite {
+    /// The text with these values.
+    ///
+    /// # Errors
+    /// Where the text is no TOML.
+    pub fn of(&self, text: &str) -> Result<String, TomlError> {
+        let mut file: DocumentMut = text.parse()?;
+        for beginning in &self.initial {
+            let table = ["coordinates", "variables"].into_iter().find(|t| file.contains_key(t));
+            let Some(all) = table.and_then(|t| file.get_mut(t)?.as_table_like_mut()) else {
+                continue;
+            };
+            let entry = all.entry(&beginning.name).or_insert(Item::None);
+            let entry = table_in(entry, "initial");
+            set(entry, "initial", beginning.value);
+            if let Some((key, rate)) = beginning.rate {
+                set(entry, key, rate);
+            }
+        }
+        for (name, number) in &self.parameters {
+            let Some(all) = file.get_mut("parameters").and_then(Item::as_table_like_mut) else {
+                continue;
+            };
+            match all.get_mut(name).and_then(Item::as_table_like_mut) {
+                Some(table) => set(table, "value", *number),
+                None => set(all, name, *number),
+            }
+        }
+        if let (Some(angles), Some(attitude)) =
+            (self.attitude, file.get_mut("attitude").and_then(Item::as_table_like_mut))
+        {
+            attitude
+                .insert("start", value(angles.map(|a| a.to_string()).iter().collect::<Array>()));
+        }
+        let run =
+            self.start.map(|start| ("start", start)).into_iter().chain(self.run.iter().copied());
+        for (key, number) in run {
+            set(run_table(&mut file), key, number);
+        }
+        if let Some(method) = &self.method {
+            run_table(&mut file).insert("method", value(method.as_str()));
+        }
+        Ok(file.to_string())
+    }
+
+    /// The text without those of its expectations that stand at these places; `None` where none does.
+    ///
+    /// # Errors
+    /// Where the text is no TOML.
+    pub fn without_expectations(
+        text: &str,
+        places: &[Range<usize>],
+    ) -> Result<Option<String>, TomlError> {
+        let at = |span: Option<Range<usize>>| {
+            span.is_some_and(|span| places.iter().any(|place| span.contains(&place.start)))
+        };
+        let parsed = Document::parse(text)?;
+        let lists = parsed.get(EXPECT).and_then(Item::as_table_like).map(TableLike::iter);
+        let mut wrong: Vec<(String, usize)> = Vec::new();
+        for (key, list) in lists.into_iter().flatten() {
+            let found = |(index, there): (usize, bool)| there.then(|| (key.to_owned(), index));
+            match list {
+                Item::Value(Value::Array(list)) => {
+                    let there = list.iter().map(|entry| at(entry.span()));
+                    wrong.extend(there.enumerate().filter_map(found));
+                }
+                Item::ArrayOfTables(list) => {
+                    let there = list.iter().map(|entry| at(entry.span()));
+                    wrong.extend(there.enumerate().filter_map(found));
+                }
+                _ => {}
+            }
+        }
+        if wrong.is_empty() {
+            return Ok(None);
+        }
+        let mut file: DocumentMut = text.parse()?;
+        let Some(expect) = file.get_mut(EXPECT).and_then(Item::as_table_like_mut) else {
+            return Ok(None);
+        };
+        for (key, index) in wrong.iter().rev() {
+            let left = match expect.get_mut(key) {
+                Some(Item::Value(Value::Array(list))) => {
+                    list.remove(*index);
+                    list.len()
+                }
+                Some(Item::ArrayOfTables(list)) => {
+                    list.remove(*index);
+                    list.len()
+                }
+                _ => continue,
+            };
+            if left == 0 {
+                expect.remove(key);
+            }
+        }
+        if expect.is_empty() {
+            file.remove(EXPECT);
+        }
+        Ok(Some(file.to_string()))
+    }
+}
+
+/// The table of what a file expects of its motion.
+const EXPECT: &str = "expect";
+
+/// The table behind an entry; a value of its own becomes the table's value of this key.
+fn table_in<'a>(entry: &'a mut Item, key: &str) -> &'a mut dyn TableLike {
+    if !entry.is_table_like() {
+        let mut table = InlineTable::new();
+        if let Item::Value(old) = std::mem::take(entry) {
+            table.insert(key, old);
+        }
+        *entry = value(table);
+    }
+    match entry {
+        Item::Table(table) => table,
+        Item::Value(Value::InlineTable(table)) => table,
+        _ => unreachable!("it was made a table"),
+    }
+}
+
+fn run_table(file: &mut DocumentMut) -> &mut dyn TableLike {
+    table_in(file.entry("run").or_insert(Item::Table(Table::new())), "method")
+}
+
+/// Sets a number; what stands round it stays.
+fn set(table: &mut dyn TableLike, key: &str, number: f64) {
+    let decor = table.get(key).and_then(Item::as_value).map(|old| old.decor().clone());
+    let mut new = Value::from(number);
+    if let Some(decor) = decor {
+        *new.decor_mut() = decor;
+    }
+    table.insert(key, Item::Value(new));
+}

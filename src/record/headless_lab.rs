@@ -1,0 +1,200 @@
+//! The laboratory on virtual time: the application and its experiment, brought together without a thread.
+//!
+//! In: events and the passing of frames. Out: an application whose effects are done at once; what concerns a terminal or
+//! a file is not done. Never here: scripts, or how anything looks.
+
+use std::mem;
+use std::sync::Arc;
+
+use super::clock::{Clock, Micros};
+use crate::app::{App, Effect, Event, LoadError, Loaded, ValueId};
+use crate::diagnostic::Document;
+use crate::experiment::{Command, Experiment, Prepared, Progress, Status};
+use crate::preset::Catalog;
+
+/// The most steps and rows of a motion in one frame: as a rule, and where time runs as fast as it can. One too slow for
+/// its speed falls behind by the same amount on every machine.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    paced: u64,
+    flat_out: u64,
+    /// So many frames may use up all their steps and not keep pace; `None` for any number.
+    patience: Option<u32>,
+}
+
+impl Budget {
+    /// For a recording, which nobody waits in front of.
+    pub(super) const RECORDED: Budget =
+        Budget { paced: 100_000, flat_out: 20_000, patience: Some(20) };
+
+    /// For someone who watches, and may press a key.
+    pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000, patience: None };
+}
+
+/// The application, and what moves in it.
+pub(super) struct HeadlessLab {
+    pub(super) app: App,
+    pub(super) clock: Clock,
+    /// How its system is called on the screen.
+    pub(super) called: String,
+    /// Whether it was left.
+    pub(super) left: bool,
+    document: Document,
+    catalog: Catalog,
+    experiment: Option<Experiment>,
+    epoch: u64,
+    /// From where simulated time keeps pace: the frame, the time, the speed.
+    base: (u64, f64, f64),
+    budget: Budget,
+    /// How many frames used up all their steps.
+    behind: u32,
+    repaint: bool,
+}
+
+impl HeadlessLab {
+    /// Opened at a system.
+    pub(super) fn open(document: &Document, called: &str, fps: u32, budget: Budget) -> HeadlessLab {
+        // the user's own presets are no part of a demo that is to be the same everywhere
+        let catalog = Catalog::with_folder(None);
+        let (app, effects) = App::new(&catalog, Some(called));
+        let mut laboratory = HeadlessLab {
+            app,
+            clock: Clock::new(fps),
+            called: called.to_owned(),
+            left: false,
+            document: document.clone(),
+            catalog,
+            experiment: None,
+            epoch: 0,
+            base: (0, 0.0, 1.0),
+            budget,
+            behind: 0,
+            repaint: false,
+        };
+        laboratory.perform(effects);
+        laboratory
+    }
+
+    /// When the frame that is shown came.
+    pub(super) fn now(&self) -> Micros {
+        self.clock.now()
+    }
+
+    /// Goes on to the next frame, if it is due.
+    pub(super) fn tick(&mut self) -> bool {
+        let Some(elapsed) = self.clock.tick() else { return false };
+        self.advance();
+        self.happen(Event::Tick(elapsed));
+        self.look_at_motion();
+        true
+    }
+
+    /// Why it is not gone on with, where the motion costs more steps than a recording has.
+    pub(super) fn overdue(&self) -> Option<String> {
+        let (patience, experiment) = (self.budget.patience?, self.experiment.as_ref()?);
+        (self.behind >= patience).then(|| {
+            format!(
+                "the motion is too slow for this: {} frames took {} steps each and led only to t = {}",
+                self.behind,
+                self.budget.paced,
+                experiment.time()
+            )
+        })
+    }
+
+    /// Something happens to the application.
+    pub(super) fn happen(&mut self, event: Event) {
+        let effects = self.app.update(event);
+        self.perform(effects);
+    }
+
+    /// Gives a value to a parameter, or to an initial value.
+    pub(super) fn set(&mut self, target: ValueId, value: f64) {
+        let effects = self.app.give(target, value);
+        self.perform(effects);
+    }
+
+    /// Tells the experiment something.
+    pub(super) fn tell(&mut self, command: Command) {
+        let Some(experiment) = &mut self.experiment else { return };
+        let clockwork = |e: &Experiment| (e.status() == Status::Running, e.time(), e.speed());
+        let before = clockwork(experiment);
+        experiment.execute(command);
+        let after = clockwork(experiment);
+        if after != before {
+            self.base = (self.clock.frame(), after.1, after.2);
+        }
+        self.look_at_motion();
+    }
+
+    /// Whether every cell is to be painted again, asked once.
+    pub(super) fn takes_repaint(&mut self) -> bool {
+        mem::take(&mut self.repaint)
+    }
+
+    /// Carries the motion on to where it should be at this frame.
+    fn advance(&mut self) {
+        let Some(experiment) = &mut self.experiment else { return };
+        if experiment.status() != Status::Running {
+            return;
+        }
+        let (frame, time, speed) = self.base;
+        let now = self.clock.frame();
+        let (target, budget) = if speed.is_finite() {
+            (time + speed * self.clock.seconds(now - frame), self.budget.paced)
+        } else {
+            (f64::INFINITY, self.budget.flat_out)
+        };
+        let progress = experiment.advance(target, budget);
+        if progress == Progress::Underway && target.is_finite() {
+            self.behind += 1;
+        }
+        if progress != Progress::Arrived {
+            self.base = (now, experiment.time(), speed);
+        }
+    }
+
+    fn look_at_motion(&mut self) {
+        if let Some(experiment) = &self.experiment {
+            let snapshot = Arc::new(experiment.snapshot());
+            self.happen(Event::Snapshot(snapshot));
+        }
+    }
+
+    /// Does what the application asks for.
+    fn perform(&mut self, effects: Vec<Effect>) {
+        for effect in effects {
+            match effect {
+                Effect::Tell(command) => self.tell(command),
+                Effect::Load(name) => {
+                    let loaded = self.load(name);
+                    self.happen(Event::Loaded(loaded));
+                    self.look_at_motion();
+                }
+                Effect::Repaint => self.repaint = true,
+                Effect::Quit => self.left = true,
+                // A demo has no terminal to be changed and no files to be written.
+                _ => {}
+            }
+        }
+    }
+
+    fn load(&mut self, name: String) -> Result<Loaded, LoadError> {
+        let found = if name == self.called {
+            Ok(self.document.clone())
+        } else {
+            self.catalog.find(&name).map_err(|why| why.to_string())
+        };
+        let ready = found.and_then(|document| Prepared::of(&document).map_err(|why| why.report));
+        match ready {
+            Err(message) => Err(LoadError { name, message }),
+            Ok(Prepared { model, equations, system, mut experiment, document }) => {
+                self.epoch += 1;
+                experiment.set_epoch(self.epoch);
+                self.base = (self.clock.frame(), experiment.time(), experiment.speed());
+                self.experiment = Some(experiment);
+                Ok(Loaded { name, epoch: self.epoch, model, equations, system, document })
+            }
+        }
+    }
+}

@@ -1,0 +1,399 @@
+//! The projector: a tape held up on the terminal, at its own pace or another.
+//!
+//! In: a [`RecordedCast`], keys, time. Out: cells. A tape may be anybody's, so what is on it is written to a terminal that only
+//! exists in memory, and nothing of it but characters and colours goes on from there; and it is given a little time a
+//! frame, so that no tape keeps the keys from being read. Never here: files, or the form of a cast.
+
+use std::time::{Duration, Instant};
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::style::{Color, Modifier, Style};
+
+use super::frame_loop::{Screen, ScreenRequest};
+use super::input::Input;
+use crate::app::{Code, Key};
+use crate::record::{CastEvent, RecordedCast};
+use crate::view::RenderStyle;
+use crate::view::colour::{ColourDepth, Rgb};
+use crate::view::theme::Role;
+
+/// A tape being shown.
+pub struct CastPlayer {
+    tape: RecordedCast,
+    look: RenderStyle,
+    screen: avt::Vt,
+    /// The next event, and how many bytes of it are written already.
+    next: (usize, usize),
+    /// Where on the tape it stands, in microseconds.
+    time: f64,
+    /// Its place among [`SPEEDS`].
+    speed: usize,
+    held: bool,
+    /// Whether the line of controls is wanted or not, where that was said.
+    wanted: Option<bool>,
+    /// For how long it is still shown otherwise.
+    awake: Duration,
+    /// The window.
+    size: Size,
+    /// What the line says, as far as it changes by itself: the second, whether the tape is over, whether it is shown.
+    told: (u64, bool, bool),
+}
+
+/// For how long the line of controls stands over the last row after a key; and at first, where it is to be read.
+const AWAKE: Duration = Duration::from_secs(3);
+const AT_FIRST: Duration = Duration::from_secs(5);
+
+/// Seconds of the tape in a second.
+const SPEEDS: [f64; 9] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0];
+
+/// The place of the tape's own pace among them.
+const EVEN: usize = 3;
+
+/// What a frame may spend on the tape, and how many characters are written between two looks at the time.
+const SPENT: Duration = Duration::from_millis(15);
+const CHARACTERS: usize = 64;
+
+/// Who goes back within this of a chapter's beginning means the chapter before, in microseconds.
+const AT_ONCE: f64 = 1e6;
+
+/// How far the arrows go, in microseconds.
+const LEAP: f64 = 5e6;
+
+impl CastPlayer {
+    /// A tape at its beginning.
+    pub fn new(tape: RecordedCast, look: RenderStyle) -> Self {
+        let screen = blank(tape.size);
+        Self {
+            tape,
+            look,
+            screen,
+            next: (0, 0),
+            time: 0.0,
+            speed: EVEN,
+            held: false,
+            wanted: None,
+            awake: AT_FIRST,
+            size: Size::default(),
+            told: (0, false, true),
+        }
+    }
+
+    /// Whether a row of the window is left below the tape's screen.
+    fn has_room(&self) -> bool {
+        usize::from(self.size.height) > self.screen.size().1
+    }
+
+    /// Whether the line of controls is shown.
+    fn is_reported(&self) -> bool {
+        let by_itself = self.has_room() || self.held || self.is_over() || !self.awake.is_zero();
+        self.wanted.unwrap_or(by_itself)
+    }
+
+    /// What is to be said where the window does not show all.
+    fn cut_off(&self) -> Option<String> {
+        let (columns, rows) = self.screen.size();
+        let Size { width, height } = self.size;
+        let cut = columns > usize::from(width) || rows > usize::from(height);
+        cut.then(|| {
+            format!(
+                "the cast is {columns}×{rows}, the window {width}×{height}: \
+                 enlarge it, or take a smaller font"
+            )
+        })
+    }
+
+    /// Whether the tape is at its end.
+    pub fn is_over(&self) -> bool {
+        self.next.0 == self.tape.events.len() && self.time >= self.tape.end as f64
+    }
+
+    /// Goes to a time; back is from the beginning on.
+    fn go(&mut self, time: f64) {
+        let time = time.clamp(0.0, self.tape.end as f64);
+        if time < self.time {
+            self.screen = blank(self.tape.size);
+            self.next = (0, 0);
+        }
+        self.time = time;
+    }
+
+    /// Goes on to the next event that shows something, and holds there.
+    fn step(&mut self) {
+        self.held = true;
+        let later = |(time, _): &&(u64, CastEvent)| *time as f64 > self.time;
+        let next = self.tape.events.iter().find(later).map(|(time, _)| *time as f64);
+        self.go(next.unwrap_or(self.tape.end as f64));
+    }
+
+    /// The chapters, by time.
+    fn chapters(&self) -> impl DoubleEndedIterator<Item = (f64, &str)> {
+        self.tape.events.iter().filter_map(|(time, turn)| match turn {
+            CastEvent::Marker(name) => Some((*time as f64, name.as_str())),
+            _ => None,
+        })
+    }
+
+    fn press(&mut self, key: Key) -> ScreenRequest {
+        let told = self.is_reported();
+        self.awake = self.awake.max(AWAKE);
+        match key {
+            Key { ctrl: true, code: Code::Char(c), .. } => match c {
+                'c' => return ScreenRequest::Quit,
+                'z' => return ScreenRequest::Suspend,
+                'l' => return ScreenRequest::Repaint,
+                _ => {}
+            },
+            Key { code, shift, .. } => match code {
+                Code::Char('q') | Code::Esc => return ScreenRequest::Quit,
+                Code::Char(' ' | 'p') if self.is_over() => self.go(0.0),
+                Code::Char(' ' | 'p') => self.held = !self.held,
+                Code::Char('.') => self.step(),
+                Code::Char('c') => self.wanted = Some(!told),
+                Code::Char('[') => self.speed = self.speed.saturating_sub(1),
+                Code::Char(']') => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
+                Code::Left | Code::Char('h') => self.go(self.time - LEAP),
+                Code::Right | Code::Char('l') => self.go(self.time + LEAP),
+                Code::Home | Code::Char('0') => self.go(0.0),
+                Code::End => self.go(self.tape.end as f64),
+                Code::Tab => {
+                    let to = if shift {
+                        // shortly after a chapter's beginning the one before is meant
+                        let before = self.time - AT_ONCE;
+                        let found = self.chapters().rfind(|(time, _)| *time < before);
+                        Some(found.map_or(0.0, |(time, _)| time))
+                    } else {
+                        let found = self.chapters().find(|(time, _)| *time > self.time);
+                        found.map(|(time, _)| time)
+                    };
+                    if let Some(time) = to {
+                        self.go(time);
+                    }
+                }
+                _ => {}
+            },
+        }
+        ScreenRequest::Nothing
+    }
+
+    /// Writes what is due to the terminal in memory, for as long as a frame may take; whether anything was written.
+    fn write(&mut self) -> bool {
+        let began = Instant::now();
+        let mut written = false;
+        while let Some((time, turn)) = self.tape.events.get(self.next.0) {
+            if *time as f64 > self.time {
+                break;
+            }
+            match turn {
+                CastEvent::Output(text) => {
+                    let rest = &text[self.next.1..];
+                    let end = rest.char_indices().nth(CHARACTERS).map_or(rest.len(), |(at, _)| at);
+                    self.screen.feed_str(&rest[..end]);
+                    written = true;
+                    if end < rest.len() {
+                        self.next.1 += end;
+                        if began.elapsed() > SPENT {
+                            return true;
+                        }
+                        continue;
+                    }
+                }
+                CastEvent::Resize(columns, rows) => {
+                    self.screen.resize(wide(*columns), (*rows).into());
+                    written = true;
+                }
+                CastEvent::Marker(_) => {}
+            }
+            self.next = (self.next.0 + 1, 0);
+            if began.elapsed() > SPENT {
+                return true;
+            }
+        }
+        written
+    }
+
+    /// The line of controls: where on the tape it stands, and the keys, the most needed first.
+    fn tell(&self, row: Rect, buffer: &mut Buffer) {
+        let glyphs = self.look.glyphs;
+        let (sign, role) = match (self.is_over(), self.held) {
+            (true, _) => (glyphs.pick("■", "#"), Role::Dim),
+            (_, true) => (glyphs.pick("‖", "="), Role::Warn),
+            _ => (glyphs.pick("▶", ">"), Role::Good),
+        };
+        let chapter = self.chapters().rfind(|(time, _)| *time <= self.time);
+        let chapter = chapter.map_or(String::new(), |(_, name)| format!("  {name}"));
+        let pieces = [
+            (role, format!("{sign} ")),
+            (Role::Accent, clock(self.time)),
+            (Role::Dim, format!(" of {}  ", clock(self.tape.end as f64))),
+            (Role::Text, format!("×{}{chapter}", SPEEDS[self.speed])),
+        ];
+        let (pause, rest) = if self.is_over() { ("again", "") } else { ("pause", "  . step") };
+        let keys = [
+            format!("space {pause}  q quit"),
+            "← → 5 s".to_owned(),
+            "[ ] pace".to_owned(),
+            "Tab S-Tab chapter".to_owned(),
+            "c hide".to_owned(),
+            format!("Home{rest}"),
+        ];
+        let mut x = self.write_over(row, &pieces, buffer);
+        for key in keys {
+            let piece = [(Role::Dim, format!("   {key}"))];
+            let wide = piece[0].1.chars().count() as u16;
+            if x + wide > row.right() {
+                break;
+            }
+            x = self.write_on(x, row, &piece, buffer);
+        }
+    }
+
+    /// Writes pieces over a row, whatever was there; the column behind them.
+    fn write_over(&self, row: Rect, pieces: &[(Role, String)], buffer: &mut Buffer) -> u16 {
+        for x in row.left()..row.right() {
+            buffer[(x, row.y)].reset();
+        }
+        self.write_on(row.x + 1, row, pieces, buffer)
+    }
+
+    fn write_on(
+        &self,
+        mut x: u16,
+        row: Rect,
+        pieces: &[(Role, String)],
+        buffer: &mut Buffer,
+    ) -> u16 {
+        for (role, text) in pieces {
+            if x >= row.right() {
+                break;
+            }
+            let room = usize::from(row.right() - x);
+            let text = self.look.glyphs.text(text);
+            x = buffer.set_stringn(x, row.y, &text, room, self.look.theme[*role]).0;
+        }
+        x
+    }
+}
+
+impl Screen for CastPlayer {
+    fn input(&mut self, input: Input) -> ScreenRequest {
+        match input {
+            Input::Key(key) => self.press(key),
+            // it may not show all any more
+            Input::Resize(..) => {
+                self.awake = self.awake.max(AWAKE);
+                ScreenRequest::Nothing
+            }
+            _ => ScreenRequest::Nothing,
+        }
+    }
+
+    fn advance(&mut self, elapsed: Duration) -> bool {
+        // what is not yet written must be before time goes on
+        let behind =
+            self.tape.events.get(self.next.0).is_some_and(|(t, _)| (*t as f64) < self.time);
+        if !self.held && !behind {
+            let passed = elapsed.as_secs_f64() * 1e6 * SPEEDS[self.speed];
+            self.time = (self.time + passed).min(self.tape.end as f64);
+        }
+        let written = self.write();
+        self.awake = self.awake.saturating_sub(elapsed);
+        let told = ((self.time / 1e6) as u64, self.is_over(), self.is_reported());
+        let changed = written || told != self.told;
+        self.told = told;
+        changed
+    }
+
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        self.size = area.as_size();
+        let depth = self.look.theme.depth();
+        for (y, line) in (area.top()..area.bottom()).zip(self.screen.view()) {
+            let mut x = area.left();
+            for cell in line.cells() {
+                // the second half of a wide character
+                if cell.width() == 0 {
+                    continue;
+                }
+                if x + cell.width() as u16 > area.right() {
+                    break;
+                }
+                let drawn = &mut buffer[(x, y)];
+                let plain = self.look.glyphs.is_ascii() && !cell.char().is_ascii();
+                drawn.set_char(if plain { spelt(cell.char()) } else { cell.char() });
+                drawn.set_style(style(cell.pen(), depth));
+                x += cell.width() as u16;
+            }
+        }
+        if area.height > 0 && self.is_reported() {
+            let rows = self.screen.size().1;
+            let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };
+            self.tell(Rect { y, height: 1, ..area }, buffer);
+            if let Some(sentence) = self.cut_off().filter(|_| y > area.y) {
+                let row = Rect { y: y - 1, height: 1, ..area };
+                self.write_over(row, &[(Role::Warn, sentence)], buffer);
+            }
+        }
+        None
+    }
+
+    fn is_typing(&self) -> bool {
+        false
+    }
+}
+
+fn blank((columns, rows): (u16, u16)) -> avt::Vt {
+    avt::Vt::builder().size(wide(columns), rows.into()).scrollback_limit(0).build()
+}
+
+/// At least two columns: the terminal in memory has no room for a wide character in one.
+fn wide(columns: u16) -> usize {
+    columns.max(2).into()
+}
+
+/// `1:05`.
+fn clock(time: f64) -> String {
+    let seconds = (time / 1e6) as u64;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
+}
+
+/// One ASCII character in the place of another.
+fn spelt(character: char) -> char {
+    let text = crate::view::glyphs::Glyphs::Ascii.text(&character.to_string()).into_owned();
+    match (character, text.as_str()) {
+        ('\u{2800}', _) => ' ',
+        ('\u{2801}'..='\u{28ff}' | '▀'..='▟', _) => '*',
+        ('─'..='╿', "?") => '+',
+        (_, text) => text.chars().next().unwrap_or('?'),
+    }
+}
+
+fn style(pen: &avt::Pen, depth: ColourDepth) -> Style {
+    let mut style = Style::new();
+    style.fg = pen.foreground().and_then(|c| colour(c, depth));
+    style.bg = pen.background().and_then(|c| colour(c, depth));
+    let weights = [
+        (pen.is_bold(), Modifier::BOLD),
+        (pen.is_faint(), Modifier::DIM),
+        (pen.is_italic(), Modifier::ITALIC),
+        (pen.is_underline(), Modifier::UNDERLINED),
+        (pen.is_strikethrough(), Modifier::CROSSED_OUT),
+        (pen.is_inverse(), Modifier::REVERSED),
+    ];
+    for (_, weight) in weights.into_iter().filter(|(has, _)| *has) {
+        style = style.add_modifier(weight);
+    }
+    style
+}
+
+/// A colour as far as this terminal has it.
+fn colour(colour: avt::Color, depth: ColourDepth) -> Option<Color> {
+    match (depth, colour) {
+        (ColourDepth::None, _) => None,
+        (ColourDepth::True, avt::Color::RGB(c)) => Some(Color::Rgb(c.r, c.g, c.b)),
+        (ColourDepth::Ansi256, avt::Color::RGB(c)) => {
+            Some(Color::Indexed(Rgb(c.r, c.g, c.b).nearest256()))
+        }
+        (ColourDepth::Ansi16, avt::Color::RGB(_) | avt::Color::Indexed(16..)) => None,
+        (_, avt::Color::Indexed(index)) => Some(Color::Indexed(index)),
+    }
+}

@@ -1,0 +1,206 @@
+//! The scribe: writes files whole and to the disk, one after the other, on a thread of its own, so that no frame waits
+//! for a disk.
+//!
+//! In: what is to stand in a file, or that it is to go. Out: what became of it. Never here: what the texts mean.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::whole::Whole;
+
+/// What makes the text of a file; it may take its time.
+type Maker = Box<dyn FnOnce() -> io::Result<String> + Send>;
+
+/// Writes files.
+#[derive(Debug)]
+pub(super) struct FileWriter {
+    tasks: Sender<(PathBuf, Option<Maker>)>,
+    outcomes: Receiver<(PathBuf, io::Result<()>)>,
+    /// How often each file is still to be written.
+    open: BTreeMap<PathBuf, usize>,
+    /// There is no time to wait for a disk.
+    hurried: Arc<AtomicBool>,
+}
+
+impl FileWriter {
+    /// One with nothing to do.
+    pub(super) fn new() -> io::Result<Self> {
+        let (tasks, given) = channel::<(PathBuf, Option<Maker>)>();
+        let (sender, outcomes) = channel();
+        let hurried = Arc::new(AtomicBool::new(false));
+        let hurry = Arc::clone(&hurried);
+        thread::Builder::new().name("scribe".to_owned()).spawn(move || {
+            for (path, text) in given {
+                let done = match text {
+                    Some(text) if hurry.load(Ordering::Relaxed) => {
+                        text().and_then(|text| put(&path, &text))
+                    }
+                    Some(text) => text().and_then(|text| write(&path, &text)),
+                    None => remove(&path),
+                };
+                if sender.send((path, done)).is_err() {
+                    break;
+                }
+            }
+        })?;
+        Ok(Self { tasks, outcomes, open: BTreeMap::new(), hurried })
+    }
+
+    /// From now on files get their names at once: the program is made to end, which they outlive, and the disk is left to
+    /// the system.
+    pub(super) fn hurry(&self) {
+        self.hurried.store(true, Ordering::Relaxed);
+    }
+
+    /// Has a file written.
+    pub(super) fn write(
+        &mut self,
+        path: &Path,
+        text: impl FnOnce() -> io::Result<String> + Send + 'static,
+    ) {
+        self.give(path, Some(Box::new(text)));
+    }
+
+    /// Has a file taken away; one that is not there is no mistake.
+    pub(super) fn remove(&mut self, path: &Path) {
+        self.give(path, None);
+    }
+
+    fn give(&mut self, path: &Path, text: Option<Maker>) {
+        if self.tasks.send((path.to_owned(), text)).is_ok() {
+            *self.open.entry(path.to_owned()).or_default() += 1;
+        }
+    }
+
+    /// What has become of the files since this was asked last.
+    pub(super) fn outcomes(&mut self) -> Vec<(PathBuf, io::Result<()>)> {
+        let outcomes: Vec<_> = self.outcomes.try_iter().collect();
+        for (path, _) in &outcomes {
+            self.close(path);
+        }
+        outcomes
+    }
+
+    /// The same of what was asked for so far, waited for no longer than that. What is not done by then is an error of
+    /// the kind [`ErrorKind::TimedOut`], and will perhaps be done.
+    pub(super) fn settle(&mut self, time: Duration) -> Vec<(PathBuf, io::Result<()>)> {
+        let end = Instant::now() + time;
+        let mut outcomes = self.outcomes();
+        while !self.open.is_empty() {
+            let left = end.saturating_duration_since(Instant::now());
+            let Ok((path, done)) = self.outcomes.recv_timeout(left) else { break };
+            self.close(&path);
+            outcomes.push((path, done));
+        }
+        for path in self.open.keys() {
+            let slow = io::Error::new(ErrorKind::TimedOut, "the disk takes too long");
+            outcomes.push((path.clone(), Err(named(path, &slow))));
+        }
+        outcomes
+    }
+
+    fn close(&mut self, path: &Path) {
+        if let Some(count) = self.open.get_mut(path) {
+            *count -= 1;
+            if *count == 0 {
+                self.open.remove(path);
+            }
+        }
+    }
+}
+
+/// Writes a file whole: it is on the disk before it gets its name, and has its name before this returns.
+pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
+    let written = Whole::begin(path).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.finish_on_disk()
+    });
+    written.and_then(|()| sync_folder(path)).map_err(|error| named(path, &error))
+}
+
+/// Writes a file whole, without waiting for the disk.
+fn put(path: &Path, text: &str) -> io::Result<()> {
+    let written = Whole::begin(path).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.finish()
+    });
+    written.map_err(|error| named(path, &error))
+}
+
+fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(named(path, &error)),
+        Ok(()) => sync_folder(path).map_err(|error| named(path, &error)),
+    }
+}
+
+/// Has the disk know the names in a file's folder.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all()) {
+        // there are file systems whose folders cannot be synced
+        Err(error) if error.kind() == ErrorKind::InvalidInput => Ok(()),
+        synced => synced,
+    }
+}
+
+fn named(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot write {}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LONG: Duration = Duration::from_secs(20);
+
+    #[test]
+    fn files_are_written_in_order_and_what_goes_wrong_is_reported() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.toml");
+        let nowhere = folder.path().join("none/b.toml");
+        let mut file_writer = FileWriter::new().expect("a thread");
+        for text in ["one", "two"] {
+            file_writer.write(&path, move || Ok(text.to_owned()));
+        }
+        file_writer.write(&nowhere, || Ok(String::new()));
+        let outcomes = file_writer.settle(LONG);
+        assert_eq!(outcomes.len(), 3);
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), "two");
+        let (_, failed) = &outcomes[2];
+        let told = failed.as_ref().expect_err("there is no such folder").to_string();
+        assert!(told.starts_with("cannot write ") && told.contains("b.toml"), "{told}");
+        file_writer.remove(&path);
+        file_writer.remove(&path);
+        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn a_slow_disk_is_not_waited_for_without_end() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.toml");
+        let mut file_writer = FileWriter::new().expect("a thread");
+        let (go, slow) = channel::<()>();
+        file_writer.write(&path, move || {
+            // as long as nobody lets it go on
+            let _ = slow.recv();
+            Ok("late".to_owned())
+        });
+        let [(_, Err(late))] = &file_writer.settle(Duration::ZERO)[..] else {
+            panic!("it is not late")
+        };
+        assert_eq!(late.kind(), ErrorKind::TimedOut);
+        go.send(()).expect("it waits");
+        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), "late");
+    }
+}

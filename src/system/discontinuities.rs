@@ -1,0 +1,368 @@
+//! Events and impulses as numbers: the functions whose zeros are looked for, when impulses fall, and what
+//! they do to a state.
+//!
+//! In: a model's impulses and events. Out: values of `when`, times, states after an impulse. Never
+//! here: how zeros are found, and what follows from them.
+//! Source of the impulses: *The Principles of Dynamics*, § 1.3.3.
+
+use std::sync::Arc;
+
+use super::observables;
+use super::program::Program;
+use super::resolution::{self, Resolution};
+use super::rhs::ProgramBuilder;
+use super::value::Evaluator;
+use super::{Form, MotionError, MotionErrorKind, State, System};
+use crate::expr::{Expr, Symbol};
+use crate::model::{Action, Direction, Model};
+use crate::num::DoubleDouble;
+
+/// What may happen to a motion.
+#[derive(Clone, Debug)]
+pub struct Discontinuities {
+    /// Events, in the order of the file.
+    pub events: Vec<CompiledEvent>,
+    /// Impulses, in the order of the file.
+    pub impulses: Vec<CompiledImpulse>,
+    /// Of (q, native rates, action, work): each event's function.
+    when: Arc<Program>,
+    /// Of the same: what tells how fast these functions change.
+    pace: Arc<Program>,
+    /// Of the same: Q̂ of every impulse.
+    change: Arc<Program>,
+    /// Of the parameters: the times of every impulse, its interval last (zero for none).
+    schedule: Arc<Program>,
+    /// Whether L is quadratic in the velocities.
+    quadratic: bool,
+}
+
+/// An event without its function.
+#[derive(Clone, Debug)]
+pub struct CompiledEvent {
+    /// As in the file.
+    pub name: String,
+    /// Which crossings of zero count.
+    pub direction: Direction,
+    /// What follows.
+    pub action: Action,
+}
+
+/// An impulse without its formulas.
+#[derive(Clone, Debug)]
+pub struct CompiledImpulse {
+    /// As in the file.
+    pub name: String,
+    /// What it is, in words.
+    pub about: String,
+    times: usize,
+    /// Whether it strikes again and again.
+    periodic: bool,
+    /// Whether it falls at times of its own; one that does not waits for an event or a key.
+    pub scheduled: bool,
+}
+
+/// When one impulse falls.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Schedule {
+    /// At these times.
+    pub times: Vec<DoubleDouble>,
+    /// And at every multiple of this interval after the start.
+    pub interval: Option<DoubleDouble>,
+    /// The interval as it was computed, which may be none: zero, negative or not finite.
+    given: DoubleDouble,
+}
+
+impl Schedule {
+    /// The time of an impulse beyond the last digit of an `f64`, by its nearest one.
+    pub fn exactly(&self, start: f64, time: f64) -> DoubleDouble {
+        let periodic = || {
+            let interval = self.interval?;
+            let count = ((time - start) / interval.high).round();
+            Some(DoubleDouble::written(start) + interval * count)
+        };
+        let listed = self.times.iter().copied().find(|x| x.high == time);
+        let found = listed.or_else(|| periodic().filter(|x| x.high == time));
+        found.unwrap_or_else(|| DoubleDouble::written(time))
+    }
+}
+
+/// What an impulse did.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ImpulseOutcome {
+    /// The state after it.
+    pub after: State,
+    /// Δp of each coordinate, or the jump of each variable.
+    pub jump: Vec<f64>,
+    /// Λ of each constraint.
+    pub reaction: Vec<f64>,
+}
+
+impl Discontinuities {
+    pub(super) fn of(
+        model: &Model,
+        builder: &mut ProgramBuilder<'_>,
+    ) -> Result<Discontinuities, Symbol> {
+        let mut lowering = builder.lowering();
+        let mut outputs = Vec::new();
+        for impulse in &model.impulses {
+            outputs.extend(lowering.lower_all(&impulse.times));
+            outputs.push(lowering.lower(impulse.period.unwrap_or(Expr::ZERO)));
+        }
+        let schedule = lowering.finish(outputs)?;
+        let functions = model.events.iter().map(|e| Some(e.when)).collect::<Vec<_>>();
+        let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
+        let changes: Vec<_> = changes.collect();
+        Ok(Discontinuities {
+            events: model
+                .events
+                .iter()
+                .map(|e| CompiledEvent {
+                    name: e.name.clone(),
+                    direction: e.direction,
+                    action: e.action,
+                })
+                .collect(),
+            impulses: model
+                .impulses
+                .iter()
+                .map(|i| CompiledImpulse {
+                    name: i.name.clone(),
+                    about: i.about.clone(),
+                    times: i.times.len(),
+                    periodic: i.period.is_some(),
+                    scheduled: !i.times.is_empty() || i.period.is_some(),
+                })
+                .collect(),
+            when: observables::program(builder, &functions)?,
+            pace: resolution::program(builder, &functions)?,
+            change: observables::program(builder, &changes)?,
+            schedule,
+            quadratic: builder.is_quadratic(),
+        })
+    }
+}
+
+/// Evaluates the events' functions of one system at one set of parameters.
+#[derive(Clone, Debug)]
+pub struct EventFunctions {
+    system: System,
+    parameters: Vec<f64>,
+    quick: Evaluator<f64>,
+    exact: Evaluator<DoubleDouble>,
+    resolution: Resolution,
+    rounded: Vec<f64>,
+    inputs: Vec<DoubleDouble>,
+    /// The state looked at last, in the native form, where momenta alone do not tell it.
+    near: Option<State>,
+}
+
+impl EventFunctions {
+    /// Takes these parameters from now on.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        let inputs = self.system.inputs(parameters);
+        self.quick.set_parameters(&inputs);
+        self.exact.set_parameters(&inputs);
+        self.resolution.set_parameters(&inputs);
+    }
+
+    /// How far after a state the functions are so simple that looks at the ends, and at what these
+    /// do not foretell, see every turn; infinite for polynomials, `None` where it cannot be reported.
+    /// `near` is some length of time that is not far from the motion's own.
+    pub fn resolved(&mut self, state: &State, near: f64) -> Option<f64> {
+        let form = self.system.form();
+        if state.form == form {
+            return self.resolution.after(state, near);
+        }
+        let own = self.system.convert(state, form, &self.parameters).ok()?;
+        self.resolution.after(&own, near)
+    }
+
+    /// The inputs for a state, which may have either form.
+    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
+        let form = self.system.form();
+        if state.form == form {
+            self.system.inputs_of(state, &mut self.inputs);
+        } else {
+            let own = match &self.near {
+                Some(near) => self.system.convert_near(state, near, &self.parameters)?,
+                None => self.system.convert(state, form, &self.parameters)?,
+            };
+            self.system.inputs_of(&own, &mut self.inputs);
+            self.near = Some(own).filter(|_| self.system.has_branches());
+        }
+        Ok(())
+    }
+
+    /// The value of every event's function at a state.
+    pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
+        self.take_in(state)?;
+        for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
+            *rounded = x.high;
+        }
+        let found = self.quick.evaluate(state.time, &self.rounded);
+        found.map_err(|why| {
+            let program = &self.system.discontinuities().when;
+            self.system.singular(program, why, state.time, &state.values)
+        })?;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = self.quick.output(i);
+        }
+        Ok(())
+    }
+
+    /// The value of one event's function, in all digits.
+    pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
+        self.take_in(state)?;
+        let found = self.exact.evaluate(state.exact_time(), &self.inputs);
+        found.map_err(|why| {
+            let program = &self.system.discontinuities().when;
+            self.system.singular(program, why, state.time, &state.values)
+        })?;
+        Ok(self.exact.output(event))
+    }
+}
+
+impl System {
+    /// What evaluates the events' functions; `None` where there are no events.
+    pub fn event_functions(&self, parameters: &[f64]) -> Option<EventFunctions> {
+        let program = &self.discontinuities().when;
+        if program.outputs() == 0 {
+            return None;
+        }
+        let inputs = self.driven_len() + 2;
+        let mut event_functions = EventFunctions {
+            system: self.clone(),
+            parameters: parameters.to_vec(),
+            quick: Evaluator::new(Arc::clone(program)),
+            exact: Evaluator::new(Arc::clone(program)),
+            resolution: Resolution::new(
+                self,
+                Arc::clone(&self.discontinuities().pace),
+                self.discontinuities().events.len(),
+            ),
+            rounded: vec![0.0; inputs],
+            inputs: vec![DoubleDouble::ZERO; inputs],
+            near: None,
+        };
+        event_functions.set_parameters(parameters);
+        Some(event_functions)
+    }
+
+    /// When each impulse falls, at these parameters.
+    pub fn schedule(&self, parameters: &[f64]) -> Vec<Schedule> {
+        let discontinuities = self.discontinuities();
+        let mut values: Evaluator<DoubleDouble> =
+            Evaluator::new(Arc::clone(&discontinuities.schedule));
+        values.set_parameters(&self.inputs(parameters));
+        let mut next = 0;
+        let mut take = |count: usize| {
+            next += count;
+            (next - count..next).map(|i| values.output(i)).collect::<Vec<_>>()
+        };
+        let of = |impulse: &CompiledImpulse| {
+            let times = take(impulse.times);
+            let given = take(1).first().copied().unwrap_or(DoubleDouble::ZERO);
+            let interval = Some(given).filter(|x| x.high > 0.0 && x.is_finite());
+            Schedule { times, interval, given }
+        };
+        discontinuities.impulses.iter().map(of).collect()
+    }
+
+    /// The impulse whose interval is none at these parameters, if there is one, as a fault.
+    ///
+    /// # Errors
+    /// The fault, at this time.
+    pub fn check_intervals(&self, parameters: &[f64], time: f64) -> Result<(), MotionError> {
+        let schedule = self.schedule(parameters);
+        for (impulse, schedule) in self.discontinuities().impulses.iter().zip(schedule) {
+            if let (true, None) = (impulse.periodic, schedule.interval) {
+                let kind = MotionErrorKind::NoInterval(impulse.name.clone(), schedule.given.high);
+                return Err(MotionError { time, kind, place: Vec::new() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Strikes a state in the system's own form: Δp = Q̂ + AᵀΛ̂ with A q̇ + A₀ = 0 after it, q kept.
+    ///
+    /// Where a state carries the work done on the motion, the impulse's is added by its law,
+    /// Δh = ½(q̇⁻ + q̇⁺)·Q̂ − Λ̂·A₀ for an L that is quadratic in q̇, else by the energies.
+    pub fn apply_impulse(
+        &self,
+        impulse: usize,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<ImpulseOutcome, MotionError> {
+        let n = self.degrees();
+        let inputs = self.inputs(parameters);
+        let program = &self.discontinuities().change;
+        let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
+        values.set_parameters(&inputs);
+        let mut seen = vec![DoubleDouble::ZERO; self.driven_len() + 2];
+        self.inputs_of(state, &mut seen);
+        let found = values.evaluate(state.exact_time(), &seen);
+        found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
+        let impulse: Vec<DoubleDouble> = (0..n).map(|i| values.output(impulse * n + i)).collect();
+        let mut after = state.clone();
+        let mut reaction = vec![0.0; self.constraints()];
+        let mut jump: Vec<f64> = impulse.iter().map(|x| x.high).collect();
+        match self.form() {
+            Form::Variables => add(&mut after, 0, &impulse),
+            Form::Momentum => add(&mut after, n, &impulse),
+            Form::Velocity => {
+                let before = self.convert(state, Form::Momentum, parameters)?;
+                let target: Vec<DoubleDouble> =
+                    (0..n).map(|i| before.exact(n + i) + impulse[i]).collect();
+                if self.constraints() > 0 {
+                    (after, reaction) = self.impulse_outcome(state, &target, parameters)?;
+                    let after_impulse = self.convert(&after, Form::Momentum, parameters)?;
+                    for (i, x) in jump.iter_mut().enumerate() {
+                        *x = (after_impulse.exact(n + i) - before.exact(n + i)).high;
+                    }
+                } else {
+                    let mut after_impulse = before.clone();
+                    for (i, &p) in target.iter().enumerate() {
+                        after_impulse.set(n + i, p);
+                    }
+                    after = self.convert_near(&after_impulse, state, parameters)?;
+                }
+            }
+        }
+        self.check_finite(&after)?;
+        self.add_work(state, &mut after, (&impulse, &reaction), parameters)?;
+        Ok(ImpulseOutcome { after, jump, reaction })
+    }
+
+    /// Adds to the work of a state what an impulse did.
+    fn add_work(
+        &self,
+        before: &State,
+        after: &mut State,
+        (impulse, reaction): (&[DoubleDouble], &[f64]),
+        parameters: &[f64],
+    ) -> Result<(), MotionError> {
+        let Some(place) = self.work_place() else { return Ok(()) };
+        let n = self.degrees();
+        let work = if self.discontinuities().quadratic && self.form() == Form::Velocity {
+            let mut work = DoubleDouble::ZERO;
+            for (i, &q) in impulse.iter().enumerate() {
+                work = work + (before.exact(n + i) + after.exact(n + i)) * q * 0.5;
+            }
+            let rates = self.constraint_rates(before, parameters);
+            rates.iter().zip(reaction).fold(work, |work, (&a, &x)| work - a * x)
+        } else {
+            self.energy_of(after, parameters)? - self.energy_of(before, parameters)?
+        };
+        after.set(place, before.exact(place) + work);
+        Ok(())
+    }
+}
+
+/// Adds to the numbers of a state from `first` on.
+fn add(state: &mut State, first: usize, change: &[DoubleDouble]) {
+    for (i, &x) in change.iter().enumerate() {
+        state.set(first + i, state.exact(first + i) + x);
+    }
+}

@@ -1,0 +1,207 @@
+//! Why a motion cannot go on, or not begin: what happened, when and where.
+
+use std::fmt;
+
+use crate::printable;
+
+/// Something on the way that no number can stand for.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub struct MotionError {
+    /// When.
+    pub time: f64,
+    /// What happened.
+    pub kind: MotionErrorKind,
+    /// Where: coordinates as shown, with their values.
+    pub place: Vec<(String, f64)>,
+}
+
+/// A method that was seen to lead past a place where another one stops.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Passage {
+    /// The method's name.
+    pub method: &'static str,
+    /// The step it was tried with, where its step is fixed.
+    pub step: Option<f64>,
+}
+
+impl fmt::Display for Passage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "--method {}", self.method)?;
+        self.step.map_or(Ok(()), |step| write!(f, " --step {}", short(step)))
+    }
+}
+
+/// What happened.
+#[derive(Clone, PartialEq, Debug)]
+pub enum MotionErrorKind {
+    /// This, at a place that another method passes.
+    Passable(Box<MotionErrorKind>, Passage),
+    /// A pivot of the mass matrix vanishes.
+    SingularMass,
+    /// The constraints are dependent there, or together with the mass matrix singular; how it is
+    /// passed, where that is known.
+    SingularConstraints(Option<Passage>),
+    /// This constraint repeated the others where the motion began, and contradicts them here.
+    ConstraintParted(String),
+    /// No state nearby keeps this constraint.
+    ConstraintLost(String),
+    /// The values at the start miss this constraint, by this part of the size of its terms.
+    ConstraintMissed(String, f64),
+    /// The velocities and momenta given at the start contradict the constraints.
+    Contradiction,
+    /// The constraints leave these velocities at the start free.
+    FreeVelocities(Vec<String>),
+    /// What is given of the momenta at the start belongs to each of these velocities (or the
+    /// reverse).
+    SeveralStarts(Vec<String>),
+    /// A number of the state or of its rate of change is not finite; the name says which.
+    NotFinite(String),
+    /// The velocities that belong to given momenta (or the reverse) were not found.
+    NoVelocities,
+    /// A step led to velocities on another branch of those that belong to the momenta.
+    BranchLeft,
+    /// The equations of an implicit step were not solved; the step's size.
+    NoConvergence(f64),
+    /// The step became too small for the clock to move; the size it would have.
+    StepUnderflow(f64),
+    /// The clock has no digits for the next step or impulse; the distance of two times it can show.
+    ClockStands(f64),
+    /// This impulse is to strike again after an interval that is none: zero, negative or not finite.
+    NoInterval(String, f64),
+    /// There are more fixed steps of this size up to this time than can be counted.
+    TooManySteps(f64, f64),
+    /// This event comes ever faster and would come without end.
+    PilesUp(String),
+    /// Somebody asked that it stop.
+    Cancelled,
+    /// The motion comes to a place from which no series leads on.
+    Rough,
+    /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
+    Sticks,
+}
+
+impl fmt::Display for MotionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let time = printable::number(self.time);
+        if let MotionErrorKind::Passable(kind, passage) = &self.kind {
+            let MotionError { time, place, .. } = self.clone();
+            let plain = MotionError { time, kind: (**kind).clone(), place };
+            return write!(f, "{plain}; {passage} passes it");
+        }
+        match &self.kind {
+            MotionErrorKind::Passable(..) => {}
+            MotionErrorKind::SingularMass => {
+                write!(f, "the mass matrix is singular at t = {time}")?
+            }
+            MotionErrorKind::SingularConstraints(_) => {
+                write!(f, "singular configuration of the constraints at t = {time}")?;
+            }
+            MotionErrorKind::ConstraintParted(name) => write!(
+                f,
+                "the constraint `{name}`, which repeated those before it where the motion began, \
+                 contradicts them at t = {time}"
+            )?,
+            MotionErrorKind::ConstraintLost(name) => {
+                write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
+            }
+            MotionErrorKind::ConstraintMissed(name, part) => write!(
+                f,
+                "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
+            )?,
+            MotionErrorKind::Contradiction => f.write_str(
+                "the velocities and momenta given at the start contradict the constraints",
+            )?,
+            MotionErrorKind::FreeVelocities(names) => write!(
+                f,
+                "the constraints do not say with which velocities the motion starts: give {}",
+                names.join(", ")
+            )?,
+            MotionErrorKind::SeveralStarts(starts) => write!(
+                f,
+                "what is given belongs to several starts ({}): give one of these instead",
+                starts.join("; ")
+            )?,
+            MotionErrorKind::NotFinite(name) => {
+                write!(f, "{name} is no longer finite at t = {time}")?
+            }
+            MotionErrorKind::NoVelocities => {
+                write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
+            }
+            MotionErrorKind::BranchLeft => {
+                write!(f, "the branch of the velocities ends after t = {time}")?;
+            }
+            MotionErrorKind::NoConvergence(step) => {
+                write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
+            }
+            MotionErrorKind::StepUnderflow(_) => {
+                write!(f, "the step became too small to move the clock at t = {time}")?;
+            }
+            MotionErrorKind::ClockStands(spacing) => write!(
+                f,
+                "the clock cannot go on from t = {time}: its digits are {} apart there",
+                short(*spacing)
+            )?,
+            MotionErrorKind::NoInterval(name, interval) => {
+                write!(f, "the impulse `{name}` cannot strike every {}", short(*interval))?;
+            }
+            MotionErrorKind::TooManySteps(step, until) => write!(
+                f,
+                "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
+            )?,
+            MotionErrorKind::PilesUp(name) => {
+                write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
+            }
+            MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
+            MotionErrorKind::Rough => {
+                write!(
+                    f,
+                    "the motion comes to a kink that it cannot be followed through at t = {time}"
+                )?;
+            }
+            MotionErrorKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
+        }
+        for (name, value) in &self.place {
+            write!(f, ", {name} = {}", short(*value))?;
+        }
+        f.write_str(match &self.kind {
+            MotionErrorKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            MotionErrorKind::SingularConstraints(passage) => {
+                f.write_str(": their directions depend on each other there, or one has none")?;
+                let Some(passage) = passage else { return Ok(()) };
+                return write!(f, "; {passage} passes it, on the smooth one of its branches");
+            }
+            MotionErrorKind::ConstraintParted(_) => {
+                ": the motion began at a singular configuration of the constraints"
+            }
+            MotionErrorKind::ConstraintLost(_) => ": no configuration nearby meets it",
+            MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::FreeVelocities(_)
+            | MotionErrorKind::SeveralStarts(_)
+            | MotionErrorKind::Passable(..)
+            | MotionErrorKind::Cancelled => "",
+            MotionErrorKind::Contradiction => ": give fewer of them",
+            MotionErrorKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
+            MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
+            MotionErrorKind::BranchLeft => {
+                ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
+            }
+            MotionErrorKind::NoConvergence(_) => ": try a smaller step",
+            MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
+            MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
+            MotionErrorKind::TooManySteps(..) => ": try a larger step",
+            MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
+            MotionErrorKind::Rough => ": the rates of change have no limit there",
+            MotionErrorKind::Sticks => ": both sides of a kink push towards it",
+        })
+    }
+}
+
+/// A number in no more digits than it has.
+fn short(value: f64) -> String {
+    let plain = value.to_string();
+    if plain.len() <= LONGEST { plain } else { format!("{value:e}") }
+}
+
+/// A number written out is no longer than this; an `f64` has 17 digits, a sign and a point.
+const LONGEST: usize = 24;

@@ -1,0 +1,146 @@
+//! Constraints in the compiled programs: accelerations and multipliers as one system of linear
+//! equations, with a switch for each constraint that may be let go, and the multipliers of least
+//! norm where constraints say the same thing twice.
+//!
+//! In: M, f and the constraints' rows as expressions. Out: registers. Never here: which
+//! constraints hold; that is decided by numbers, in `conditions`.
+
+use super::lower::Lowering;
+use super::program::Register;
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{ConstraintRow, Equations, Flow};
+use crate::num::Number;
+
+/// The matrices of M q̈ − Aᵀν = f, A q̈ = γ, for the constraints that are held.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ConstraintSystem {
+    /// What the switches stand for; none where all constraints are always held.
+    pub(super) switches: Vec<Switch>,
+    /// The matrix of the whole system.
+    matrix: Vec<Vec<Expr>>,
+    /// γ, zero where a constraint is not held.
+    bias: Vec<Expr>,
+    least: Option<LeastNorm>,
+}
+
+/// Two numbers of each constraint, 1 or 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Switch {
+    /// Whether it is among the independent ones that are held.
+    pub(super) held: Symbol,
+    /// Whether it has not been released.
+    pub(super) active: Symbol,
+}
+
+/// The multipliers of least norm: with ν those of the independent constraints, Aᵀλ = A_indᵀν has
+/// the least solution λ = B (BᵀB)⁻¹ G ν, where B = A A_indᵀ and G = A_ind A_indᵀ (λ lies in the
+/// range of A; Golub & Van Loan, Matrix Computations, 5.5).
+#[derive(Clone, Debug)]
+struct LeastNorm {
+    b: Vec<Vec<Expr>>,
+    normal: Vec<Vec<Expr>>,
+    g: Vec<Vec<Expr>>,
+}
+
+impl ConstraintSystem {
+    /// Writes the matrices; `switched` says that a constraint may be let go or is redundant,
+    /// `redundant` that some are.
+    pub(super) fn of(
+        pool: &mut Pool,
+        equations: &Equations,
+        switched: bool,
+        redundant: bool,
+    ) -> ConstraintSystem {
+        let rows = &equations.constraints;
+        let switches: Vec<Switch> =
+            if switched { rows.iter().map(|row| switch(pool, row)).collect() } else { Vec::new() };
+        let state = |pool: &mut Pool, symbol: fn(&Switch) -> Symbol, i: usize| {
+            switches.get(i).map_or(Expr::ONE, |s| pool.variable(symbol(s)))
+        };
+        let held: Vec<Expr> = (0..rows.len()).map(|i| state(pool, |s| s.held, i)).collect();
+        let active: Vec<Expr> = (0..rows.len()).map(|i| state(pool, |s| s.active, i)).collect();
+        let scaled = |pool: &mut Pool, factors: &[Expr]| -> Vec<Vec<Expr>> {
+            let rows = rows.iter().zip(factors);
+            rows.map(|(row, &h)| row.row.iter().map(|&a| pool.mul(h, a)).collect()).collect()
+        };
+        let a = scaled(pool, &held);
+        let mut matrix = match &equations.flow {
+            Flow::Lagrange { mass, .. } => mass.clone(),
+            Flow::Hamilton { .. } | Flow::Poisson { .. } => Vec::new(),
+        };
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row.extend(a.iter().map(|a| pool.neg(a[i])));
+        }
+        let free: Vec<Expr> = held.iter().map(|&h| pool.sub(Expr::ONE, h)).collect();
+        for (k, a) in a.iter().enumerate() {
+            let rest = (0..rows.len()).map(|j| if j == k { free[k] } else { Expr::ZERO });
+            matrix.push(a.iter().copied().chain(rest).collect());
+        }
+        let bias = rows.iter().zip(&held).map(|(row, &h)| pool.mul(h, row.bias)).collect();
+        let least = redundant.then(|| {
+            let active = scaled(pool, &active);
+            let b = products(pool, &active, &a);
+            let columns = transposed(&b);
+            let mut normal = products(pool, &columns, &columns);
+            for (k, row) in normal.iter_mut().enumerate() {
+                row[k] = pool.add(row[k], free[k]);
+            }
+            LeastNorm { b, normal, g: products(pool, &a, &a) }
+        });
+        ConstraintSystem { switches, matrix, bias, least }
+    }
+
+    /// The accelerations; binds them and the multipliers to their symbols.
+    pub(super) fn bind(
+        &self,
+        lowering: &mut Lowering<'_>,
+        equations: &Equations,
+        force: &[Expr],
+    ) -> Vec<Register> {
+        let mut right = lowering.lower_all(force);
+        right.extend(lowering.lower_all(&self.bias));
+        let mut accelerations = lowering.solve(&self.matrix, &right);
+        let independent = accelerations.split_off(force.len());
+        let multipliers = match &self.least {
+            None => independent,
+            Some(least) => {
+                let right = times(lowering, &least.g, &independent);
+                let least_squares = lowering.solve(&least.normal, &right);
+                times(lowering, &least.b, &least_squares)
+            }
+        };
+        for (c, &a) in equations.coordinates.iter().zip(&accelerations) {
+            lowering.bind(c.acceleration, a);
+        }
+        for (row, &l) in equations.constraints.iter().zip(&multipliers) {
+            lowering.bind(row.multiplier, l);
+        }
+        accelerations
+    }
+}
+
+fn switch(pool: &mut Pool, row: &ConstraintRow) -> Switch {
+    let name = pool.symbol_info(row.multiplier).name.clone();
+    // a blank cannot stand in a name of the file
+    let [held, active] = ["held", "active"].map(|word| pool.symbol(&format!("{word} {name}")));
+    Switch { held, active }
+}
+
+/// The inner products of the rows of two matrices.
+fn products(pool: &mut Pool, a: &[Vec<Expr>], b: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    let mut product = |x: &[Expr], y: &[Expr]| {
+        let terms: Vec<(Number, Expr)> =
+            x.iter().zip(y).map(|(&x, &y)| (Number::ONE, pool.mul(x, y))).collect();
+        pool.linear(Number::ZERO, &terms)
+    };
+    a.iter().map(|x| b.iter().map(|y| product(x, y)).collect()).collect()
+}
+
+fn transposed(a: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    (0..a.first().map_or(0, Vec::len)).map(|j| a.iter().map(|row| row[j]).collect()).collect()
+}
+
+/// A matrix times a column of registers.
+fn times(lowering: &mut Lowering<'_>, a: &[Vec<Expr>], x: &[Register]) -> Vec<Register> {
+    a.iter().map(|row| lowering.inner_product(row, x)).collect()
+}

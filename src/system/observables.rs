@@ -1,0 +1,312 @@
+//! The list of channels, and the programs that compute them: one in double-double for what is
+//! tabulated and gauged, one in `f64` for what is only drawn.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::channel::{Channel, ChannelKind};
+use super::kkt::ConstraintSystem;
+use super::lower::Lowering;
+use super::program::{Program, Register};
+use super::rhs::ProgramBuilder;
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Equations, Flow};
+use crate::model::{self, Mechanics, Model, Shape};
+
+/// Everything watched of one system.
+#[derive(Clone, Debug)]
+pub(super) struct Observables {
+    pub(super) channels: Vec<Channel>,
+    /// The first so many are the columns of a run.
+    pub(super) columns: usize,
+    /// The channel of each expression.
+    pub(super) index: HashMap<Expr, usize>,
+    /// Of (q, native rates, action, work): the first channels.
+    pub(super) precise: Arc<Program>,
+    /// Of the same: the others.
+    pub(super) drawn: Arc<Program>,
+}
+
+/// The channels being listed, with their expressions; the ledger has none.
+#[derive(Default)]
+pub(super) struct ObservableList {
+    channels: Vec<Channel>,
+    expressions: Vec<Option<Expr>>,
+    index: HashMap<Expr, usize>,
+    columns: usize,
+    precise: usize,
+}
+
+impl ObservableList {
+    /// Lists the channels of a model.
+    pub(super) fn of(
+        model: &Model,
+        equations: &mut Equations,
+        extra: &[model::Channel],
+    ) -> ObservableList {
+        let mut list = ObservableList::default();
+        list.add_state(model, equations);
+        for (i, o) in model.observables.iter().enumerate() {
+            list.add(ChannelKind::Observable(i), &o.name, &o.name, o.expression);
+        }
+        for (i, c) in extra.iter().enumerate() {
+            list.add(ChannelKind::Extra(i), &c.written, &c.written, c.expression);
+        }
+        list.columns = list.channels.len();
+        if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
+            list.push(ChannelKind::Ledger, "energy ledger", "energy ledger", None);
+        }
+        for (i, c) in equations.conserved.iter().enumerate() {
+            let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));
+            let known = momenta.find(|info| info.name == c.name);
+            let shown = known.map_or(c.name.as_str(), |info| &info.unicode);
+            list.add(ChannelKind::Conserved(i), &c.name, shown, c.expression);
+        }
+        if let Some(matrix) = equations.beside.attitude_symbols {
+            for (i, symbol) in matrix.into_iter().flatten().enumerate() {
+                let e = equations.pool.variable(symbol);
+                let name = equations.pool.symbol_info(symbol).unicode.clone();
+                list.add(ChannelKind::Attitude(i), &name, &name, e);
+            }
+        }
+        for (name, e, _) in &model.expect.conserves {
+            list.add_hidden(name, *e);
+        }
+        // A quantity is not called as what is expected of it at one moment: a view names it, or nobody.
+        for value in &model.expect.values {
+            list.add_hidden("", value.expression);
+        }
+        list.precise = list.channels.len();
+        for view in &model.views {
+            for c in view.x.iter().chain(&view.y) {
+                list.add_hidden(&c.written, c.expression);
+                list.name(c);
+            }
+        }
+        let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
+        for e in model.space.iter().chain(own).flat_map(numbers_of) {
+            list.add_hidden("", e);
+        }
+        for frame in &model.frames {
+            for e in frame.axis.into_iter().chain([frame.angle]).chain(frame.origin) {
+                list.add_hidden("", e);
+            }
+        }
+        for seen in equations.beside.frames.iter().flatten() {
+            let forces = [seen.centrifugal, seen.coriolis, seen.euler, seen.dragging];
+            for e in seen.at.into_iter().chain(forces.into_iter().flatten()) {
+                list.add_hidden("", e);
+            }
+        }
+        list.find_units(model, equations);
+        list
+    }
+
+    fn add_state(&mut self, model: &Model, equations: &mut Equations) {
+        for (i, c) in model.coordinates.iter().enumerate() {
+            let e = equations.pool.variable(c.position);
+            self.add(ChannelKind::Position(i), &c.name, &c.shown, e);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&c.unit);
+                channel.periodic = c.period.is_some();
+            }
+        }
+        let moving = if model.is_poisson() { &[] } else { &model.coordinates[..] };
+        let symbols: Vec<_> = moving.iter().map(|c| (c.velocity, c.momentum)).collect();
+        let time = model.time_unit();
+        let (energy_unit, momentum_units) = equations.units(model);
+        for (i, &(velocity, _)) in symbols.iter().enumerate() {
+            self.add_symbol(ChannelKind::Velocity(i), equations, velocity);
+            let unit = &model.coordinates[i].unit;
+            if let (Some(channel), false, false) =
+                (self.channels.last_mut(), unit.is_empty(), time.is_empty())
+            {
+                channel.unit = format!("{unit}/{time}");
+            }
+        }
+        for (i, &(_, momentum)) in symbols.iter().enumerate() {
+            self.add_symbol(ChannelKind::Momentum(i), equations, momentum);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&momentum_units[i]);
+            }
+            self.index.entry(equations.momenta[i]).or_insert(self.channels.len() - 1);
+        }
+        for (i, row) in equations.constraints.clone().iter().enumerate() {
+            self.add_symbol(ChannelKind::Multiplier(i), equations, row.multiplier);
+            if let Some(channel) = self.channels.last_mut() {
+                channel.unit.clone_from(&model.constraints[i].unit);
+            }
+        }
+        let energy = equations.pool.variable(equations.symbols.energy);
+        self.add(ChannelKind::Energy, "energy", "E", energy);
+        if let Some(channel) = self.channels.last_mut() {
+            channel.unit = energy_unit;
+        }
+        self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
+        if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
+            for (i, (name, e, _)) in casimirs.iter().enumerate() {
+                self.add(ChannelKind::Casimir(i), name, name, *e);
+            }
+        }
+    }
+
+    /// Gives units to what has a name and none yet, where they follow from those of the file.
+    fn find_units(&mut self, model: &Model, equations: &Equations) {
+        let energy = self.channels.iter().find(|c| c.kind == ChannelKind::Energy);
+        let energy = energy.map_or_else(String::new, |channel| channel.unit.clone());
+        for (channel, e) in self.channels.iter_mut().zip(&self.expressions) {
+            if !channel.unit.is_empty() || channel.name.is_empty() {
+                continue;
+            }
+            channel.unit = match e {
+                Some(e) => equations.unit(model, *e),
+                None => energy.clone(),
+            };
+        }
+    }
+
+    fn add_symbol(&mut self, kind: ChannelKind, equations: &mut Equations, symbol: Symbol) {
+        let e = equations.pool.variable(symbol);
+        let info = equations.pool.symbol_info(symbol).clone();
+        self.add(kind, &info.name, &info.unicode, e);
+    }
+
+    fn add(&mut self, kind: ChannelKind, name: &str, shown: &str, e: Expr) {
+        self.index.entry(e).or_insert(self.channels.len());
+        self.push(kind, name, shown, Some(e));
+    }
+
+    fn add_hidden(&mut self, name: &str, e: Expr) {
+        if !self.index.contains_key(&e) {
+            self.add(ChannelKind::Expression, name, name, e);
+        }
+    }
+
+    /// Gives a channel that has no name yet that of a view.
+    fn name(&mut self, shown: &model::Channel) {
+        let channel = self.index.get(&shown.expression).map(|&i| &mut self.channels[i]);
+        if let Some(channel) = channel.filter(|channel| channel.name.is_empty()) {
+            channel.name.clone_from(&shown.written);
+            channel.shown.clone_from(&shown.written);
+        }
+    }
+
+    fn push(&mut self, kind: ChannelKind, name: &str, shown: &str, e: Option<Expr>) {
+        let (name, shown) = (name.to_owned(), shown.to_owned());
+        let channel = Channel { kind, name, shown, unit: String::new(), periodic: false };
+        self.channels.push(channel);
+        self.expressions.push(e);
+    }
+
+    /// Whether any channel depends on a symbol.
+    pub(super) fn depends(&self, equations: &Equations, symbol: Symbol) -> bool {
+        let all: Vec<Expr> = self.expressions.iter().flatten().copied().collect();
+        let reached = equations.pool.reachable(&all);
+        reached.into_iter().any(|e| equations.pool.as_symbol(e) == Some(symbol))
+    }
+
+    /// Compiles the list.
+    pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Observables, Symbol> {
+        let (precise, drawn) = self.expressions.split_at(self.precise);
+        let precise = program(builder, precise)?;
+        let drawn = program(builder, drawn)?;
+        Ok(Observables {
+            channels: self.channels,
+            columns: self.columns,
+            index: self.index,
+            precise,
+            drawn,
+        })
+    }
+}
+
+/// A program of (q, native rates, numbers carried along, action, work) for channels' expressions: p, q̈ and the energy
+/// are computed first and stand for their symbols.
+pub(super) fn program(
+    builder: &mut ProgramBuilder<'_>,
+    channels: &[Option<Expr>],
+) -> Result<Arc<Program>, Symbol> {
+    let equations = builder.equations;
+    let accelerated = is_accelerated(builder, channels);
+    let accelerations = match &equations.flow {
+        Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } if accelerated => {
+            // q̈ = d/dt ∂H/∂p along the motion
+            let seeds = equations.along_the_flow();
+            velocities.iter().map(|&v| builder.pool.derivation(v, &seeds)).collect()
+        }
+        _ => Vec::new(),
+    };
+    let kkt = builder.kkt.clone();
+    let mut lowering = builder.on_full_state();
+    let (action, work) = (lowering.input(), lowering.input());
+    lowering.bind(equations.symbols.action, action);
+    bind_derived(&mut lowering, equations, &kkt, accelerated, &accelerations);
+    let energy = lowering.variable(equations.symbols.energy);
+    let outputs: Vec<Register> = channels
+        .iter()
+        .map(|channel| match channel {
+            Some(e) => lowering.lower(*e),
+            None => lowering.difference(energy, work),
+        })
+        .collect();
+    lowering.finish(outputs)
+}
+
+/// Whether any of the expressions depends on an acceleration or a multiplier.
+fn is_accelerated(builder: &ProgramBuilder<'_>, channels: &[Option<Expr>]) -> bool {
+    let all: Vec<Expr> = channels.iter().flatten().copied().collect();
+    let accelerations = builder.equations.coordinates.iter().map(|c| c.acceleration);
+    let multipliers = builder.equations.constraints.iter().map(|c| c.multiplier);
+    let symbols: Vec<Symbol> = accelerations.chain(multipliers).collect();
+    let reached = builder.pool.reachable(&all);
+    reached.into_iter().any(|e| builder.pool.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
+}
+
+fn bind_derived(
+    lowering: &mut Lowering<'_>,
+    equations: &Equations,
+    kkt: &ConstraintSystem,
+    accelerated: bool,
+    accelerations: &[Expr],
+) {
+    match &equations.flow {
+        Flow::Lagrange { force, .. } => {
+            let momenta = lowering.lower_all(&equations.momenta);
+            for (c, p) in equations.coordinates.iter().zip(momenta) {
+                lowering.bind(c.momentum, p);
+            }
+            if accelerated {
+                kkt.bind(lowering, equations, force);
+            }
+        }
+        Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {
+            let velocities = lowering.lower_all(velocities);
+            for (c, v) in equations.coordinates.iter().zip(velocities) {
+                lowering.bind(c.velocity, v);
+            }
+            let accelerations = lowering.lower_all(accelerations);
+            for (c, a) in equations.coordinates.iter().zip(accelerations) {
+                lowering.bind(c.acceleration, a);
+            }
+        }
+    }
+    for (symbol, e) in equations.attitude_map() {
+        let entry = lowering.lower(e);
+        lowering.bind(symbol, entry);
+    }
+    let energy = lowering.lower(equations.energy);
+    lowering.bind(equations.symbols.energy, energy);
+}
+
+/// The numbers a shape is drawn from.
+fn numbers_of(shape: &Shape) -> Vec<Expr> {
+    match shape {
+        Shape::Line { from, to } | Shape::Spring { from, to } => [*from, *to].concat(),
+        Shape::Circle { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
+        Shape::Mass { at, radius } => at.iter().copied().chain(*radius).collect(),
+        Shape::Trace { at } | Shape::Body { at } => at.to_vec(),
+        Shape::Vector { at, components } => [*at, *components].concat(),
+        Shape::Path { points } => points.concat(),
+        Shape::Plane { at, normal, size } => [&at[..], &normal[..], &[*size]].concat(),
+    }
+}

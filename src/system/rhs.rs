@@ -1,0 +1,302 @@
+//! The equations of motion as programs: rates of change of a state, in both of its forms, and
+//! split in two where H allows it.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::kkt::ConstraintSystem;
+use super::lower::Lowering;
+use super::program::{Program, Register};
+use super::state::Form;
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{AuxiliaryRates, CoordinateSymbols, Equations, Flow};
+
+/// Which integrals along the motion a state carries behind its coordinates and rates.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Quadratures {
+    pub(super) action: bool,
+    pub(super) work: bool,
+}
+
+impl Quadratures {
+    pub(super) fn count(self) -> usize {
+        usize::from(self.action) + usize::from(self.work)
+    }
+}
+
+/// H = T(p) + V(q, t), each with the motion it makes alone.
+#[derive(Clone, Debug)]
+pub(super) struct Split {
+    /// Of (q, p): q̇, then the rates of the quadratures, under T alone.
+    pub(super) drift: Arc<Program>,
+    /// Of (q, p): ṗ, then the rates of the quadratures, under V alone.
+    pub(super) kick: Arc<Program>,
+}
+
+/// What writing any of the programs needs.
+pub(super) struct ProgramBuilder<'a> {
+    pub(super) pool: Pool,
+    pub(super) equations: &'a Equations,
+    pub(super) parameters: Vec<Symbol>,
+    pub(super) quadratures: Quadratures,
+    pub(super) kkt: ConstraintSystem,
+}
+
+impl ProgramBuilder<'_> {
+    pub(super) fn lowering(&mut self) -> Lowering<'_> {
+        Lowering::new(&mut self.pool, &self.parameters, self.equations.symbols.time)
+    }
+
+    /// The form the equations are given in.
+    pub(super) fn native(&self) -> Form {
+        match self.equations.flow {
+            Flow::Lagrange { .. } => Form::Velocity,
+            Flow::Hamilton { .. } => Form::Momentum,
+            Flow::Poisson { .. } => Form::Variables,
+        }
+    }
+
+    /// Whether L is quadratic in the velocities.
+    pub(super) fn is_quadratic(&self) -> bool {
+        let velocities: Vec<Symbol> =
+            self.equations.coordinates.iter().map(|c| c.velocity).collect();
+        match &self.equations.flow {
+            Flow::Lagrange { mass, .. } => {
+                mass.iter().flatten().all(|&m| !self.pool.depends_on_any(m, &velocities))
+            }
+            Flow::Hamilton { .. } | Flow::Poisson { .. } => false,
+        }
+    }
+
+    /// A program whose inputs are a state in the native form.
+    pub(super) fn on_native_state(&mut self) -> Lowering<'_> {
+        let (form, equations) = (self.native(), self.equations);
+        let mut lowering = self.lowering();
+        bind_state(&mut lowering, &equations.coordinates, form);
+        lowering
+    }
+
+    /// The same, with the numbers carried along behind them.
+    pub(super) fn on_full_state(&mut self) -> Lowering<'_> {
+        let equations = self.equations;
+        let mut lowering = self.on_native_state();
+        bind_auxiliary(&mut lowering, equations);
+        lowering
+    }
+
+    /// Where among the numbers carried along an attitude begins.
+    pub(super) fn attitude(&self) -> Option<usize> {
+        let first = self.equations.beside.attitude_symbols?[0][0];
+        let mut auxiliary =
+            self.equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols);
+        auxiliary.position(|&symbol| symbol == first)
+    }
+
+    /// The numbers carried along at the start, of a state in the native form.
+    pub(super) fn auxiliary_start(&mut self) -> Result<Arc<Program>, Symbol> {
+        let equations = self.equations;
+        let mut lowering = self.on_native_state();
+        let mut outputs = Vec::new();
+        for auxiliary in &equations.beside.auxiliary {
+            outputs.extend(lower_auxiliary(&mut lowering, &auxiliary.initial));
+        }
+        lowering.finish(outputs)
+    }
+
+    /// Rates of change of a state in the native form.
+    pub(super) fn native_rates(&mut self) -> Result<Arc<Program>, Symbol> {
+        let (equations, quadratures) = (self.equations, self.quadratures);
+        let kkt = self.kkt.clone();
+        let mut lowering = self.on_full_state();
+        lowering.switch_at_cuts();
+        let mut outputs = match &equations.flow {
+            Flow::Lagrange { force, .. } => {
+                let accelerations = kkt.bind(&mut lowering, equations, force);
+                let mut outputs = velocities(&mut lowering, &equations.coordinates);
+                outputs.extend(accelerations);
+                outputs
+            }
+            Flow::Hamilton { velocities, momentum_rates } => {
+                let mut outputs = lowering.lower_all(velocities);
+                outputs.extend(lowering.lower_all(momentum_rates));
+                outputs
+            }
+            Flow::Poisson { rates } => lowering.lower_all(rates),
+        };
+        outputs.extend(auxiliary_rates(&mut lowering, equations));
+        outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
+        lowering.finish(outputs)
+    }
+
+    /// A program whose inputs are a state (q, p), with the velocities of a Lagrangian system
+    /// known too. `None` where these cannot be had without iteration.
+    pub(super) fn on_canonical_state(&mut self) -> Option<Lowering<'_>> {
+        let equations = self.equations;
+        let coordinates = &equations.coordinates;
+        let Flow::Lagrange { mass, .. } = &equations.flow else {
+            return Some(self.on_native_state());
+        };
+        let velocity_symbols: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
+        if self.is_quadratic() {
+            // L is quadratic in q̇, so M q̇ = p − b with b the momentum at rest
+            let rest: HashMap<Symbol, Expr> =
+                velocity_symbols.iter().map(|&v| (v, Expr::ZERO)).collect();
+            let offsets: Vec<Expr> =
+                equations.momenta.iter().map(|&p| self.pool.substitute(p, &rest)).collect();
+            let mut lowering = self.lowering();
+            let momenta = bind_state(&mut lowering, coordinates, Form::Momentum);
+            let right: Vec<Register> = momenta
+                .iter()
+                .zip(&offsets)
+                .map(|(&p, &b)| match b {
+                    Expr::ZERO => p,
+                    _ => {
+                        let b = lowering.lower(b);
+                        lowering.difference(p, b)
+                    }
+                })
+                .collect();
+            let solution = lowering.solve(mass, &right);
+            for (c, v) in coordinates.iter().zip(solution) {
+                lowering.bind(c.velocity, v);
+            }
+            return Some(lowering);
+        }
+        let closed = equations.velocities.as_ref().ok()?;
+        let mut lowering = self.lowering();
+        bind_state(&mut lowering, coordinates, Form::Momentum);
+        for (c, &v) in coordinates.iter().zip(closed) {
+            let register = lowering.lower(v);
+            lowering.bind(c.velocity, register);
+        }
+        Some(lowering)
+    }
+
+    /// The same, with the numbers carried along behind them.
+    pub(super) fn on_full_canonical_state(&mut self) -> Option<Lowering<'_>> {
+        let equations = self.equations;
+        let mut lowering = self.on_canonical_state()?;
+        bind_auxiliary(&mut lowering, equations);
+        Some(lowering)
+    }
+
+    /// Rates of change of a state (q, p); for a Lagrangian system that has no velocities in closed
+    /// form they are functions of (q, q̇), and `false` says so.
+    pub(super) fn canonical_rates(&mut self) -> Result<(Arc<Program>, bool), Symbol> {
+        let (equations, quadratures) = (self.equations, self.quadratures);
+        let Flow::Lagrange { momentum_rates, .. } = &equations.flow else {
+            return Ok((self.native_rates()?, true));
+        };
+        let kkt = self.kkt.clone();
+        let finish = |mut lowering: Lowering<'_>| {
+            if let (false, Flow::Lagrange { force, .. }) =
+                (equations.constraints.is_empty(), &equations.flow)
+            {
+                kkt.bind(&mut lowering, equations, force);
+            }
+            let mut outputs = velocities(&mut lowering, &equations.coordinates);
+            outputs.extend(lowering.lower_all(momentum_rates));
+            outputs.extend(auxiliary_rates(&mut lowering, equations));
+            outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
+            lowering.finish(outputs)
+        };
+        if let Some(lowering) = self.on_full_canonical_state() {
+            return Ok((finish(lowering)?, true));
+        }
+        Ok((finish(self.on_full_state())?, false))
+    }
+
+    /// The two halves of a separable system. The action splits with H: Σ p ∂T/∂p − T and −V.
+    pub(super) fn split(&mut self) -> Option<Result<Split, Symbol>> {
+        let equations = self.equations;
+        let (separable, hamiltonian) =
+            (equations.separable.as_ref().ok()?, *equations.hamiltonian.as_ref().ok()?);
+        let at_rest: HashMap<Symbol, Expr> =
+            equations.coordinates.iter().map(|c| (c.momentum, Expr::ZERO)).collect();
+        let potential = self.pool.substitute(hamiltonian, &at_rest);
+        let kinetic = self.pool.sub(hamiltonian, potential);
+        let mut terms = vec![self.pool.neg(kinetic)];
+        for (c, &v) in equations.coordinates.iter().zip(&separable.velocities) {
+            let p = self.pool.variable(c.momentum);
+            terms.push(self.pool.mul(p, v));
+        }
+        let drift_action = self.pool.sum(&terms);
+        let kick_action = self.pool.neg(potential);
+        let drift = self.half(&separable.velocities, drift_action, Expr::ZERO);
+        let kick = self.half(&separable.momentum_rates, kick_action, equations.energy_rate);
+        Some(drift.and_then(|drift| Ok(Split { drift, kick: kick? })))
+    }
+
+    fn half(&mut self, rates: &[Expr], action: Expr, work: Expr) -> Result<Arc<Program>, Symbol> {
+        let (equations, quadratures) = (self.equations, self.quadratures);
+        let mut lowering = self.lowering();
+        bind_state(&mut lowering, &equations.coordinates, Form::Momentum);
+        let mut outputs = lowering.lower_all(rates);
+        if quadratures.action {
+            outputs.push(lowering.lower(action));
+        }
+        if quadratures.work {
+            outputs.push(lowering.lower(work));
+        }
+        lowering.finish(outputs)
+    }
+}
+
+/// Makes a state's coordinates and rates the next inputs; gives the registers of the rates.
+fn bind_state(
+    lowering: &mut Lowering<'_>,
+    coordinates: &[CoordinateSymbols],
+    form: Form,
+) -> Vec<Register> {
+    for c in coordinates {
+        let register = lowering.input();
+        lowering.bind(c.position, register);
+    }
+    let with_rates = if form == Form::Variables { &[] } else { coordinates };
+    let rates = with_rates.iter().map(|c| {
+        let register = lowering.input();
+        let symbol = if form == Form::Velocity { c.velocity } else { c.momentum };
+        lowering.bind(symbol, register);
+        register
+    });
+    rates.collect()
+}
+
+/// Makes the numbers carried along the next inputs.
+fn bind_auxiliary(lowering: &mut Lowering<'_>, equations: &Equations) {
+    for &symbol in equations.beside.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols) {
+        let register = lowering.input();
+        lowering.bind(symbol, register);
+    }
+}
+
+fn auxiliary_rates(lowering: &mut Lowering<'_>, equations: &Equations) -> Vec<Register> {
+    let all = equations.beside.auxiliary.iter();
+    all.flat_map(|auxiliary| lower_auxiliary(lowering, &auxiliary.rates)).collect()
+}
+
+fn lower_auxiliary(lowering: &mut Lowering<'_>, rates: &AuxiliaryRates) -> Vec<Register> {
+    let mut outputs = lowering.lower_all(&rates.plain);
+    let right = lowering.lower_all(&rates.right);
+    outputs.extend(lowering.solve(&rates.matrix, &right));
+    outputs
+}
+
+fn velocities(lowering: &mut Lowering<'_>, coordinates: &[CoordinateSymbols]) -> Vec<Register> {
+    coordinates.iter().map(|c| lowering.variable(c.velocity)).collect()
+}
+
+fn quadrature_rates(
+    lowering: &mut Lowering<'_>,
+    equations: &Equations,
+    quadratures: Quadratures,
+) -> Vec<Register> {
+    let mut outputs = Vec::new();
+    if quadratures.action {
+        outputs.push(lowering.lower(equations.action_rate));
+    }
+    if quadratures.work {
+        outputs.push(lowering.lower(equations.energy_rate));
+    }
+    outputs
+}

@@ -1,0 +1,330 @@
+//! The lines above and below every page: headings, status, and what the focused thing means or what keys do.
+//!
+//! In: the application. Out: three rows of cells. Never here: the body between them.
+
+use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span, columns, row};
+use super::gauges::{departed, finding};
+use super::glyphs::Glyphs;
+use super::help::keys;
+use super::number::{brief, fitted};
+use super::quantity::Quantities;
+use super::theme::Role;
+use super::values::typing;
+use super::wrap::words_in;
+use crate::app::keymap::KEYS;
+use crate::app::{Action, App, Field, HitTarget, Lab, Overlay, Page, Pane, Purpose};
+use crate::experiment::{Snapshot, Status};
+
+/// The pages of a loaded system, with the key of each.
+const PAGES: [(&str, &str, Page); 5] = [
+    ("1", "Lab", Page::Lab),
+    ("2", "Equations", Page::Equations),
+    ("3", "Notes", Page::PendingSignals),
+    ("4", "Numbers", Page::Numbers),
+    ("9", "Plain", Page::Plain),
+];
+
+/// The program's name.
+const NAME: &str = "phaselab";
+
+/// The program's name, the system's, and the pages.
+pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    let title = match (&app.lab, app.page) {
+        (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
+        (Some(lab), _) => &lab.loaded.model.info.title,
+    };
+    let tabs =
+        if app.page == Page::Picker || app.lab.is_none() { Vec::new() } else { tabs(canvas, app) };
+    let wide: usize = tabs.iter().map(|(text, _)| text.width()).sum();
+    let room = area.width.saturating_sub(wide as u16 + 2);
+    // The pages are worth more than the program's name.
+    let named = room >= NAME.len() as u16 || usize::from(area.width) <= wide;
+    let mut used = if named { canvas.left(area, Role::Accent, NAME) } else { 0 };
+    if room > used + 10 {
+        used += canvas.left(columns(area, used, 2), Role::Dim, "  ");
+        canvas.left(columns(area, used, room - used), Role::Title, title);
+    }
+    if usize::from(area.width) > wide {
+        let mut from = area.width - wide as u16;
+        canvas.spans(columns(area, from, area.width), &tabs);
+        // Each tab is a key and a name.
+        for (pair, (_, _, page)) in tabs.chunks(2).zip(PAGES) {
+            let long = pair.iter().map(|(text, _)| text.width()).sum::<usize>() as u16;
+            canvas.spot(columns(area, from, long), HitTarget::Page(page));
+            from += long;
+        }
+    }
+}
+
+fn tabs(canvas: &Canvas<'_>, app: &App) -> Vec<Span> {
+    let mut spans = Vec::new();
+    for (index, (key, name, page)) in PAGES.iter().enumerate() {
+        let here = *page == app.page;
+        let gap = if index == 0 { "" } else { "   " };
+        spans.push(canvas.span(Role::Accent, format!("{gap}{key} ")));
+        spans.push(canvas.span(if here { Role::Title } else { Role::Dim }, *name));
+    }
+    spans
+}
+
+/// Time, speed, method and how fast it all goes.
+pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
+    let glyphs = canvas.look.glyphs;
+    let (sign, word, role) = match &snapshot.status {
+        Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
+        Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
+        Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
+        Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
+    };
+    let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
+    // The more important, the earlier: what does not fit is left out from the end.
+    let mut pieces: Vec<Vec<Span>> =
+        vec![
+            vec![canvas.span(
+                role,
+                if area.width < 100 { sign.to_owned() } else { format!("{sign} {word}") },
+            )],
+            vec![
+                canvas.span(Role::Dim, "t "),
+                canvas.span(Role::Accent, format!("{:<8}", fitted(snapshot.time, 6, 8, glyphs))),
+            ],
+            vec![
+                canvas.span(Role::Dim, "speed "),
+                canvas.span(Role::Text, format!("{:<5}", speed(snapshot, glyphs))),
+            ],
+            vec![canvas.span(Role::Text, method(snapshot, canvas))],
+        ];
+    if let Some((role, text)) = departed(snapshot, glyphs) {
+        pieces.insert(1, vec![canvas.span(role, text)]);
+    }
+    if app.recording {
+        let mark = canvas.span(Role::Bad, format!("{} rec", glyphs.pick("●", "o")));
+        pieces.insert(1, vec![mark]);
+    }
+    pieces.push(vec![
+        canvas.span(Role::Text, format!("{:>5}", rate(app.meter.steps))),
+        canvas.span(Role::Dim, " steps/s"),
+    ]);
+    pieces.push(vec![
+        canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
+        canvas.span(
+            Role::Dim,
+            if area.width < 100 { " fps".to_owned() } else { format!("/{} fps", app.meter.asked) },
+        ),
+    ]);
+    let mut used = 0;
+    for piece in pieces {
+        let wide: usize = piece.iter().map(|(text, _)| text.width()).sum();
+        if used + wide as u16 > area.width {
+            break;
+        }
+        used += canvas.spans(columns(area, used, area.width), &piece) + 2;
+    }
+}
+
+fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
+    if snapshot.speed.is_infinite() {
+        "flat out".to_owned()
+    } else {
+        format!("×{}", brief(snapshot.speed, 3, glyphs))
+    }
+}
+
+/// The status as a sentence.
+pub(super) fn status_words(q: &Quantities<'_>) -> String {
+    let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
+    let status = match &snapshot.status {
+        Status::Running => "running".to_owned(),
+        Status::Paused => "paused".to_owned(),
+        Status::Ended(event) => format!("ended by {event}"),
+        Status::Failed(fault) => format!("stopped: {}", fault.message),
+    };
+    let unit = q.lab.loaded.model.time_unit();
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let tolerance = snapshot.method.tolerance;
+    let tolerance = tolerance.map_or_else(String::new, |t| format!(", tolerance {t:.0e}"));
+    format!(
+        "Time {}{unit}, {status}, speed {}, method {}{tolerance}, step {}.",
+        brief(snapshot.time, 6, glyphs),
+        speed(snapshot, glyphs),
+        snapshot.method.name,
+        brief(snapshot.method.step, 3, glyphs),
+    )
+}
+
+/// A count in five columns: `940`, `12k`, `3.4M`.
+fn short(value: f64) -> String {
+    match value {
+        v if v < 9_950.0 => format!("{v:.0}"),
+        v if v < 999_500.0 => format!("{:.0}k", v / 1e3),
+        v => format!("{:.1}M", v / 1e6),
+    }
+}
+
+/// The method with its step and tolerance, in a steady width.
+fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
+    let glyphs = canvas.look.glyphs;
+    let step = fitted(snapshot.method.step, 2, 7, glyphs);
+    let tolerance = snapshot.method.tolerance.map_or_else(String::new, |tolerance| {
+        format!(" {} {tolerance:.0e}", glyphs.pick("ε", "tol"))
+    });
+    format!("{}{tolerance} h {step:<7}", snapshot.method.name)
+}
+
+/// What is being typed, told or focused, and at the right the most useful keys.
+pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+    let area = columns(area, 1, area.width.saturating_sub(2));
+    if let Some(Overlay::Field(field)) = &app.over {
+        return open_field(canvas, area, app, field);
+    }
+    let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
+    let meaning = match (&app.over, &app.lab, app.page) {
+        (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),
+        (None, Some(lab), Page::Lab) => meaning(canvas, lab),
+        _ => String::new(),
+    };
+    let role = if ended.is_some() { Role::Warn } else { Role::Text };
+    // Where nothing but text is on the page, what is reported has no place above.
+    let (meaning, role) = match told(app).filter(|_| reads(app)) {
+        Some((text, role)) => (canvas.text(&text), role),
+        None => (meaning, role),
+    };
+    let mut hints = hints(canvas, app);
+    let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
+    let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
+    // The last two, help and quit, are always there; the others give way to the meaning.
+    let room = usize::from(area.width);
+    // The reason of a gauge stands nowhere else in full where its pane is small.
+    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
+    let most = if gauge { room } else { room * 2 / 3 };
+    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
+    while hints.len() > 2 && meant + wide(&hints) > room + 3 {
+        hints.remove(hints.len() - 3);
+    }
+    let all = (wide(&hints) as u16).saturating_sub(3).min(area.width);
+    canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
+    let mut start = if meaning.is_empty() { 0 } else { area.width - all };
+    for hint in hints {
+        let place = columns(area, start, area.width);
+        let used = canvas.spans(place, &hint.spans);
+        canvas.spot(columns(place, 0, used), HitTarget::Hint(hint.action));
+        start += used + 3;
+    }
+}
+
+/// Whether the page of plain reading is open, on which nothing may lie over the text.
+fn reads(app: &App) -> bool {
+    app.page == Page::Plain && !matches!(app.over, Some(Overlay::Help { .. } | Overlay::Message(_)))
+}
+
+/// What is reported in passing, or lasts until the file is right.
+fn told(app: &App) -> Option<(String, Role)> {
+    // The editor tells in a place of its own.
+    if app.open_buffer().is_some() {
+        return None;
+    }
+    let notice = app
+        .notice
+        .as_ref()
+        .map(|notice| (notice.text.clone(), if notice.error { Role::Bad } else { Role::Good }));
+    notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
+}
+
+/// Rows that a notice takes at most.
+const NOTICE: usize = 3;
+
+/// What is reported, over the lower frame of the page: a place of its own, so that the keys below stay in sight.
+pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
+    let Some((text, role)) = told(app).filter(|_| !reads(app)) else { return };
+    let room = usize::from(body.width.saturating_sub(6));
+    let lines = words_in(&canvas.text(&text), room, NOTICE);
+    let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);
+    for (index, line) in lines.iter().enumerate() {
+        let at = usize::from(body.height).saturating_sub(lines.len()) + index;
+        let at = columns(row(body, at), 2, body.width.saturating_sub(4));
+        let gap = " ".repeat(wide.saturating_sub(line.width()));
+        canvas.left(columns(at, 0, wide as u16 + 2), Role::Text, &" ".repeat(wide + 2));
+        canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
+    }
+}
+
+/// What ended the motion, and how to go on.
+fn ended(snapshot: &Snapshot) -> Option<String> {
+    let Status::Ended(event) = &snapshot.status else { return None };
+    Some(format!("{event} ended the motion: r begins it again"))
+}
+
+/// Meaning, unit and range of what is selected.
+fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
+    let glyphs = canvas.look.glyphs;
+    if lab.focus == Pane::Gauges {
+        let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
+        return gauge.map_or_else(String::new, |gauge| {
+            let name = glyphs.pick(&gauge.shown, &gauge.name);
+            format!("{name} ({}): {}", gauge.reason, finding(gauge, canvas.look.glyphs))
+        });
+    }
+    let Some(facts) = lab.selected().and_then(|target| lab.facts(target)) else {
+        return String::new();
+    };
+    let name = glyphs.pick(&facts.shown, &facts.name);
+    let about = if facts.about.is_empty() { String::new() } else { format!(": {}", facts.about) };
+    let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
+    let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+        format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))
+    });
+    canvas.text(&format!("{name}{unit}{about}{range}"))
+}
+
+/// A key and what it does, in a word.
+struct Hint {
+    spans: Vec<Span>,
+    action: Action,
+}
+
+/// The keys worth a hint here, the innermost place first; the ones for help and quitting come last.
+fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
+    let rows = app.places().iter().flat_map(|place| {
+        KEYS.iter().filter(move |row| {
+            row.place == *place && !row.hint.is_empty() && app.offers(row.action)
+        })
+    });
+    let hint = |row: &crate::app::keymap::Binding| {
+        let keys = keys(row, canvas.look);
+        let first = keys.split(' ').next().unwrap_or_default().to_owned();
+        let word = canvas.span(Role::Dim, format!(" {}", row.hint));
+        Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
+    };
+    rows.map(hint).collect()
+}
+
+/// What is typed, and what is wrong with it.
+fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
+    let facts = match (&app.lab, field.purpose) {
+        (Some(lab), Purpose::Value(target)) => lab.facts(target),
+        _ => None,
+    };
+    let glyphs = canvas.look.glyphs;
+    let name = match (field.purpose, &facts) {
+        (Purpose::Step, _) => "step".to_owned(),
+        (Purpose::Tolerance, _) => "tolerance".to_owned(),
+        (_, Some(facts)) => glyphs.pick(&facts.shown, &facts.name).clone(),
+        _ => "value".to_owned(),
+    };
+    let used = canvas.left(area, Role::Title, &format!("{name} = "));
+    let room = 20.min(area.width / 3);
+    typing(canvas, columns(area, used, room), field);
+    let rest = columns(area, used + room + 2, area.width);
+    let (role, text) = match (&field.mistake, facts) {
+        (Some(mistake), _) => (Role::Bad, mistake.clone()),
+        (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
+        (None, None) => (Role::Dim, "Enter accepts, Esc leaves it as it was".to_owned()),
+    };
+    canvas.left(rest, role, &text);
+}

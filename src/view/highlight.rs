@@ -1,0 +1,29 @@
+//! What was found: a text with the letters marked that fit a search.
+//!
+//! In: a text, and how it fits. Out: its pieces. Never here: how it is searched.
+
+use unicode_width::UnicodeWidthChar;
+
+use super::canvas::{Canvas, Span};
+use super::theme::Role;
+use crate::app::Fit;
+
+/// The text in pieces, those that were found marked.
+pub(super) fn found_in(canvas: &Canvas<'_>, text: &str, (fit, role): (&Fit, Role)) -> Vec<Span> {
+    let mut spans: Vec<Span> = Vec::new();
+    let mut last = None;
+    for (place, letter) in text.chars().enumerate() {
+        let found = fit.messages.binary_search(&place).is_ok();
+        // A combining dot goes with its letter.
+        let combining = letter.width() == Some(0);
+        if last != Some(found) && !combining || spans.is_empty() {
+            let marked = canvas.style(Role::Accent).underlined();
+            spans.push((String::new(), if found { marked } else { canvas.style(role) }));
+            last = Some(found);
+        }
+        if let Some((text, _)) = spans.last_mut() {
+            text.push(letter);
+        }
+    }
+    spans.into_iter().map(|(text, style)| (canvas.text(&text), style)).collect()
+}

@@ -1,0 +1,196 @@
+//! The lab's page: every pane in its frame, and over them what stopped the motion.
+//!
+//! In: the lab and the layout. Out: cells. Never here: what a single pane shows.
+
+use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span, columns, row};
+use super::hit_test::Region;
+use super::layout::{Slot, panes};
+use super::number::brief;
+use super::quantity::Quantities;
+use super::theme::Role;
+use super::values::Values;
+use super::wrap::{capitalised, words};
+use super::{equations, gauges, phase, potential, series, space};
+use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, Plot, ValueId};
+use crate::experiment::{Failure, Status};
+
+/// Draws all panes that have a place.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
+    let field = match &app.over {
+        Some(Overlay::Field(field)) => Some(field),
+        _ => None,
+    };
+    for (slot, place) in panes(area, lab) {
+        match slot {
+            Slot::Pane(Pane::Plot(index)) => plot(canvas, place, lab, index),
+            Slot::Pane(pane) => {
+                let mut title = vec![canvas.span(Role::Title, name(pane))];
+                if pane == Pane::Gauges {
+                    title.extend(since(canvas, lab));
+                }
+                list(canvas, place, (lab, pane), &title, field);
+            }
+            Slot::Values(pane) => {
+                let both = [Pane::Parameters, Pane::Initial];
+                let title = tabs(canvas, &both, pane);
+                list(canvas, place, (lab, pane), &title, field);
+                tab_targets(canvas, place, &title, &both);
+            }
+            Slot::Lists(pane) => {
+                let all = [Pane::Parameters, Pane::Initial, Pane::Gauges];
+                let title = tabs(canvas, &all, pane);
+                list(canvas, place, (lab, pane), &title, field);
+                tab_targets(canvas, place, &title, &all);
+            }
+            Slot::Law => {
+                let title = [canvas.span(Role::Title, "Law of motion")];
+                let inner = canvas.pane(place, &title, false);
+                equations::law(lab, canvas.look).draw(canvas, inner, 0);
+            }
+        }
+    }
+    if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
+        stopped(canvas, area, fault);
+    }
+}
+
+/// From when the gauges measure, if that is not the beginning.
+fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
+    let time = lab.snapshot.as_ref()?.gauges.first()?.reference_time;
+    let begun = lab.loaded.model.run.start;
+    let text = || format!("  since t = {}", brief(time, 6, canvas.look.glyphs));
+    (time != begun).then(|| canvas.span(Role::Dim, text()))
+}
+
+/// The names of lists that share a frame, the one that is shown in full.
+fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
+    let mut spans = Vec::new();
+    for pane in panes {
+        if !spans.is_empty() {
+            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
+        }
+        let role = if *pane == shown { Role::Title } else { Role::Dim };
+        spans.push(canvas.span(role, name(*pane)));
+    }
+    spans
+}
+
+/// The names in a frame are spots; between two of them stands a line.
+fn tab_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
+    let mut from = 3;
+    for (index, (text, _)) in title.iter().enumerate() {
+        let long = text.width() as u16;
+        if let (0, Some(pane)) = (index % 2, panes.get(index / 2)) {
+            let place =
+                columns(row(frame, 0), from, long.min(frame.width.saturating_sub(from + 2)));
+            canvas.spot(place, HitTarget::Pane(*pane));
+        }
+        from += long;
+    }
+}
+
+fn name(pane: Pane) -> &'static str {
+    match pane {
+        Pane::Plot(_) => "Plot",
+        Pane::Parameters => "Parameters",
+        Pane::Initial => "Initial values",
+        Pane::Gauges => "Gauges",
+    }
+}
+
+fn list(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (lab, pane): (&Lab, Pane),
+    title: &[Span],
+    field: Option<&Field>,
+) {
+    let focused = lab.focus == pane;
+    let inner = canvas.pane(area, title, focused);
+    canvas.spot(area, HitTarget::Pane(pane));
+    let values = |kind, selected| Values { lab, kind, selected, focused, field };
+    match pane {
+        Pane::Parameters => {
+            values(ValueId::Parameter, lab.selection.parameter).draw(canvas, inner);
+        }
+        Pane::Initial => values(ValueId::Initial, lab.selection.initial).draw(canvas, inner),
+        Pane::Gauges => {
+            let selected = focused.then_some(lab.selection.gauge);
+            let all = lab.snapshot.as_ref().map_or(&[][..], |s| &s.gauges);
+            gauges::draw(canvas, inner, all, selected);
+        }
+        Pane::Plot(_) => {}
+    }
+}
+
+fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
+    let focused = lab.focus == Pane::Plot(index);
+    let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.look)) else {
+        canvas.pane(area, &[], focused);
+        return;
+    };
+    let potential = match plot {
+        Plot::Potential { view, .. } => lab.potential(*view),
+        _ => None,
+    };
+    // Between the corners, with a blank at each side.
+    let room = usize::from(area.width.saturating_sub(6));
+    let mut title = match plot {
+        Plot::Space(eye) => space::title(canvas, lab, eye),
+        Plot::Phase { x, y, .. } => {
+            let title = plot.title(&lab.loaded).unwrap_or("Phase");
+            phase::title(canvas, &q, ([*x, *y], title), room)
+        }
+        Plot::Time { y, .. } => series::title(canvas, &q, (y, plot.title(&lab.loaded)), room),
+        Plot::Potential { .. } => match &potential {
+            Some(shown) => potential::title(canvas, &q, shown, room),
+            None => Vec::new(),
+        },
+    };
+    if let Some((role, _)) = gauges::departed(q.snapshot, canvas.look.glyphs) {
+        title.insert(0, canvas.span(role, "! "));
+    }
+    let inner = canvas.pane(area, &title, focused);
+    canvas.spot(area, HitTarget::Pane(Pane::Plot(index)));
+    let frame = match plot {
+        Plot::Space(eye) => {
+            space::draw(canvas, inner, &q, eye);
+            canvas.region(inner, Region::Space(index));
+            None
+        }
+        Plot::Phase { .. } => phase::draw(canvas, inner, &q, plot),
+        Plot::Time { y, viewport } => Some(series::draw(canvas, inner, &q, (y, *viewport))),
+        Plot::Potential { viewport, .. } => {
+            potential.map(|shown| potential::draw(canvas, inner, &q, (&shown, *viewport)))
+        }
+    };
+    if let Some(frame) = frame {
+        canvas.region(frame.area, Region::Plot(index, frame));
+    }
+}
+
+/// A box over the panes that says why the motion cannot go on.
+fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
+    let width = area.width.saturating_sub(4).min(70);
+    let text = canvas.text(&capitalised(&fault.message));
+    let lines = words(&text, usize::from(width.saturating_sub(4)));
+    let height = (lines.len() as u16 + 4).min(area.height);
+    let place = Rect {
+        x: area.x + (area.width - width) / 2,
+        y: area.y + (area.height - height) / 2,
+        width,
+        height,
+    };
+    canvas.clear(place);
+    let title = [canvas.span(Role::Bad, "The motion cannot go on")];
+    let inner = canvas.pane(place, &title, true);
+    let inner = columns(inner, 1, inner.width.saturating_sub(2));
+    for (index, line) in lines.iter().enumerate() {
+        canvas.left(row(inner, index), Role::Text, line);
+    }
+    let keys = "r back to the start   u take the last change back";
+    canvas.left(row(inner, lines.len() + 1), Role::Dim, keys);
+}

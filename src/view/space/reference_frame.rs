@@ -1,0 +1,88 @@
+//! The seat of whoever looks: the axes of the file, or a frame that moves and turns in them.
+//!
+//! In: a frame of the model and rows of channels. Out: where a point is as seen from it, at the time of the row.
+//! Never here: the camera, which stands still in the frame; forces.
+
+use crate::expr::Expr;
+use crate::num::math;
+use crate::system::ChannelKind;
+use crate::view::quantity::{Quantities, Source};
+
+/// A frame, by the channels that say how it stands.
+pub(super) struct ReferenceFrame {
+    turn: Turn,
+    origin: [Source; 3],
+}
+
+/// How a frame is turned.
+enum Turn {
+    /// By an angle about an axis.
+    Axis { axis: [Source; 3], angle: Source },
+    /// With the body: by the matrix of its attitude, whose first entry is this channel.
+    Body(usize),
+}
+
+impl ReferenceFrame {
+    /// The frame of an index; none for the axes of the file.
+    pub(super) fn of(q: &Quantities<'_>, frame: Option<usize>) -> Option<Self> {
+        let frame = q.lab.loaded.model.frames.get(frame?)?;
+        let place = |e: Expr| q.place(e);
+        let turn = if frame.attitude {
+            let mut channels = q.lab.loaded.system.channels().iter();
+            Turn::Body(channels.position(|c| c.kind == ChannelKind::Attitude(0))?)
+        } else {
+            Turn::Axis { axis: frame.axis.map(place), angle: q.place(frame.angle) }
+        };
+        Some(Self { turn, origin: frame.origin.map(place) })
+    }
+
+    /// R(−α)(r − o).
+    pub(super) fn point(&self, row: &[f64], r: [f64; 3]) -> [f64; 3] {
+        let origin = self.origin.map(|source| source.read(row));
+        self.direction(row, [0, 1, 2].map(|k| r[k] - origin[k]))
+    }
+
+    /// A v, or R(−α) v = v cos α − (n×v) sin α + n (n·v)(1 − cos α), Rodrigues' formula.
+    pub(super) fn direction(&self, row: &[f64], v: [f64; 3]) -> [f64; 3] {
+        let (axis, angle) = match &self.turn {
+            Turn::Axis { axis, angle } => (axis, angle),
+            Turn::Body(first) => {
+                let entry = |i: usize, j: usize| Source::Channel(first + 3 * i + j).read(row);
+                return [0, 1, 2].map(|i| (0..3).map(|j| entry(i, j) * v[j]).sum());
+            }
+        };
+        let axis = axis.map(|source| source.read(row));
+        let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let n = axis.map(|a| a / length);
+        let (sin, cos) = math::sin_cos(angle.read(row));
+        let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
+        [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let across = n[i] * v[j] - n[j] * v[i];
+            v[k] * cos - across * sin + n[k] * along * (1.0 - cos)
+        })
+    }
+
+    /// A box that holds whatever the one given holds, seen from here at any time.
+    pub(super) fn around(&self, q: &Quantities<'_>, [low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+        let span = |source: Source| match source {
+            Source::Number(number) => (number, number),
+            Source::Channel(channel) => q.bounds(channel),
+        };
+        let origin = self.origin.map(span);
+        let low = [0, 1, 2].map(|k| low[k] - origin[k].1);
+        let high = [0, 1, 2].map(|k| high[k] - origin[k].0);
+        let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
+        let upright = match &self.turn {
+            Turn::Axis { angle, .. } if span(*angle) == (0.0, 0.0) => return [low, high],
+            Turn::Axis { axis, .. } => [0, 1].map(|k| span(axis[k])) == [(0.0, 0.0); 2],
+            Turn::Body(_) => false,
+        };
+        if upright {
+            let radius = math::hypot(far[0], far[1]);
+            return [[-radius, -radius, low[2]], [radius, radius, high[2]]];
+        }
+        let radius = math::hypot(math::hypot(far[0], far[1]), far[2]);
+        [[-radius; 3], [radius; 3]]
+    }
+}

@@ -1,0 +1,282 @@
+//! A page of text: headings, paragraphs and labelled formulas, wrapped and scrolled.
+//!
+//! In: blocks of text. Out: rows, and how many of them lie beyond the screen. Never here: what the text says.
+
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span, columns, row};
+use super::theme::Role;
+use super::wrap::{formula, words};
+use crate::app::Drawn;
+
+/// Lines longer than this are hard to read.
+const MEASURE: u16 = 110;
+
+/// Columns of a label with a text behind it, of a name and of a number; on narrow pages what is left for a unit.
+const LABEL: usize = 20;
+const NAME: usize = 30;
+const NUMBER: usize = 20;
+const MARGIN: usize = 8;
+
+/// A page of text in the making.
+#[derive(Default)]
+pub(super) struct TextPage {
+    blocks: Vec<Block>,
+}
+
+enum Block {
+    Heading(String),
+    Words(Role, String),
+    Formula { label: String, body: String, remark: String },
+    Row(Vec<(Role, String)>),
+    Item { label: String, text: String },
+    Value { name: String, value: String, unit: String, rest: Vec<(Role, String)> },
+    Line(String),
+    Gap,
+}
+
+impl TextPage {
+    /// A heading, with space above it.
+    pub(super) fn heading(&mut self, text: &str) {
+        if !self.blocks.is_empty() {
+            self.blocks.push(Block::Gap);
+        }
+        self.blocks.push(Block::Heading(text.to_owned()));
+    }
+
+    /// A paragraph.
+    pub(super) fn words(&mut self, role: Role, text: impl Into<String>) {
+        self.blocks.push(Block::Words(role, text.into()));
+    }
+
+    /// `label = body`, and a remark after it.
+    pub(super) fn formula(&mut self, label: &str, body: String, remark: &str) {
+        self.blocks.push(Block::Formula {
+            label: label.to_owned(),
+            body,
+            remark: remark.to_owned(),
+        });
+    }
+
+    /// Pieces in one row, which is not wrapped.
+    pub(super) fn row(&mut self, pieces: Vec<(Role, String)>) {
+        self.blocks.push(Block::Row(pieces));
+    }
+
+    /// A label, and behind it a text that is wrapped below its own beginning.
+    pub(super) fn item(&mut self, label: &str, text: &str) {
+        self.blocks.push(Block::Item { label: label.to_owned(), text: text.to_owned() });
+    }
+
+    /// A name, a number below those of other names, its unit, and what else is to be said; narrow pages have the number
+    /// below the name where that is long.
+    pub(super) fn value(&mut self, name: &str, value: &str, unit: &str, rest: Vec<(Role, String)>) {
+        let (name, value, unit) = (name.to_owned(), value.to_owned(), unit.to_owned());
+        self.blocks.push(Block::Value { name, value, unit, rest });
+    }
+
+    /// A line by itself, wrapped if it must be.
+    pub(super) fn line(&mut self, text: &str) {
+        self.blocks.push(Block::Line(text.to_owned()));
+    }
+
+    /// An empty row.
+    pub(super) fn gap(&mut self) {
+        self.blocks.push(Block::Gap);
+    }
+
+    /// Draws the rows from `scroll` on, as far as the area goes.
+    pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
+        let width = area.width.saturating_sub(3).min(MEASURE);
+        let lines = self.lines(canvas, width.into());
+        let rows = usize::from(area.height);
+        let beyond = lines.len().saturating_sub(rows);
+        let first = usize::from(scroll).min(beyond);
+        for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
+            canvas.spans(columns(row(area, index), 1, width + 1), line);
+        }
+        scroll_bar(canvas, area, first, lines.len());
+        let beyond = beyond.min(usize::from(u16::MAX)) as u16;
+        Drawn { beyond, rows: area.height, ..Drawn::default() }
+    }
+
+    /// Draws the screenful of rows in which a line stands, the cursor at its beginning. Rows turn by whole screenfuls,
+    /// so that they keep still while they are read.
+    pub(super) fn read(self, canvas: &mut Canvas<'_>, area: Rect, line: usize) -> Drawn {
+        let width = area.width.saturating_sub(2).min(MEASURE);
+        let lines = self.lines(canvas, width.into());
+        let rows = usize::from(area.height).max(1);
+        let line = line.min(lines.len().saturating_sub(1));
+        let first = line - line % rows;
+        for (index, spans) in lines.iter().skip(first).take(rows).enumerate() {
+            canvas.spans(columns(row(area, index), 1, width), spans);
+        }
+        canvas.point(Position::new(area.x + 1, area.y + (line - first) as u16));
+        let beyond = lines.len().saturating_sub(rows);
+        let shown = rows.min(lines.len());
+        Drawn { beyond: beyond as u16, rows: shown as u16, ..Drawn::default() }
+    }
+
+    /// The width of the column of labels under a heading.
+    fn widest_label(&self, canvas: &Canvas<'_>, heading: usize, most: usize) -> usize {
+        let section = self.blocks[heading..].iter().enumerate();
+        let section = section.take_while(|(i, b)| *i == 0 || !matches!(b, Block::Heading(_)));
+        let label = |block: &Block| match block {
+            Block::Formula { label, .. } => canvas.text(label).width(),
+            _ => 0,
+        };
+        section.map(|(_, block)| label(block)).max().unwrap_or(0).min(most)
+    }
+
+    fn lines(&self, canvas: &Canvas<'_>, width: usize) -> Vec<Vec<Span>> {
+        let mut widest = 0;
+        let mut lines = Vec::new();
+        for (place, block) in self.blocks.iter().enumerate() {
+            if place == 0 || matches!(block, Block::Heading(_)) {
+                widest = self.widest_label(canvas, place, width / 3);
+            }
+            match block {
+                Block::Gap => lines.push(Vec::new()),
+                Block::Heading(text) => lines.push(vec![canvas.span(Role::Title, text)]),
+                Block::Words(role, text) => {
+                    let text = canvas.text(text);
+                    let wrapped = words(&text, width.saturating_sub(2));
+                    lines.extend(wrapped.into_iter().map(|line| {
+                        vec![("  ".to_owned(), Style::new()), (line, canvas.style(*role))]
+                    }));
+                }
+                Block::Formula { label, body, remark } => {
+                    let (label, body) = (canvas.text(label), canvas.text(body));
+                    let margin = widest + 5;
+                    let broken = formula(&body, width.saturating_sub(margin), 2);
+                    let last = broken.len() - 1;
+                    for (i, line) in broken.into_iter().enumerate() {
+                        let gap = " ".repeat(widest.saturating_sub(label.width()));
+                        let head =
+                            if i == 0 { format!("  {gap}{label}") } else { " ".repeat(widest + 2) };
+                        let sign = if i == 0 { " = " } else { "   " };
+                        let used = margin + line.width();
+                        let mut spans = vec![
+                            (head, canvas.style(Role::Accent)),
+                            (sign.to_owned(), canvas.style(Role::Dim)),
+                            (line, canvas.style(Role::Text)),
+                        ];
+                        let remark_text = canvas.text(remark);
+                        if i == last
+                            && !remark.is_empty()
+                            && used + 3 + remark_text.width() <= width
+                        {
+                            spans.push((format!("   {remark_text}"), canvas.style(Role::Dim)));
+                            lines.push(spans);
+                        } else {
+                            lines.push(spans);
+                            if i == last && !remark.is_empty() {
+                                let wrapped = words(&remark_text, width.saturating_sub(margin));
+                                let indent = " ".repeat(margin);
+                                lines.extend(wrapped.into_iter().map(|line| {
+                                    vec![(format!("{indent}{line}"), canvas.style(Role::Dim))]
+                                }));
+                            }
+                        }
+                    }
+                }
+                Block::Line(text) => {
+                    let wrapped = words(&canvas.text(text), width);
+                    lines.extend(
+                        wrapped.into_iter().map(|line| vec![(line, canvas.style(Role::Text))]),
+                    );
+                }
+                Block::Item { label, text } => lines.extend(item(canvas, width, label, text)),
+                Block::Value { name, value, unit, rest } => {
+                    let rest: Vec<Span> = rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
+                    lines.extend(self::value(canvas, width, [name, value, unit], rest));
+                }
+                Block::Row(pieces) => {
+                    lines.push(pieces.iter().map(|(role, t)| canvas.span(*role, t)).collect());
+                }
+            }
+        }
+        lines
+    }
+}
+
+/// A label and its text.
+fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<Span>> {
+    let label = format!("  {}", canvas.text(label));
+    let column = LABEL.min(width / 3);
+    let wrapped = words(&canvas.text(text), width.saturating_sub(column));
+    let indent = " ".repeat(column);
+    let mut texts = wrapped.into_iter();
+    let mut lines = Vec::new();
+    if label.width() < column {
+        let gap = " ".repeat(column - label.width());
+        let head = canvas.span(Role::Accent, format!("{label}{gap}"));
+        lines.push(vec![head, canvas.span(Role::Text, texts.next().unwrap_or_default())]);
+    } else {
+        lines.push(vec![canvas.span(Role::Accent, label)]);
+    }
+    lines.extend(texts.map(|line| vec![canvas.span(Role::Text, format!("{indent}{line}"))]));
+    lines
+}
+
+/// A number between its name and its unit.
+fn value(
+    canvas: &Canvas<'_>,
+    width: usize,
+    [name, value, unit]: [&str; 3],
+    rest: Vec<Span>,
+) -> Vec<Vec<Span>> {
+    let (name, unit) = (format!("  {}", canvas.text(name)), canvas.text(unit));
+    let before = |value: &str| " ".repeat(NUMBER.saturating_sub(value.width()));
+    let number = canvas.span(Role::Accent, format!("{}{value}", before(value)));
+    let unit = canvas.span(Role::Dim, format!(" {unit}"));
+    let tail: usize = unit.0.width() + rest.iter().map(|(text, _)| text.width()).sum::<usize>();
+    if 2 + NAME + NUMBER + tail <= width || 2 + NAME + NUMBER + MARGIN <= width {
+        let gap = " ".repeat((NAME + 2).saturating_sub(name.width()));
+        let head = canvas.span(Role::Text, format!("{name}{gap}"));
+        return vec![[vec![head, number, unit], rest].concat()];
+    }
+    // the numbers stand below each other here too
+    let column = width.saturating_sub(NUMBER + MARGIN);
+    let gap = " ".repeat(column.saturating_sub(name.width()));
+    let fits = name.width() + value.width() < column + NUMBER;
+    let head = canvas.span(Role::Text, if fits { format!("{name}{gap}") } else { name.clone() });
+    let mut lines = if fits {
+        let room = column + NUMBER - name.width().max(column);
+        let before = " ".repeat(room.saturating_sub(value.width()));
+        vec![vec![head, canvas.span(Role::Accent, format!("{before}{value}")), unit]]
+    } else {
+        let gap = canvas.span(Role::Text, " ".repeat(column));
+        vec![vec![head], vec![gap, number, unit]]
+    };
+    let rest: String = rest.into_iter().map(|(text, _)| text).collect();
+    let rest = rest.split_whitespace().collect::<Vec<_>>().join(" ");
+    if !rest.is_empty() {
+        let wrapped = words(&rest, width.saturating_sub(4));
+        lines
+            .extend(wrapped.iter().map(|line| vec![canvas.span(Role::Dim, format!("    {line}"))]));
+    }
+    lines
+}
+
+/// A bar at the right edge that shows which part of the rows is in view, if not all of them are.
+fn scroll_bar(canvas: &mut Canvas<'_>, area: Rect, first: usize, total: usize) {
+    let rows = usize::from(area.height);
+    if total <= rows || rows < 3 {
+        return;
+    }
+    let long = (rows * rows / total).max(1);
+    let start = first * (rows - long) / (total - rows);
+    let column = columns(area, area.width.saturating_sub(1), 1);
+    for index in 0..rows {
+        let inside = (start..start + long).contains(&index);
+        let symbol = if inside {
+            canvas.look.glyphs.pick("┃", "#")
+        } else {
+            canvas.look.glyphs.pick("│", "|")
+        };
+        canvas.left(row(column, index), if inside { Role::Dim } else { Role::Border }, symbol);
+    }
+}

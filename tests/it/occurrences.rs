@@ -1,0 +1,568 @@
+//! Impulses and events: when they fall, what they do, and that none is overlooked or invented.
+
+use phaselab::experiment::{Command, Experiment, Progress, Status};
+use phaselab::integrate::OccurrenceKind;
+
+use crate::experiment::{PLENTY, build, gauge, run, value};
+
+const FREE: &str = r#"
+title = 'a test'
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+[lagrangian]
+L = "1/2*x'^2"
+"#;
+
+fn file(text: &str) -> Experiment {
+    build(text, |_| ())
+}
+
+/// Names and times of what happened.
+fn passed(experiment: &Experiment) -> Vec<(String, f64)> {
+    experiment.occurrences().iter().map(|h| (h.name.clone(), h.time)).collect()
+}
+
+fn times(experiment: &Experiment, name: &str) -> Vec<f64> {
+    passed(experiment).into_iter().filter(|(n, _)| n == name).map(|(_, t)| t).collect()
+}
+
+#[test]
+fn the_kicked_rotor_is_the_standard_map_to_rounding() {
+    // Chirikov, Phys. Rep. 52 (1979) 263: p' = p + K sin θ, θ' = θ + p'
+    let text = "
+title = 'kicked rotor'
+[coordinates]
+theta = { initial = 1.0, velocity = 0.3 }
+[parameters]
+K = 0.9
+[lagrangian]
+L = \"1/2*theta'^2\"
+[[impulses]]
+name = 'kick'
+every = 1.0
+change = { p_theta = 'K*sin(theta)' }
+";
+    for method in ["taylor", "gauss4", "rk4"] {
+        let mut rotor = build(text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = (method != "taylor").then_some(0.25);
+        });
+        let (mut theta, mut p) = (1.0_f64, 0.3_f64);
+        for n in 1..=30 {
+            theta += p;
+            p += 0.9 * theta.sin();
+            run(&mut rotor, f64::from(n));
+            // the map itself magnifies rounding: K = 0.9, thirty times
+            let within = 4e-15 * 1.5_f64.powi(n);
+            assert!((value(&rotor, "theta") - theta).abs() < within, "{method}: θ after {n}");
+            assert!((value(&rotor, "p_theta") - p).abs() < within, "{method}: p after {n}");
+        }
+        let kicks = times(&rotor, "kick");
+        assert_eq!(kicks, (1..=30).map(f64::from).collect::<Vec<_>>(), "{method}");
+    }
+}
+
+#[test]
+fn an_impulse_changes_p_and_not_q_and_gives_the_energy_its_law_says() {
+    let text = "
+title = 'a struck pendulum that is damped'
+[coordinates]
+theta = { initial = 0.4 }
+[lagrangian]
+L = \"1/2*theta'^2 + cos(theta)\"
+dissipation = \"0.05*theta'^2\"
+[[impulses]]
+name = 'impulse'
+at = [2.0, 2.0000000001]
+change = { p_theta = '0.7' }
+[[impulses]]
+name = 'second'
+at = 2.0
+change = { p_theta = \"-2*theta'\" }
+";
+    let mut after_impulse = file(text);
+    run(&mut after_impulse, 1.999_999_999_999);
+    let (theta, rate) = (value(&after_impulse, "theta"), value(&after_impulse, "theta'"));
+    run(&mut after_impulse, 2.0);
+    // in the order of the file, each sees what the one before it left
+    assert!((value(&after_impulse, "theta") - theta).abs() < 1e-11);
+    assert!((value(&after_impulse, "theta'") + (rate + 0.7)).abs() < 1e-11);
+    let names: Vec<_> = passed(&after_impulse).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["impulse", "second"]);
+    run(&mut after_impulse, 12.0);
+    assert_eq!(times(&after_impulse, "impulse"), [2.0, 2.000_000_000_1]);
+    let snapshot = after_impulse.snapshot();
+    assert!(gauge(&snapshot, "energy ledger").max_drift < 1e-14, "impulses included");
+}
+
+#[test]
+fn impulses_are_counted_from_the_start_in_decimals() {
+    let text = format!(
+        "{FREE}
+[[impulses]]
+name = 'tick'
+every = 0.1
+change = {{ p_x = '1' }}
+[run]
+start = 0.05
+"
+    );
+    let mut ticks = file(&text);
+    run(&mut ticks, 1.05);
+    let expected: Vec<f64> =
+        (1..=10).map(|n| format!("{:.2}", 0.05 + 0.1 * f64::from(n)).parse().unwrap()).collect();
+    assert_eq!(times(&ticks, "tick"), expected);
+    assert_eq!(value(&ticks, "x'"), 11.0);
+}
+
+#[test]
+fn an_impulse_under_a_constraint_has_its_reaction() {
+    // a dumbbell of two unit masses struck at one end, along the rod and across it: along it both
+    // move together, so half of the impulse is taken on by the rod; across it only the struck one does
+    let text = "
+title = 'dumbbell'
+[coordinates]
+x1 = { initial = 0.0, velocity = 0.0 }
+y1 = { initial = 0.0, velocity = 0.0 }
+x2 = { initial = 2.0, velocity = 0.0 }
+y2 = { initial = 0.0, velocity = 0.0 }
+[lagrangian]
+L = \"1/2*(x1'^2 + y1'^2 + x2'^2 + y2'^2)\"
+[[constraints]]
+name = 'rod'
+expression = '(x1 - x2)^2 + (y1 - y2)^2 - 4'
+[[impulses]]
+name = 'impulse'
+at = 1.0
+change = { p_x1 = '3', p_y1 = '1' }
+";
+    let mut dumbbell = file(text);
+    run(&mut dumbbell, 1.0);
+    let found = ["x1'", "y1'", "x2'", "y2'"].map(|name| value(&dumbbell, name));
+    for (found, right) in found.into_iter().zip([1.5, 1.0, 1.5, 0.0]) {
+        assert!((found - right).abs() < 1e-15, "{found} is not {right}");
+    }
+    // p_x2 = Λ ∂f/∂x2 = Λ · 2 (x2 − x1)
+    let OccurrenceKind::Impulse { jump, reaction } =
+        &dumbbell.occurrences().iter().next().unwrap().kind
+    else {
+        panic!("no impulse")
+    };
+    assert!((reaction[0] - 1.5 / 4.0).abs() < 1e-15, "{reaction:?}");
+    assert!((jump[0] - 1.5).abs() < 1e-15 && (jump[2] - 1.5).abs() < 1e-15, "{jump:?}");
+}
+
+/// From rest at x = 1 with g = 2.
+const BALL: &str = "
+title = 'ball'
+[coordinates]
+x = { initial = 1.0, velocity = 0.0 }
+[parameters]
+e = 0.8
+[lagrangian]
+L = \"1/2*x'^2 - 2*x\"
+[[impulses]]
+name = 'floor'
+change = { p_x = \"-(1 + e)*x'\" }
+[[events]]
+name = 'bounce'
+when = 'x'
+direction = 'falling'
+action = 'impulse:floor'
+";
+
+#[test]
+fn a_ball_bounces_at_the_times_of_its_parabolas() {
+    // from rest at h = 1 with g = 2: the first bounce at 1, then after 2 e, 2 e², …
+    let mut ball = file(BALL);
+    run(&mut ball, 7.0);
+    let mut time = 1.0;
+    for (n, found) in times(&ball, "bounce").into_iter().enumerate() {
+        assert!((found - time).abs() < 1e-14 * (1.0 + n as f64), "bounce {n}: {found}, {time}");
+        time += 2.0 * 0.8_f64.powi(n as i32 + 1);
+    }
+    assert_eq!(times(&ball, "bounce").len(), 7);
+    // Σ ends at t = 1 + 2 e/(1 − e) = 9, and no motion leads beyond
+    let progress = ball.advance(10.0, PLENTY);
+    assert_eq!(progress, Progress::Stuck);
+    let Status::Failed(fault) = ball.status() else { panic!("it went on") };
+    assert!((fault.time - 9.0).abs() < 1e-6, "{}", fault.time);
+    assert!(fault.message.contains("piles up"), "{}", fault.message);
+    assert!(value(&ball, "x").abs() < 1e-9, "it did not fall through the floor");
+}
+
+#[test]
+fn a_particle_leaves_the_sphere_at_two_thirds_and_flies_on() {
+    // The Principles of Dynamics, § 1.3.2: from rest at θ₀, cos θ = ⅔ cos θ₀
+    let text = "
+title = 'sphere'
+[coordinates]
+x = { initial = 'sin(0.3)', velocity = 0.0 }
+z = { initial = 'cos(0.3)', velocity = 0.0 }
+[lagrangian]
+L = \"1/2*(x'^2 + z'^2) - z\"
+[[constraints]]
+name = 'sphere'
+expression = 'x^2 + z^2 - 1'
+[[events]]
+name = 'lift-off'
+when = 'lambda_sphere'
+direction = 'falling'
+action = 'release:sphere'
+";
+    let mut particle = file(text);
+    run(&mut particle, 3.0);
+    let lift_off = times(&particle, "lift-off");
+    assert_eq!(lift_off.len(), 1);
+    assert_eq!(value(&particle, "lambda_sphere"), 0.0);
+    // back at that moment, by the parabola
+    let back = 3.0 - lift_off[0];
+    let z = value(&particle, "z") - value(&particle, "z'") * back - 0.5 * back * back;
+    let cosine = 2.0 / 3.0 * 0.3_f64.cos();
+    assert!((z - cosine).abs() < 1e-14, "{z} is not {cosine}");
+    assert!((value(&particle, "energy") - 0.3_f64.cos()).abs() < 1e-15);
+    // begun again, it is on the sphere again
+    particle.execute(Command::Reset);
+    run(&mut particle, 0.5);
+    assert!(value(&particle, "lambda_sphere") > 0.0);
+    assert!(particle.occurrences().is_empty());
+}
+
+#[test]
+fn events_are_located_to_the_last_digits_and_in_their_direction() {
+    let text = "
+title = 'oscillator'
+[coordinates]
+x = { initial = 1.0, velocity = 0.0 }
+[lagrangian]
+L = \"3/2*x'^2 - 3/2*x^2\"
+[[events]]
+name = 'down'
+when = 'x'
+direction = 'falling'
+[[events]]
+name = 'either'
+when = 'x'
+[[events]]
+name = 'top'
+when = \"x'\"
+direction = 'falling'
+[[events]]
+name = 'speed'
+when = \"x' - sqrt(0.5)\"
+direction = 'rising'
+";
+    let pi = std::f64::consts::PI;
+    for (method, step, within) in
+        [("taylor", None, 4e-15), ("dop853", None, 1e-12), ("leapfrog", Some(1e-3), 1e-4)]
+    {
+        let mut oscillator = build(text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut oscillator, 40.0);
+        let check = |name: &str, first: f64, every: f64, count: usize| {
+            let found = times(&oscillator, name);
+            assert_eq!(found.len(), count, "{method}: {name} {found:?}");
+            for (n, time) in found.into_iter().enumerate() {
+                let right = first + every * n as f64;
+                let error = (time - right).abs();
+                assert!(error < within * (1.0 + right), "{method}: {name} {n} off by {error:e}");
+            }
+        };
+        check("down", pi / 2.0, 2.0 * pi, 7);
+        check("either", pi / 2.0, pi, 13);
+        check("speed", 1.25 * pi, 2.0 * pi, 6);
+        // it is at rest at the start, and does not fire there
+        check("top", 2.0 * pi, 2.0 * pi, 6);
+    }
+}
+
+#[test]
+fn fast_functions_are_not_stepped_over_and_touches_are_not_crossings() {
+    let text = format!(
+        "{FREE}
+[[events]]
+name = 'fast'
+when = 'sin(50*t)'
+direction = 'rising'
+[[events]]
+name = 'close pair'
+when = '(t - 3)^2 - 1e-8'
+[[events]]
+name = 'touch'
+when = '(t - 5)^2'
+[[events]]
+name = 'line'
+when = 'x - 7'
+[[events]]
+name = 'never'
+when = 'x^2 + 1'
+"
+    );
+    let mut free = file(&text);
+    run(&mut free, 10.0);
+    let turn = 2.0 * std::f64::consts::PI / 50.0;
+    let fast = times(&free, "fast");
+    assert_eq!(fast.len(), 79, "{fast:?}");
+    for (n, time) in fast.iter().enumerate() {
+        assert!((time - turn * (n + 1) as f64).abs() < 1e-13);
+    }
+    let pair = times(&free, "close pair");
+    assert_eq!(pair.len(), 2, "{pair:?}");
+    assert!((pair[0] - 2.9999).abs() < 1e-11 && (pair[1] - 3.0001).abs() < 1e-11);
+    assert!(times(&free, "touch").is_empty());
+    assert_eq!(times(&free, "line"), [7.0]);
+    assert!(times(&free, "never").is_empty());
+}
+
+/// The times of one event of a free motion, x = t.
+fn of_free(when: &str, until: f64, method: &str, step: Option<f64>) -> Vec<f64> {
+    let text = format!("{FREE}\n[[events]]\nname = 'e'\nwhen = '{when}'\n");
+    let mut free = build(&text, |setup| {
+        method.clone_into(&mut setup.method);
+        setup.settings.step = step;
+        setup.end = Some(until);
+        setup.spacing = until;
+    });
+    run(&mut free, until);
+    times(&free, "e")
+}
+
+#[test]
+fn a_function_that_swings_thousands_of_times_within_a_step_loses_and_doubles_nothing() {
+    // the motion is a polynomial: one step leads to the end
+    let pi = std::f64::consts::PI;
+    for (method, step) in [("taylor", None), ("dop853", None), ("leapfrog", Some(500.0))] {
+        for when in ["sin(10*t)", "sin(10*x)"] {
+            let found = of_free(when, 5000.0, method, step);
+            assert_eq!(found.len(), 15_915, "{method}: {when}");
+            for (n, time) in found.iter().enumerate() {
+                let right = pi * (n + 1) as f64 / 10.0;
+                // two digits of the clock there; dop853 adds its steps up
+                let within = if method == "taylor" { 2e-12 } else { 1e-11 };
+                assert!((time - right).abs() < within, "{method}: {when}: {time} for {right}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_narrow_or_small_within_a_long_step_is_found() {
+    // a bell of width 1e-2 after five hundred of nothing
+    let half = 2.0_f64.ln().sqrt() / 100.0;
+    let bell = of_free("exp(-1e4*(t - 500)^2) - 0.5", 1000.0, "taylor", None);
+    assert_eq!(bell.len(), 2, "{bell:?}");
+    assert!((bell[0] - 500.0 + half).abs() < 1e-12 && (bell[1] - 500.0 - half).abs() < 1e-12);
+    // the same as a rational function, and as a step of tanh
+    let rational = of_free("1/(1 + 1e8*(x - 500)^2) - 0.5", 1000.0, "taylor", None);
+    assert_eq!(rational.len(), 2, "{rational:?}");
+    let step = of_free("tanh(1e3*(t - 321)) + tanh(1e3*(654 - t)) - 1", 1000.0, "taylor", None);
+    assert_eq!(step.len(), 2, "{step:?}");
+    // a ripple that shows only beside zero: g' = 1 + 10 cos(10⁴ t) changes sign twice a ripple
+    let ripple = of_free("t - 5 + 0.001*sin(1e4*t)", 10.0, "taylor", None);
+    let g = |t: f64| t - 5.0 + 0.001 * (1e4 * t).sin();
+    let fine = (0..=400_000).map(|k| g(4.998 + 1e-8 * f64::from(k)).signum());
+    let mut last = -1.0;
+    let crossings = fine.filter(|&s| std::mem::replace(&mut last, s) != s).count();
+    assert!(crossings > 3);
+    assert_eq!(ripple.len(), crossings);
+    // what has no slope at all but where it jumps
+    assert_eq!(of_free("sign(sin(10*t + 1)) - 0.5", 100.0, "taylor", None).len(), 318);
+    assert_eq!(of_free("abs(sin(10*x)) - 0.5", 100.0, "taylor", None).len(), 637);
+    assert_eq!(of_free("max(sin(10*x), cos(10*x), 0.9) - 0.95", 100.0, "taylor", None).len(), 637);
+}
+
+#[test]
+fn a_function_faster_than_the_clock_is_a_fault() {
+    // at t = 10⁴ the digits of the clock are 1.8e-12 apart
+    for (speed, told) in [("1e10", false), ("1e13", true)] {
+        let text = format!(
+            "{FREE}\n[[events]]\nname = 'e'\nwhen = 'sin({speed}*(t - 10000))'\n[run]\nstart = 10000.0\n"
+        );
+        let mut free = file(&text);
+        free.advance(10_000.000_001, 10_000);
+        assert_eq!(
+            matches!(free.status(), Status::Failed(_)),
+            told,
+            "{speed}: {:?}",
+            free.status()
+        );
+    }
+}
+
+#[test]
+fn an_event_may_end_the_motion() {
+    let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
+    let mut free = file(&text);
+    assert_eq!(free.advance(5.0, PLENTY), Progress::Ended);
+    assert_eq!(free.status(), Status::Ended("far".to_owned()));
+    assert_eq!((free.time(), value(&free, "x")), (2.0, 2.0));
+    free.execute(Command::Reset);
+    run(&mut free, 1.5);
+    assert_eq!(free.status(), Status::Running);
+}
+
+#[test]
+fn an_impulse_waits_for_its_key() {
+    let text =
+        format!("{FREE}[[impulses]]\nname = 'push'\nchange = {{ p_x = '2' }}\nabout = 'a push'\n");
+    let mut free = file(&text);
+    run(&mut free, 3.0);
+    assert!(free.occurrences().is_empty());
+    free.execute(Command::ApplyImpulse(0));
+    free.execute(Command::ApplyImpulse(7));
+    assert_eq!((value(&free, "x"), value(&free, "x'")), (3.0, 3.0));
+    run(&mut free, 4.0);
+    assert_eq!(value(&free, "x"), 6.0);
+    assert_eq!(passed(&free), [("push".to_owned(), 3.0)]);
+    let snapshot = free.snapshot();
+    assert!(snapshot.notices.last().is_some_and(|n| n.contains("push")), "{:?}", snapshot.notices);
+    assert!(gauge(&snapshot, "energy").max_drift < 1e-15, "it is told from the impulse");
+    assert!(gauge(&snapshot, "p_x").reason.ends_with(", between impulses"));
+}
+
+#[test]
+fn what_happens_is_reported_once_and_forgotten_at_a_reset() {
+    let mut ball = file(BALL);
+    run(&mut ball, 4.0);
+    let told = ball.snapshot().notices;
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("bounce at t = 1:"), "{told:?}");
+    assert!(told[0].contains("energy −"), "a bounce takes energy: {told:?}");
+    ball.execute(Command::Reset);
+    assert!(ball.snapshot().notices.is_empty());
+    run(&mut ball, 1.5);
+    assert_eq!(ball.snapshot().notices.len(), 1, "and reported again of the new motion");
+}
+
+/// A pendulum in x, y with a rod, begun below.
+const ROD: &str = "
+title = 'rod'
+[coordinates]
+x = { initial = 0.6, velocity = 0.8 }
+y = { initial = -0.8 }
+[parameters]
+m = 1.3
+[lagrangian]
+L = \"1/2*m*(x'^2 + y'^2) - m*y\"
+[[constraints]]
+name = 'rod'
+expression = 'x^2 + y^2 - 1'
+";
+
+#[test]
+fn an_impulse_may_bring_a_constrained_body_to_rest() {
+    let text = format!(
+        "{ROD}[[impulses]]\nname = 'halt'\nat = 0.3\nchange = {{ p_x = \"-m*x'\", p_y = \"-m*y'\" }}\n"
+    );
+    let mut halted = file(&text);
+    run(&mut halted, 0.3);
+    assert!(value(&halted, "x'").abs() < 1e-16 && value(&halted, "y'").abs() < 1e-16);
+    run(&mut halted, 2.0);
+    let energy = gauge(&halted.snapshot(), "energy ledger");
+    assert!(energy.max_drift < 1e-14, "{}", energy.max_drift);
+}
+
+#[test]
+fn an_impulse_on_a_relativistic_particle_on_a_wire_is_always_answered() {
+    // along the wire p = v/√(1 − v²) grows without bound, so every impulse has its velocity
+    for (px, py) in [(2.0, 0.6), (2.0, 1.0), (0.0, 5.0), (5.0, 0.0), (-3.0, 0.2)] {
+        let text = format!(
+            "title = 'wire'
+[coordinates]
+x = {{ initial = 0.0, velocity = 0.3 }}
+y = {{ initial = 0.0 }}
+[lagrangian]
+L = \"-sqrt(1 - x'^2 - y'^2) - 0.1*y\"
+[[constraints]]
+name = 'wire'
+expression = 'y - 0.5*x'
+[[impulses]]
+name = 'impulse'
+at = 1.0
+change = {{ p_x = '{px}', p_y = '{py}' }}
+"
+        );
+        let mut wire = file(&text);
+        run(&mut wire, 0.999_999_999_999);
+        let along = |e: &Experiment| value(e, "p_x") + 0.5 * value(e, "p_y");
+        let before = along(&wire);
+        run(&mut wire, 1.0);
+        let after = along(&wire);
+        assert!((after - before - px - 0.5 * py).abs() < 1e-11, "{px}, {py}");
+        assert!((value(&wire, "y'") - 0.5 * value(&wire, "x'")).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn an_impulse_falls_again_after_a_reset() {
+    let text = format!("{FREE}[[impulses]]\nname = 'kick'\nat = [2.0]\nchange = {{ p_x = '1' }}\n");
+    let mut free = file(&text);
+    for _ in 0..2 {
+        run(&mut free, 5.0);
+        assert_eq!((value(&free, "x"), times(&free, "kick").len()), (8.0, 1));
+        free.execute(Command::Reset);
+    }
+}
+
+#[test]
+fn an_event_where_the_run_or_a_impulse_has_its_time_is_not_late() {
+    let text = format!(
+        "{FREE}[[events]]\nname = 'wall'\nwhen = 'x - 1'\naction = 'impulse:back'\n\
+         [[impulses]]\nname = 'back'\nchange = {{ p_x = \"-2*x'\" }}\n\
+         [[impulses]]\nname = 'push'\nat = 1.0\nchange = {{ p_x = '-0.5' }}\n"
+    );
+    let mut free = file(&text);
+    run(&mut free, 1.0);
+    assert_eq!(value(&free, "x'"), -1.5, "the wall turns it back, then it is pushed");
+    let names: Vec<_> = passed(&free).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["wall", "push"]);
+    run(&mut free, 3.0);
+    assert_eq!((value(&free, "x"), free.occurrences().count()), (-2.0, 2));
+    let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
+    let mut free = file(&text);
+    free.advance(2.0, PLENTY);
+    assert_eq!(free.status(), Status::Ended("far".to_owned()));
+}
+
+#[test]
+fn a_release_does_not_swallow_what_happens_beside_it() {
+    let text = "
+title = 'beside'
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 0.0 }
+[lagrangian]
+L = \"1/2*(x'^2 + y'^2)\"
+[[constraints]]
+name = 'line'
+expression = 'y - x'
+[[impulses]]
+name = 'back'
+change = { p_x = \"-2*x'\" }
+[[events]]
+name = 'mark'
+when = 'y - 0.7'
+[[events]]
+name = 'let go'
+when = 'x - 0.7'
+direction = 'rising'
+action = 'release:line'
+[[events]]
+name = 'wall'
+when = 'x - 0.7'
+direction = 'rising'
+action = 'impulse:back'
+[[events]]
+name = 'soon'
+when = 't - 0.70000000000001'
+";
+    let mut beside = file(text);
+    run(&mut beside, 1.0);
+    let mut names: Vec<_> = passed(&beside).into_iter().map(|(name, _)| name).collect();
+    names.sort();
+    assert_eq!(names, ["let go", "mark", "soon", "wall"]);
+    assert!((value(&beside, "x") - 0.4).abs() < 1e-13, "{}", value(&beside, "x"));
+    assert!((value(&beside, "y") - 1.0).abs() < 1e-13);
+}
