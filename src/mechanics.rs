@@ -9,6 +9,7 @@ mod conservation;
 mod constrain;
 mod derive;
 mod dimension;
+mod domain;
 mod equations;
 mod flaw;
 mod frames;
@@ -33,6 +34,7 @@ pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracke
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::derive;
+pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,

@@ -8,6 +8,7 @@
 //! symbols after compiling.
 
 mod attitude;
+mod branch;
 mod channel;
 mod compiled;
 mod conditions;
@@ -39,6 +40,7 @@ mod terms;
 mod valuation;
 mod value;
 
+pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
 pub use constrained::{ConstraintProjector, Directions};

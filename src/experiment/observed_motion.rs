@@ -16,6 +16,8 @@ pub(super) struct ObservedMotion {
     observer: Observer,
     values: Vec<f64>,
     residuals: Vec<[f64; 2]>,
+    /// Of the motion, when the observer was made.
+    holdings: u64,
     watch: Watch,
 }
 
@@ -65,6 +67,7 @@ impl ObservedMotion {
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
             residuals: Vec::new(),
+            holdings: 0,
             watch: Watch::of(system, parameters),
         })
     }
@@ -185,10 +188,15 @@ impl ObservedMotion {
 
     fn take_in(&mut self, occurrence: &Occurrence) -> Result<(), MotionError> {
         if matches!(occurrence.kind, OccurrenceKind::Release(_)) {
-            let parameters = self.observer.parameters().to_vec();
-            self.observer = self.inner.system().observer(&parameters);
+            self.take_observer();
         }
         self.look()
+    }
+
+    /// Looks with the constraints that are held now.
+    fn take_observer(&mut self) {
+        let parameters = self.observer.parameters().to_vec();
+        self.observer = self.inner.system().observer(&parameters);
     }
 
     /// Moves the present to the end of what was computed before a fault.
@@ -199,7 +207,12 @@ impl ObservedMotion {
 
     fn look(&mut self) -> Result<(), MotionError> {
         self.residuals = self.inner.residuals();
-        self.observer.observe(self.inner.state(), &mut self.values)
+        if self.holdings != self.inner.holdings() {
+            self.holdings = self.inner.holdings();
+            self.take_observer();
+        }
+        let outcome = self.observer.observe(self.inner.state(), &mut self.values);
+        outcome.map_err(|fault| self.inner.explained(fault))
     }
 
     /// Every channel's value just before the last impulse.

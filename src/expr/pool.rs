@@ -74,6 +74,8 @@ pub struct Pool {
     size: usize,
     full: bool,
     cancel: Cancel,
+    /// What stood under a root that a power has taken away: it is not below zero.
+    under_roots: Vec<Expr>,
 }
 
 impl Default for Pool {
@@ -94,10 +96,24 @@ impl Pool {
             size: 0,
             full: false,
             cancel: Cancel::new(),
+            under_roots: Vec::new(),
         };
         pool.intern(Node::Number(Number::ZERO));
         pool.intern(Node::Number(Number::ONE));
         pool
+    }
+
+    /// What stood under even roots that powers have taken away, as x in (√x)²: expressions that
+    /// are not below zero where those written have a value.
+    pub fn under_roots(&self) -> &[Expr] {
+        &self.under_roots
+    }
+
+    /// A root of `e` was taken away by a power.
+    pub(super) fn note_root(&mut self, e: Expr) {
+        if !self.under_roots.contains(&e) && self.as_number(e).is_none() {
+            self.under_roots.push(e);
+        }
     }
 
     /// The node behind a handle.

@@ -52,6 +52,7 @@ impl Pool {
         let mut coefficient = coefficient;
         let mut factors = factors.to_vec();
         loop {
+            self.note_roots(&factors);
             merge(&mut factors);
             let mut settled = true;
             let mut next: Vec<Factor> = Vec::with_capacity(factors.len());
@@ -72,6 +73,20 @@ impl Pool {
             }
         }
         self.finish_product(coefficient, factors)
+    }
+
+    /// Notes the bases whose roots are gone once exponents of equal bases are added.
+    fn note_roots(&mut self, factors: &[Factor]) {
+        for (i, &(base, exponent)) in factors.iter().enumerate() {
+            if !is_root(exponent) || factors[..i].iter().any(|&(b, n)| b == base && is_root(n)) {
+                continue;
+            }
+            let same = factors.iter().filter(|(b, _)| *b == base);
+            let total = same.fold(Number::ZERO, |sum, &(_, n)| sum + n);
+            if !is_root(total) {
+                self.note_root(base);
+            }
+        }
     }
 
     /// Builds the node of a merged and settled product.
@@ -107,6 +122,11 @@ impl Pool {
                     let power = c.powi(k).value();
                     if !power.is_finite() || power.abs() < f64::MIN_POSITIVE {
                         return None;
+                    }
+                    for &(b, n) in inner.iter().filter(|&&(_, n)| is_root(n)) {
+                        if !is_root(n * exponent) {
+                            self.note_root(b);
+                        }
                     }
                     let opened = inner.iter().map(|&(b, n)| (b, n * exponent)).collect();
                     return Some((c.powi(k), opened));
@@ -189,6 +209,11 @@ impl Pool {
         factors.push((joined, Number::ONE));
         true
     }
+}
+
+/// Whether a power has a value where its base is not below zero only.
+fn is_root(exponent: Number) -> bool {
+    matches!(exponent, Number::Rational(_, below) if below % 2 == 0)
 }
 
 /// Sorts by base and adds the exponents of equal bases.

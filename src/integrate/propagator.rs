@@ -13,7 +13,9 @@ use super::located_event::LocatedEvent;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{ConstraintProjector, Form, MotionError, MotionErrorKind, State, System};
+use crate::system::{
+    Branch, ConstraintProjector, Form, MotionError, MotionErrorKind, State, System,
+};
 use constraint_watch::Watch;
 pub use occurrence::{Occurrence, OccurrenceKind};
 
@@ -60,6 +62,10 @@ pub struct Propagator {
     /// Of each event.
     accumulation: Vec<AccumulationDetector>,
     watch: Watch,
+    /// Where velocities are one of several that belong to the momenta: what tells their branch.
+    branch: Option<Branch>,
+    /// How often other constraints were held of those that repeat each other.
+    holdings: u64,
     ended: bool,
     steps: u64,
 }
@@ -96,6 +102,8 @@ impl Propagator {
             stalled: 0,
             accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
             watch: Watch::default(),
+            branch: None,
+            holdings: 0,
             ended: false,
             steps: 0,
         };
@@ -209,7 +217,28 @@ impl Propagator {
             crossings.turn();
         }
         self.watch_from_here();
+        self.branch = self.system.branch(&self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)
+    }
+
+    /// A fault where a step has led to velocities on another branch: p = ∂L/∂q̇ turns back between.
+    fn check_branch(&mut self) -> Result<(), MotionError> {
+        let Some(branch) = &mut self.branch else { return Ok(()) };
+        if branch.holds(self.stepper.state()) {
+            return Ok(());
+        }
+        let (begin, _) = self.stepper.interval();
+        let state = self.stepper.state();
+        Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
+    }
+
+    /// Where constraints repeat each other, those are held that depend on each other least.
+    fn hold_anew(&mut self) -> Result<(), MotionError> {
+        let state = self.stepper.state();
+        let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
+        let state = state.clone();
+        self.holdings += 1;
+        self.take_holding(system, &state)
     }
 
     /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
@@ -224,6 +253,10 @@ impl Propagator {
         limit: f64,
         budget: &mut u64,
     ) -> Result<Reached, MotionError> {
+        self.go_to(time, limit, budget).map_err(|fault| self.explained(fault))
+    }
+
+    fn go_to(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, MotionError> {
         loop {
             if self.ended {
                 return Ok(Reached::Ended);
@@ -258,7 +291,7 @@ impl Propagator {
                 && let Err(fault) = self.step(limit)
             {
                 self.note_passages(self.clear);
-                return Err(self.explained(fault));
+                return Err(fault);
             }
             self.scan()?;
         }
@@ -271,6 +304,8 @@ impl Propagator {
         if self.impulse_schedule.stands_still(before.high) {
             return Err(stands_still(before.high));
         }
+        self.note_regular();
+        self.hold_anew()?;
         self.stepper.step(limit)?;
         let moved = (self.stepper.state().exact_time() - before).high > 0.0;
         self.stalled = if moved { 0 } else { self.stalled + 1 };
@@ -278,6 +313,7 @@ impl Propagator {
             return Err(stands_still(before.high));
         }
         self.steps += 1;
+        self.check_branch()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
             if let Some(projector) = &mut self.projector {
@@ -365,6 +401,12 @@ impl Propagator {
     /// The system, without the constraints that were let go.
     pub fn system(&self) -> &System {
         &self.system
+    }
+
+    /// How often the [system](Motion::system) has come to hold others of constraints that repeat
+    /// each other: who looks at its states looks anew then.
+    pub fn holdings(&self) -> u64 {
+        self.holdings
     }
 
     /// The method.

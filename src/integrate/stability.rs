@@ -108,3 +108,30 @@ pub(super) fn eigenvalues(
     let values = found.map(|schur| schur.complex_eigenvalues());
     values.iter().flat_map(|values| values.iter().map(|z| [z.re, z.im])).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A method that makes of a mode what the explicit rule of Euler does.
+    const EULER: Modes<'static> =
+        Modes { growth: |_, [re, im]| math::hypot(1.0 + re, im), weights: &[] };
+
+    #[test]
+    fn a_mode_that_falls_is_stable_up_to_two() {
+        assert_eq!(EULER.limit(&[[-2.0, 0.0]], 1.0), None);
+        assert_eq!(EULER.limit(&[[-2.0009, 0.0]], 1.0), None);
+        let limit = EULER.limit(&[[-2.0011, 0.0]], 1.0).unwrap_or(0.0);
+        assert!((0.99..1.0).contains(&limit), "{limit}");
+        // told to one part in two hundred
+        let limit = EULER.limit(&[[-4.0, 0.0]], 1.0).unwrap_or(0.0);
+        assert!((limit - 0.5).abs() <= 0.0051 && limit >= 0.4949, "{limit}");
+    }
+
+    #[test]
+    fn a_mode_that_grows_by_itself_is_no_fault_of_the_step() {
+        // |1 + z| exceeds e^(re z) where im is large beside re
+        assert!(EULER.limit(&[[0.9e-3, 1.0]], 1.0).is_some());
+        assert_eq!(EULER.limit(&[[1.1e-3, 1.0]], 1.0), None);
+    }
+}

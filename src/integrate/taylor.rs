@@ -17,7 +17,7 @@ mod sticking;
 
 use collocation_step::CollocationStep;
 use kinks::Kinks;
-use sticking::Sticking;
+use sticking::{Sticking, Still};
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
@@ -67,12 +67,15 @@ struct Taylor {
     bridge: CollocationStep,
     /// The longest step since the motion was last bent: what a step is short beside.
     stride: f64,
+    /// The last step, and whether it and those before lead away from a place that was passed.
+    last: f64,
+    leaving: bool,
     /// The present state is one from which no series leads on.
     landed: bool,
     /// The last step was a bridge from this state, with these rates there if it has none itself.
     leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
-    /// The rates of a motion that has come to rest for good: zero but for what is carried along.
-    resting: Option<Vec<DoubleDouble>>,
+    /// A motion that has come to rest, until it sets out.
+    resting: Option<Still>,
     parameters: Vec<f64>,
     /// How many such steps there were, and when the last of a round of them was.
     leaps: (u32, f64),
@@ -90,6 +93,24 @@ const TOUCHING: f64 = 1e-15;
 
 /// A step this short beside the time is about to move the clock no longer.
 const STALLED: f64 = 5e-17;
+
+/// A step this short beside the time leads nowhere; …
+const SMALLEST: f64 = 1e-17;
+
+/// … but a surface where forces grow without bound is approached up to this part: the time is carried
+/// in double-double. What is nearer is reached.
+const NEAREST: f64 = 1e-30;
+
+/// The last terms of all series may have this part of their largest at a surface that is reached
+/// beyond the step, …
+const LAST_DIGIT: f64 = 1e-17;
+
+/// … and this one where it cannot be approached any farther; where they have more, as at a pole, it
+/// cannot be reached.
+const NEARLY: f64 = 1e-6;
+
+/// Steps that lead away from a place do not become shorter than by this.
+const SHRINKING: f64 = 0.1;
 
 /// On a surface, a step this short beside those before it is no better than none.
 const HOPELESS: f64 = 1e-9;
@@ -117,7 +138,8 @@ impl Taylor {
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         let series = system.series(order, exact);
-        let (rates, bridge) = (system.exact_rates(), CollocationStep::new(system.state_len()));
+        let (rates, bridge) =
+            (system.exact_rates(), CollocationStep::new(system.state_len(), system.moving()));
         let system = system.clone();
         Ok(Taylor {
             system,
@@ -131,6 +153,8 @@ impl Taylor {
             rates,
             bridge,
             stride: 0.0,
+            last: f64::INFINITY,
+            leaving: false,
             landed: false,
             leapt: None,
             resting: None,
@@ -233,10 +257,10 @@ impl Taylor {
         if found.is_none() {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
                 Sticking::Unknown => return Ok(false),
-                Sticking::Stays(state, rates) => {
-                    self.state = state;
+                Sticking::Stays(still) => {
+                    self.state = still.at(rates, from.exact_time())?;
                     self.begin = self.state.time;
-                    self.resting = Some(rates);
+                    self.resting = Some(still);
                     return Ok(true);
                 }
                 Sticking::SetsOut(state, rates) => {
@@ -244,6 +268,20 @@ impl Taylor {
                     let (rates, toward) = (&mut self.rates, toward.as_deref());
                     found =
                         self.bridge.cross(rates, &from, (wanted, 0.0), toward, &mut self.state)?;
+                    if found.is_none() {
+                        let first = sticking::set_out(
+                            &self.system,
+                            rates,
+                            &self.parameters,
+                            &from,
+                            wanted,
+                        )?;
+                        let Some((still, state)) = first else { return Ok(false) };
+                        self.begin = from.time;
+                        self.state = state;
+                        self.resting = Some(still);
+                        return Ok(true);
+                    }
                 }
             }
         }
@@ -253,6 +291,8 @@ impl Taylor {
         self.leapt = Some((from, toward));
         self.landed = false;
         self.stride = step.abs();
+        self.last = step.abs();
+        self.leaving = true;
         self.taken = Some(step.abs());
         Ok(true)
     }
@@ -352,12 +392,8 @@ impl Units {
 impl Taylor {
     /// The state at a time within the last step.
     fn tell(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
-        if let Some(rates) = &self.resting {
-            let after = time - self.state.exact_time();
-            for (i, &rate) in rates.iter().enumerate() {
-                out.set(i, self.state.exact(i) + rate * after);
-            }
-            (out.time, out.time_carry) = (time.high, time.low);
+        if let Some(still) = &self.resting {
+            out.copy_from(&still.at(&mut self.rates, time)?);
             return Ok(());
         }
         let Some((from, toward)) = &self.leapt else {
@@ -380,6 +416,8 @@ impl Stepper for Taylor {
         self.scaled = false;
         self.taken = None;
         self.stride = 0.0;
+        self.last = f64::INFINITY;
+        self.leaving = false;
         self.landed = false;
         self.leapt = None;
         self.resting = None;
@@ -398,9 +436,15 @@ impl Stepper for Taylor {
         }
         let time = self.state.exact_time();
         let left = DoubleDouble::written(limit) - time;
-        if self.resting.is_some() {
-            let mut state = self.state.clone();
-            self.tell(DoubleDouble::written(limit), &mut state)?;
+        if self.resting.as_ref().is_some_and(Still::is_over) {
+            self.resting = None;
+            self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
+            self.stride = 0.0;
+        }
+        if let Some(still) = &mut self.resting {
+            let (rates, parameters) = (&mut self.rates, &self.parameters);
+            let place = (&self.state, limit);
+            let state = still.go_on(&self.system, rates, parameters, place)?;
             self.begin = self.state.time;
             self.state = state;
             return Ok(());
@@ -424,10 +468,6 @@ impl Stepper for Taylor {
             },
         };
         self.leapt = None;
-        if step <= 1e-17 * time.high.abs() {
-            let kind = MotionErrorKind::StepUnderflow(step);
-            return Err(self.system.fault(kind, time.high, &self.state.values));
-        }
         let mut last = step >= left.high.abs();
         let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
@@ -436,15 +476,26 @@ impl Stepper for Taylor {
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
         let mut crossing = self.kinks.first(&self.series, end);
+        let approaching = vanishing && crossing.is_some();
+        let nearest = approaching && step <= NEAREST * time.high.abs();
+        // steps away from a place that was passed become longer by themselves
+        let leaving = self.leaving && step > SHRINKING * self.last;
+        self.leaving &= step <= SMALLEST * time.high.abs();
+        let known = if nearest { NEARLY } else { LAST_DIGIT };
         if vanishing {
-            crossing = crossing.filter(|crossing| crossing.is_known(&self.series));
+            crossing = crossing.filter(|crossing| crossing.is_known(&self.series, known));
+        }
+        let short = step <= SMALLEST * time.high.abs() && !approaching && !leaving;
+        if short || (nearest && crossing.is_none()) {
+            let kind = MotionErrorKind::StepUnderflow(step);
+            return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         if let Some(crossing) = &crossing {
             (last, after) = (false, crossing.after * scale);
         }
         self.begin = self.state.time;
         let mut landed = false;
-        if vanishing && crossing.is_none() {
+        if vanishing && crossing.is_none() && !approaching {
             if let Some(x) = branches::predicted(&self.series, end) {
                 (last, landed, after) = (false, true, DoubleDouble::from(x * scale));
             } else if (step < TOUCHING * self.stride || step < STALLED * time.high.abs())
@@ -458,7 +509,8 @@ impl Stepper for Taylor {
         let reach = reach.min(left.high.abs()) / scale.abs();
         let reach =
             if crossing.is_some() { reach.min(after.high.abs() / scale.abs()) } else { reach };
-        let passing = if landed { None } else { branches::first(&self.series, reach) };
+        let passing =
+            if landed || approaching { None } else { branches::first(&self.series, reach) };
         if let Some(passing) = passing {
             let origin = self.state.clone();
             let there = passing.after * scale;
@@ -480,8 +532,9 @@ impl Stepper for Taylor {
                 (last, crossing, after) = (false, None, after * part);
             }
         }
+        self.last = after.high.abs();
         self.landed = landed;
-        self.stride = if crossing.is_some() { 0.0 } else { self.stride };
+        self.stride = if crossing.is_some() && !vanishing { 0.0 } else { self.stride };
         self.stride = self.stride.max(after.high.abs());
         if last {
             self.state.time = limit;

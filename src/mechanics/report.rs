@@ -6,6 +6,7 @@
 
 use super::conservation::{Classed, classes};
 use super::constrain::with_reactions;
+use super::domain::widened;
 use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
 use super::invariants::casimir_rate;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
@@ -140,6 +141,8 @@ pub struct Report<'a> {
     pub body: Option<BodyReport>,
     /// L or H.
     pub law: Line,
+    /// What must not be below zero where the law holds, though no root is left to say so.
+    pub domain: Vec<Expr>,
     /// Rayleigh's function, if there is one.
     pub dissipation: Option<Line>,
     /// What acts beside the law.
@@ -200,6 +203,7 @@ impl<'a> Report<'a> {
             equations,
             body: BodyReport::of(model, equations),
             law: Line { left: Left::Letter(name), right: law },
+            domain: widened(model, equations),
             dissipation: (dissipation != Expr::ZERO)
                 .then_some(Line { left: Left::Letter("F"), right: dissipation }),
             forces: forces.map(|(c, &e)| Line::of((Left::Added(letter, c.position), e))).collect(),

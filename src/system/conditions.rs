@@ -235,6 +235,42 @@ impl Conditions {
         chosen
     }
 
+    /// So many of the `active` constraints, each the one with the largest part of its own beside
+    /// those chosen before; `None` where there are not so many.
+    pub(super) fn most_independent(&self, active: &[bool], count: usize) -> Option<Vec<bool>> {
+        let mut chosen = vec![false; self.count];
+        for _ in 0..count {
+            let mut best: Option<(f64, usize)> = None;
+            let open = (0..self.count).filter(|&k| active[k] && !chosen[k]);
+            for k in open.collect::<Vec<_>>() {
+                chosen[k] = true;
+                let strength = self.strength(active, &chosen);
+                chosen[k] = false;
+                if strength > INDEPENDENT && best.is_none_or(|(most, _)| strength > most) {
+                    best = Some((strength, k));
+                }
+            }
+            chosen[best?.1] = true;
+        }
+        Some(chosen)
+    }
+
+    /// The least part of its own that a row of the `held` constraints has beside those before it,
+    /// measured by the largest row of the `active` ones.
+    pub(super) fn strength(&self, active: &[bool], held: &[bool]) -> f64 {
+        let units = self.units(active);
+        let rows = |which: &[bool]| -> Vec<Vec<f64>> {
+            (0..self.count).filter(|&k| which[k]).map(|k| self.row(k, &units)).collect()
+        };
+        let largest = rows(active).iter().map(|row| norm(row)).fold(0.0, f64::max);
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
+        let own = rows(held).into_iter().map(|row| {
+            let size = norm(&row);
+            basis.add(row).unwrap_or(0.0) * (size / largest)
+        });
+        own.fold(1.0, f64::min)
+    }
+
     /// How far the `held` constraints are from depending on each other: the least sine of the angle
     /// between the row of one and those before it; zero where a row vanishes.
     pub(super) fn independence(&self, held: &[bool]) -> f64 {

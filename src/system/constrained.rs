@@ -110,6 +110,13 @@ fn independent_at_start(
 /// configuration nearby: beside a regular one corrections converge from much farther away.
 const NEARLY_SINGULAR: f64 = 1e-3;
 
+/// Where the rows of the constraints that are held have a smaller part of their own, others of those
+/// that repeat each other are looked for …
+const DEPENDENT: f64 = 0.03;
+
+/// … and taken where theirs is so many times larger.
+const GAINED: f64 = 4.0;
+
 /// The directions in which the constraints hold a state, all together, with their orientation.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Directions(Span);
@@ -254,6 +261,26 @@ impl System {
         let Some(conditions) = self.conditions(parameters, state) else { return self.clone() };
         let held = conditions.independent(&active);
         self.with_holding(ActiveSet { active, held })
+    }
+
+    /// The same system with others of its constraints held, where those that are have come to
+    /// depend on each other and others do not; `None` where there is nothing to be gained.
+    #[must_use]
+    pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
+        let ActiveSet { active, held } = self.holding();
+        if active == held {
+            return None;
+        }
+        let conditions = self.conditions(parameters, state)?;
+        let now = conditions.strength(active, held);
+        if now > DEPENDENT {
+            return None;
+        }
+        let count = held.iter().filter(|&&held| held).count();
+        let better = conditions.most_independent(active, count)?;
+        let gained = conditions.strength(active, &better) > GAINED * now;
+        let active = active.clone();
+        gained.then(|| self.with_holding(ActiveSet { active, held: better }))
     }
 
     fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {

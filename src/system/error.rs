@@ -15,18 +15,27 @@ pub struct MotionError {
     pub place: Vec<(String, f64)>,
 }
 
-/// A method of fixed step that was seen to lead past a place where another one stops.
+/// A method that was seen to lead past a place where another one stops.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Passage {
     /// The method's name.
     pub method: &'static str,
-    /// The step it was tried with.
-    pub step: f64,
+    /// The step it was tried with, where its step is fixed.
+    pub step: Option<f64>,
+}
+
+impl fmt::Display for Passage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "--method {}", self.method)?;
+        self.step.map_or(Ok(()), |step| write!(f, " --step {}", short(step)))
+    }
 }
 
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MotionErrorKind {
+    /// This, at a place that another method passes.
+    Passable(Box<MotionErrorKind>, Passage),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
     /// The constraints are dependent there, or together with the mass matrix singular; how it is
@@ -49,6 +58,8 @@ pub enum MotionErrorKind {
     NotFinite(String),
     /// The velocities that belong to given momenta (or the reverse) were not found.
     NoVelocities,
+    /// A step led to velocities on another branch of those that belong to the momenta.
+    BranchLeft,
     /// The equations of an implicit step were not solved; the step's size.
     NoConvergence(f64),
     /// The step became too small for the clock to move; the size it would have.
@@ -72,7 +83,13 @@ pub enum MotionErrorKind {
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let time = printable::number(self.time);
+        if let MotionErrorKind::Passable(kind, passage) = &self.kind {
+            let MotionError { time, place, .. } = self.clone();
+            let plain = MotionError { time, kind: (**kind).clone(), place };
+            return write!(f, "{plain}; {passage} passes it");
+        }
         match &self.kind {
+            MotionErrorKind::Passable(..) => {}
             MotionErrorKind::SingularMass => {
                 write!(f, "the mass matrix is singular at t = {time}")?
             }
@@ -109,6 +126,9 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
+            }
+            MotionErrorKind::BranchLeft => {
+                write!(f, "the branch of the velocities ends after t = {time}")?;
             }
             MotionErrorKind::NoConvergence(step) => {
                 write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
@@ -147,12 +167,8 @@ impl fmt::Display for MotionError {
             MotionErrorKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
             MotionErrorKind::SingularConstraints(passage) => {
                 f.write_str(": their directions depend on each other there, or one has none")?;
-                let Some(Passage { method, step }) = passage else { return Ok(()) };
-                return write!(
-                    f,
-                    "; --method {method} --step {} passes it, on the smooth one of its branches",
-                    short(*step)
-                );
+                let Some(passage) = passage else { return Ok(()) };
+                return write!(f, "; {passage} passes it, on the smooth one of its branches");
             }
             MotionErrorKind::ConstraintParted(_) => {
                 ": the motion began at a singular configuration of the constraints"
@@ -161,19 +177,21 @@ impl fmt::Display for MotionError {
             MotionErrorKind::ConstraintMissed(..)
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
+            | MotionErrorKind::Passable(..)
             | MotionErrorKind::Cancelled => "",
             MotionErrorKind::Contradiction => ": give fewer of them",
             MotionErrorKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
+            MotionErrorKind::BranchLeft => {
+                ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
+            }
             MotionErrorKind::NoConvergence(_) => ": try a smaller step",
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
             MotionErrorKind::TooManySteps(..) => ": try a larger step",
             MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
-            MotionErrorKind::Rough => {
-                ": the rates of change have no limit there; --method dop853 may pass it"
-            }
+            MotionErrorKind::Rough => ": the rates of change have no limit there",
             MotionErrorKind::Sticks => ": both sides of a kink push towards it",
         })
     }

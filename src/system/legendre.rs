@@ -14,7 +14,7 @@ use super::state::Form;
 use super::value::Evaluator;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Flow;
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, math};
 
 /// How often a step may be halved, and how many steps there may be.
 const HALVINGS: u32 = 60;
@@ -33,6 +33,9 @@ const SETTLED: f64 = 1e-15;
 /// A first step that leaves at most this part of what was missed leads to the solution nearest to
 /// the guess: the relation hardly bends between them.
 const TAME: f64 = 0.25;
+
+/// A single solution is looked for between the powers of two up to this one and its inverse.
+const FARTHEST: i32 = 64;
 
 /// In how many parts the way to a solution is gone where it is too far for one step.
 const PARTS: [u32; 3] = [4, 16, 64];
@@ -144,9 +147,67 @@ impl Legendre {
             }
             found = self.iterate(time, targets, &unknown);
         }
+        if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only]) =
+            (&found, &unknown[..])
+        {
+            found = self.between_signs(time, state, targets, *only);
+        }
         found?;
         state[n..2 * n].copy_from_slice(&self.state[n..]);
         Ok(())
+    }
+
+    /// The solution nearest to the guess, where one number is sought: what is missed changes its sign
+    /// there. It is looked for on both sides of zero and of the guess, far and near.
+    fn between_signs(
+        &mut self,
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+        targets: &[Option<DoubleDouble>],
+        i: usize,
+    ) -> Result<f64, LegendreError> {
+        let n = self.degrees;
+        let guess = state[n + i].high;
+        let far = (-FARTHEST..=FARTHEST).map(|k| math::powi(2.0, k));
+        let mut places: Vec<f64> =
+            far.flat_map(|x| [x, -x, guess + x, guess - x]).chain([0.0, guess]).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        self.state.copy_from_slice(&state[..2 * n]);
+        let missed = |own: &mut Legendre, x: f64| {
+            own.state[n + i] = DoubleDouble::from(x);
+            let mut out = [DoubleDouble::ZERO];
+            own.missing(time, targets, &[i], &mut [0.0], &mut out).ok()?;
+            Some(out[0].high).filter(|x| !x.is_nan())
+        };
+        let values: Vec<Option<f64>> = places.iter().map(|&x| missed(self, x)).collect();
+        let mut pairs: Vec<[f64; 2]> = Vec::new();
+        for (place, value) in places.windows(2).zip(values.windows(2)) {
+            if let [Some(a), Some(b)] = value
+                && (*a < 0.0) != (*b < 0.0)
+            {
+                pairs.push([place[0], place[1]]);
+            }
+        }
+        let distance = |pair: &[f64; 2]| (0.5 * (pair[0] + pair[1]) - guess).abs();
+        pairs.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        for [mut a, mut b] in pairs {
+            let Some(below) = missed(self, a).map(|x| x < 0.0) else { continue };
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (a + b);
+                match missed(self, middle) {
+                    Some(x) if (x < 0.0) == below => a = middle,
+                    Some(_) => b = middle,
+                    None => break,
+                }
+            }
+            self.state[n + i] = DoubleDouble::from(0.5 * (a + b));
+            // a pole changes the sign as well
+            if let Ok(left) = self.iterate(time, targets, &[i]) {
+                return Ok(left);
+            }
+        }
+        Err(LegendreError::NotConverging)
     }
 
     /// The same, but along the branch of solutions that the first guess, which belongs to momenta

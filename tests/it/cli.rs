@@ -73,6 +73,22 @@ impl Done {
         serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why} in {text}"))
     }
 
+    /// All that a command wrote, wherever.
+    pub(crate) fn text(self) -> String {
+        self.stdout + &self.stderr
+    }
+
+    /// Holds that a command succeeded and said this.
+    pub(crate) fn says(self, words: &str) {
+        assert_eq!(self.code, 0, "{}", self.stderr);
+        assert!(
+            self.stdout.contains(words) || self.stderr.contains(words),
+            "{} {}",
+            self.stdout,
+            self.stderr
+        );
+    }
+
     /// Holds that a command failed with a code, wrote nothing, and said all of this.
     pub(crate) fn fails(self, code: i32, said: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);

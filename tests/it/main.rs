@@ -17,6 +17,7 @@ mod expr_parse;
 mod fuzz;
 mod hand;
 mod honest;
+mod impasse;
 mod instrument;
 mod layers;
 mod mechanics;

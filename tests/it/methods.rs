@@ -4,6 +4,7 @@ mod branches;
 mod faults;
 mod kepler;
 mod order;
+mod presets;
 mod stability;
 mod structure;
 

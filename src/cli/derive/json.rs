@@ -41,6 +41,7 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": report.model.info.title,
         "coordinates": report.model.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
+        "not_below_zero": page.list(&report.domain),
         "momenta": page.map(&report.momenta),
         "equations": solved,
         "mass_matrix": mass_matrix,

@@ -78,6 +78,14 @@ impl Page<'_> {
         if report.model.is_poisson() {
             self.lines("Brackets", &report.brackets);
         }
+        if !report.domain.is_empty() {
+            self.line("");
+            self.line("Holds where");
+            for &e in &report.domain {
+                let e = self.math(e);
+                self.line(&format!("  {e} ≥ 0   (its root is squared away)"));
+            }
+        }
         if !report.casimirs.is_empty() {
             let casimirs = report.casimirs.iter();
             let rows: Vec<_> =

@@ -33,6 +33,15 @@ const MOST_STEPS: u32 = 4000;
 /// … and once more with half the step: the results may differ by this part.
 const AGREES: f64 = 1e-3;
 
+/// From where the motion began it is followed beyond the place by this part of the way to it.
+const BEYOND: f64 = 0.05;
+
+/// A number that changes by less than this part of the largest of its kind is not looked at.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// So many steps are tried, each a tenth of the one before.
+const STEPS_TRIED: u32 = 3;
+
 /// What is watched of one motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
@@ -45,6 +54,8 @@ pub(super) struct Watch {
     /// A state before steps became much shorter, and the step then.
     regular: Option<State>,
     pace: f64,
+    /// Where it last began, or went on anew.
+    begun: Option<State>,
 }
 
 impl Propagator {
@@ -62,8 +73,24 @@ impl Propagator {
             }
             _ => None,
         };
-        self.watch.regular = self.projector.as_ref().map(|_| self.state.clone());
+        self.watch.regular = Some(self.state.clone());
+        self.watch.begun = Some(self.state.clone());
         self.watch.pace = 0.0;
+    }
+
+    /// Notes the state from which the next step is taken, if the last one was not much shorter than
+    /// those before.
+    pub(super) fn note_regular(&mut self) {
+        let (begin, end) = self.stepper.interval();
+        let Watch { regular, pace, .. } = &mut self.watch;
+        let step = (end - begin).abs();
+        if step >= REGULAR * *pace {
+            let state = self.stepper.state();
+            regular.get_or_insert_with(|| state.clone()).copy_from(state);
+            *pace = step;
+        } else {
+            *pace *= FORGETTING;
+        }
     }
 
     /// Looks whether the step just taken passes a singular configuration.
@@ -74,13 +101,7 @@ impl Propagator {
         if state.form != Form::Velocity {
             return;
         }
-        let Watch { seen, ahead, regular, pace, .. } = &mut self.watch;
-        if end - begin >= REGULAR * *pace {
-            regular.get_or_insert_with(|| state.clone()).copy_from(state);
-            *pace = end - begin;
-        } else {
-            *pace *= FORGETTING;
-        }
+        let Watch { seen, ahead, .. } = &mut self.watch;
         let like = seen.as_ref().map(|(_, directions)| directions);
         let Some(here) = projector.directions(state, like) else { return };
         if let Some((_, before)) = seen {
@@ -108,72 +129,135 @@ impl Propagator {
         self.watch = Watch::default();
     }
 
-    /// A fault that a singular configuration explains is reported as that, and with what leads past it.
-    pub(super) fn explained(&mut self, fault: MotionError) -> MotionError {
-        let may_be = matches!(
+    /// A fault that a singular configuration explains is reported as that; and any fault at a place that
+    /// another method passes with what passes it.
+    pub fn explained(&mut self, fault: MotionError) -> MotionError {
+        let may_be_passed = matches!(
             fault.kind,
             MotionErrorKind::SingularConstraints(None)
                 | MotionErrorKind::SingularMass
                 | MotionErrorKind::ConstraintLost(_)
                 | MotionErrorKind::NoConvergence(_)
+                | MotionErrorKind::NoVelocities
                 | MotionErrorKind::NotFinite(_)
                 | MotionErrorKind::StepUnderflow(_)
                 | MotionErrorKind::ClockStands(_)
+                | MotionErrorKind::Rough
+                | MotionErrorKind::Sticks
         );
-        let Some(projector) = self.projector.as_mut().filter(|_| may_be) else { return fault };
-        let singular = matches!(fault.kind, MotionErrorKind::SingularConstraints(_));
-        let state = self.stepper.state();
-        if !singular && !projector.is_nearly_singular(state, self.watch.regular.as_ref()) {
+        if !may_be_passed || self.system.cancel().is_cancelled() {
             return fault;
         }
-        let passage = self.way_past(fault.time);
-        MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault }
+        let held = self.projector.as_mut().is_some_and(|projector| {
+            let state = self.stepper.state();
+            matches!(fault.kind, MotionErrorKind::SingularConstraints(_))
+                || projector.is_nearly_singular(state, self.watch.regular.as_ref())
+        });
+        if held {
+            let passage = if self.method.stepping == Stepping::Fixed {
+                None
+            } else {
+                self.fixed_past(fault.time)
+            };
+            return MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault };
+        }
+        match self.way_past(fault.time) {
+            Some(passage) => MotionError {
+                kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
+                ..fault
+            },
+            None => fault,
+        }
+    }
+
+    /// Where a motion that stops at a time is followed from, and until when to be past it: from
+    /// nearby, and from where it began.
+    fn around(&self, time: f64) -> Vec<(State, f64)> {
+        let mut ways = Vec::new();
+        for (from, part) in [(&self.watch.regular, 1.0), (&self.watch.begun, BEYOND)] {
+            let Some(from) = from else { continue };
+            let way = (part * (time - from.time)).max(2.0 * self.stepper.step_size());
+            if way > 0.0 && time >= from.time && (time + way).is_finite() {
+                ways.push((from.clone(), time + way));
+            }
+        }
+        ways
+    }
+
+    /// Another method that leads past a time, if there is one.
+    fn way_past(&mut self, time: f64) -> Option<Passage> {
+        let (from, until) = self.around(time).into_iter().next()?;
+        let settings = Settings { step: None, tolerance: None };
+        for name in ["taylor", "dop853"] {
+            let method = method_named(name).filter(|method| method.name != self.method.name);
+            let Some(method) = method else { continue };
+            if self.lead_past(method, settings, &from, until).is_some() {
+                return Some(Passage { method: method.name, step: None });
+            }
+        }
+        if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
     }
 
     /// A fixed step with which the motion is led past a time, if there is one.
-    fn way_past(&mut self, time: f64) -> Option<Passage> {
-        if self.method.stepping == Stepping::Fixed {
-            return None;
-        }
-        let from = self.watch.regular.clone()?;
-        let way = time - from.time;
-        if way <= 0.0 || !way.is_finite() {
-            return None;
-        }
+    fn fixed_past(&mut self, time: f64) -> Option<Passage> {
         let method = method_named("rk4")?;
-        let step = math::powi(10.0, math::log10(way / STEPS_THERE).floor() as i32);
-        let coarse = self.lead_past(method, &from, time + way, step)?;
-        let fine = self.lead_past(method, &from, time + way, 0.5 * step)?;
-        let agree = |((a, b), c): ((&f64, &f64), &f64)| {
-            (a - b).abs() <= AGREES * (a - c).abs().max(b.abs())
-        };
-        let all = coarse.values.iter().zip(&fine.values).zip(&from.values).all(agree);
-        all.then_some(Passage { method: method.name, step })
+        for (from, until) in self.around(time) {
+            let steps = (time - from.time) / STEPS_THERE;
+            let mut step = math::powi(10.0, math::log10(steps).floor() as i32);
+            for _ in 0..STEPS_TRIED {
+                let settings = |step| Settings { step: Some(step), tolerance: None };
+                let coarse = self.lead_past(method, settings(step), &from, until);
+                let fine = self.lead_past(method, settings(0.5 * step), &from, until);
+                if let (Some(coarse), Some(fine)) = (coarse, fine)
+                    && agree(&from, &coarse, &fine, self.system.degrees())
+                {
+                    return Some(Passage { method: method.name, step: Some(step) });
+                }
+                step *= 0.1;
+            }
+        }
+        None
     }
 
-    /// The motion led from a state to a time by a method of fixed step.
+    /// The motion led from a state to a time by a method.
     fn lead_past(
         &mut self,
         method: &'static crate::integrate::Method,
+        settings: Settings,
         from: &State,
         until: f64,
-        step: f64,
     ) -> Option<State> {
-        let settings = Settings { step: Some(step), tolerance: None };
         let mut stepper = (method.make)(&self.system, &settings).ok()?;
         stepper.start(from, &self.parameters).ok()?;
         let mut state = from.clone();
         for _ in 0..MOST_STEPS {
             if stepper.time() >= until {
+                stepper.at(until, &mut state).ok()?;
                 return Some(state);
             }
             stepper.step(until).ok()?;
             state.copy_from(stepper.state());
-            self.projector.as_mut()?.project(&mut state).ok()?;
-            stepper.replace_state(&state);
+            if let Some(projector) = &mut self.projector {
+                projector.project(&mut state).ok()?;
+                stepper.replace_state(&state);
+            }
         }
         None
     }
+}
+
+/// Whether two ways from a state end at the same place. Numbers are measured by what they change,
+/// and by the largest of their kind: one may be nothing but rounding.
+fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
+    let kinds = [0..degrees, degrees..(2 * degrees).min(from.values.len())];
+    kinds.into_iter().all(|kind| {
+        let apart = |x: &State, y: &State, i: usize| (x.values[i] - y.values[i]).abs();
+        let largest = kind.clone().map(|i| apart(fine, from, i)).fold(0.0, f64::max);
+        kind.clone().all(|i| {
+            let size = apart(fine, from, i).max(NEGLIGIBLE * largest);
+            apart(coarse, fine, i) <= AGREES * size
+        })
+    })
 }
 
 /// What looks at the directions within a step.
@@ -209,5 +293,35 @@ impl Look<'_> {
         let Some(there) = there else { return found.push(middle) };
         self.passages((begin, before), (middle, &there), halvings - 1, found);
         self.passages((middle, &there), (end, after), halvings - 1, found);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(values: [f64; 4]) -> State {
+        State::new(0.0, Form::Velocity, values.to_vec())
+    }
+
+    #[test]
+    fn two_ways_agree_to_a_thousandth_of_what_moves() {
+        let from = state([0.0; 4]);
+        let agrees = |off: f64| {
+            let fine = state([1.0, 1.0, 2.0, 1.0]);
+            agree(&from, &state([1.0, 1.0, 2.0 * (1.0 + off), 1.0]), &fine, 2)
+        };
+        assert!(agrees(0.8e-3));
+        assert!(!agrees(1.2e-3));
+    }
+
+    #[test]
+    fn a_number_that_moves_by_less_than_a_millionth_is_noise() {
+        let from = state([0.0; 4]);
+        let agrees = |noise: f64| {
+            agree(&from, &state([1.0, noise, 1.0, 0.0]), &state([1.0, 0.0, 1.0, 0.0]), 2)
+        };
+        assert!(agrees(0.8e-9));
+        assert!(!agrees(1.2e-9));
     }
 }

@@ -5,7 +5,7 @@
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
 use crate::model::Action;
-use crate::system::{MotionError, MotionErrorKind, State};
+use crate::system::{MotionError, MotionErrorKind, State, System};
 
 /// Something that happened.
 #[derive(Clone, PartialEq, Debug)]
@@ -102,7 +102,17 @@ impl Propagator {
 
     /// Lets a constraint go at the present, which is `state` in the system's own form.
     pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), MotionError> {
-        self.system = self.system.release(constraint, state, &self.parameters);
+        let system = self.system.release(constraint, state, &self.parameters);
+        self.take_holding(system, state)
+    }
+
+    /// Goes on at a state with other constraints held.
+    pub(super) fn take_holding(
+        &mut self,
+        system: System,
+        state: &State,
+    ) -> Result<(), MotionError> {
+        self.system = system;
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
         }

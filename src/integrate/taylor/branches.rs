@@ -116,3 +116,28 @@ fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
     }
     x
 }
+
+#[cfg(test)]
+mod tests {
+    use super::passes;
+
+    #[test]
+    fn a_root_that_stays_above_a_fifth_of_its_largest_is_not_looked_at() {
+        // 1 − 4 d t (1 − t) has its least value 1 − d at ½, where one of the looks is; a root just
+        // beside a look is found where the values come below a fifth
+        let dips = |d: f64| passes(&[1.0, -4.0 * d, 4.0 * d], 1.0).is_some();
+        assert!(dips(1.01));
+        assert!(!dips(0.99));
+        // 1 − t/e meets zero at e: looked at up to 1 and 0.79 of it
+        let falls = |e: f64, least: f64| passes(&[1.0, -1.0 / e], least).is_some();
+        assert!(falls(0.99, 1.0));
+        // a narrow dip between two looks, whose values there are 0.19 and 0.21 of the largest
+        let narrow = |at: f64| {
+            // (t − 0.375)² / w² − ε, above zero at 0.25 and 0.5
+            let (w, e) = (0.125 / (at + 1e-3_f64).sqrt(), 1e-3);
+            let c = 1.0 / (w * w);
+            passes(&[c * 0.375 * 0.375 - e, -0.75 * c, c], 1.0).is_some()
+        };
+        assert!(narrow(0.1));
+    }
+}

@@ -1,9 +1,11 @@
 //! A short step away from a place where no series can be built: from the edge of a fractional
 //! power, the tip of a cone, a surface where 0/0 stands for a sign.
 //!
-//! One-sided, the rates are continuous there, only not smooth. Gauss's collocation with three
-//! stages looks at them inside the step only, never at its ends, and the step is made so small
-//! that a part of it taken in two agrees with the whole to the last digit.
+//! One-sided, the rates are continuous there, only not smooth; or they grow without bound, but
+//! slower than 1/t. Gauss's collocation with three stages looks at them inside the step only, never
+//! at its ends, and the step is made so small that a part of it taken in two agrees with the whole
+//! to the last digit. The step is also tried in another measure of time, t = h s^k, in which a
+//! fractional power of t becomes a whole one.
 //!
 //! In: a state, the longest step wanted. Out: the step taken and the state behind it, or nothing,
 //! where the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential
@@ -30,8 +32,15 @@ const AGREEMENT: f64 = 1e-18;
 const ROUNDS: u32 = 60;
 const SETTLED: f64 = 1e-26;
 
-/// The part of a step after which it is taken in two.
+/// The part of a step after which it is taken in two, in its measure of time.
 const PART: f64 = 0.125;
+
+/// The measures of time, by their power k: those of square, cube and fourth roots, and of both of
+/// the first.
+const POWERS: [i32; 5] = [1, 2, 3, 4, 6];
+
+/// A step of this part of the wanted one is long enough that no other measure is tried.
+const LONG: f64 = 1e-6;
 
 /// The three stages: their places, weights, and what each takes of each.
 struct Scheme {
@@ -57,9 +66,20 @@ impl Scheme {
     }
 }
 
+/// A part of a step, from `begin` to `end` in its measure of time.
+struct Piece {
+    step: DoubleDouble,
+    begin: f64,
+    end: f64,
+}
+
 /// Takes such steps.
 pub(super) struct CollocationStep {
     scheme: Scheme,
+    /// How many numbers of a state move; the rest is carried along.
+    moving: usize,
+    /// The power of the measure of time of the step taken last.
+    power: i32,
     stages: [Vec<DoubleDouble>; 3],
     numbers: Vec<DoubleDouble>,
     end: Vec<DoubleDouble>,
@@ -73,10 +93,12 @@ impl std::fmt::Debug for CollocationStep {
 }
 
 impl CollocationStep {
-    pub(super) fn new(len: usize) -> CollocationStep {
+    pub(super) fn new(len: usize, moving: usize) -> CollocationStep {
         let blank = || vec![DoubleDouble::ZERO; len];
         CollocationStep {
             scheme: Scheme::new(),
+            moving,
+            power: 1,
             stages: [blank(), blank(), blank()],
             numbers: blank(),
             end: blank(),
@@ -94,17 +116,47 @@ impl CollocationStep {
         toward: Option<&[DoubleDouble]>,
         out: &mut State,
     ) -> Result<Option<f64>, MotionError> {
+        let mut longest: Option<(f64, i32)> = None;
+        // only a place that was reached is one from which powers of the time count
+        let powers = if least > 0.0 { &POWERS[..1] } else { &POWERS[..] };
+        for &power in powers {
+            let Some(step) = self.longest(rates, from, (wanted, least), toward, power)? else {
+                continue;
+            };
+            if longest.is_none_or(|(best, _)| step.abs() > best.abs()) {
+                longest = Some((step, power));
+            }
+            if step.abs() >= LONG * wanted.abs() {
+                break;
+            }
+        }
+        let Some((step, power)) = longest else { return Ok(None) };
+        self.power = power;
+        self.inside(rates, from, DoubleDouble::from(step), toward, out)?;
+        Ok(Some(step))
+    }
+
+    /// The longest step that can be taken in one measure of time.
+    fn longest(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        (wanted, least): (f64, f64),
+        toward: Option<&[DoubleDouble]>,
+        power: i32,
+    ) -> Result<Option<f64>, MotionError> {
+        self.power = power;
         let (mut step, mut wanted) = (wanted * FIRST, wanted);
         let mut found = None;
         for _ in 0..TRIALS {
             if step.abs() <= 1e-30 * from.time.abs() || step.abs() < least.max(1e-290) {
                 break;
             }
-            if !self.agree(rates, from, step, wanted, toward)? {
+            let jumps = least > 0.0 && !self.begins_inside(rates, from, step);
+            if jumps || !self.agree(rates, from, step, wanted, toward)? {
                 step *= AGAIN;
                 continue;
             }
-            self.put(from, DoubleDouble::from(step), out);
             found = Some(step);
             if step.abs() >= SHORT * wanted.abs() {
                 break;
@@ -147,7 +199,8 @@ impl CollocationStep {
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
         let start = numbers_of(from);
-        if !self.take(rates, from.exact_time(), &start, DoubleDouble::from(step), toward)? {
+        let whole = Piece { step: DoubleDouble::from(step), begin: 0.0, end: 1.0 };
+        if !self.take(rates, from.exact_time(), &start, &whole, toward)? {
             return Ok(false);
         }
         let whole = self.end.clone();
@@ -161,6 +214,20 @@ impl CollocationStep {
         }))
     }
 
+    /// Whether the rates at the beginning of a step change no velocity by more than the fastest in it:
+    /// else something lies there that the stages would step over.
+    fn begins_inside(&self, rates: &mut ExactRates, from: &State, step: f64) -> bool {
+        let start = numbers_of(from);
+        if rates.evaluate(from.exact_time(), &start).is_err() {
+            return true;
+        }
+        let (moving, half) = (self.moving, self.moving / 2);
+        let fastest = start[half..moving].iter().fold(0.0_f64, |m, v| m.max(v.high.abs()));
+        let changes = (half..moving).map(|i| (rates.rate(i).high * step).abs());
+        let largest = changes.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        fastest == 0.0 || largest <= fastest
+    }
+
     fn take_two(
         &mut self,
         rates: &mut ExactRates,
@@ -168,26 +235,39 @@ impl CollocationStep {
         step: DoubleDouble,
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
-        let (time, first) = (from.exact_time(), step * PART);
-        if !self.take(rates, time, &numbers_of(from), first, toward)? {
+        let time = from.exact_time();
+        let first = Piece { step, begin: 0.0, end: PART };
+        if !self.take(rates, time, &numbers_of(from), &first, toward)? {
             return Ok(false);
         }
         let middle = self.end.clone();
-        let done = self.take(rates, time + first, &middle, step - first, None)?;
+        let second = Piece { step, begin: PART, end: 1.0 };
+        let done = self.take(rates, time, &middle, &second, None)?;
         self.two.clone_from(&self.end);
         Ok(done)
     }
 
-    /// One step from a place, into `end`; false where the stages do not settle.
+    /// One piece of a step that begins at a time, from the numbers where the piece begins, into
+    /// `end`; false where the stages do not settle.
     fn take(
         &mut self,
         rates: &mut ExactRates,
         time: DoubleDouble,
         start: &[DoubleDouble],
-        step: DoubleDouble,
+        piece: &Piece,
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
-        let outcome = rates.evaluate(time, start);
+        let Piece { step, begin, end } = *piece;
+        let width = end - begin;
+        let power =
+            |s: DoubleDouble, n: i32| (0..n).fold(DoubleDouble::ONE, |product, _| product * s);
+        let places = self.scheme.at.map(|c| DoubleDouble::from(begin) + c * width);
+        let times = places.map(|s| time + step * power(s, self.power));
+        // dt/ds, times the length of the piece
+        let lengths =
+            places.map(|s| step * power(s, self.power - 1) * f64::from(self.power) * width);
+        let outcome =
+            rates.evaluate(time + step * power(DoubleDouble::from(begin), self.power), start);
         let known = outcome.is_ok();
         for i in 0..start.len() {
             let rate = if known { rates.rate(i) } else { DoubleDouble::ZERO };
@@ -197,17 +277,16 @@ impl CollocationStep {
                 stage[i] = rate;
             }
         }
-        let (at, from) = (self.scheme.at, self.scheme.from);
+        let from = self.scheme.from;
         let mut settled = false;
         for round in 0..ROUNDS {
             let mut moved = 0.0_f64;
             for s in 0..3 {
                 for (i, &x) in start.iter().enumerate() {
-                    let sum = (0..3)
-                        .fold(DoubleDouble::ZERO, |sum, j| sum + from[s][j] * self.stages[j][i]);
-                    self.numbers[i] = x + step * sum;
+                    let part = |j: usize| from[s][j] * lengths[j] * self.stages[j][i];
+                    self.numbers[i] = x + (0..3).fold(DoubleDouble::ZERO, |sum, j| sum + part(j));
                 }
-                match rates.evaluate(time + step * at[s], &self.numbers) {
+                match rates.evaluate(times[s], &self.numbers) {
                     Ok(()) => {}
                     Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                     Err(_) => return Ok(false),
@@ -215,8 +294,8 @@ impl CollocationStep {
                 for i in 0..start.len() {
                     let new = rates.rate(i);
                     let change = (new - self.stages[s][i]).high.abs();
-                    let size = start[i].high.abs().max((step * new).high.abs());
-                    let part = (change * step.high).abs() / size;
+                    let size = start[i].high.abs().max((lengths[s] * new).high.abs());
+                    let part = (change * lengths[s].high).abs() / size;
                     if change > 0.0 || change.is_nan() {
                         moved = if part.is_nan() { f64::INFINITY } else { moved.max(part) };
                     }
@@ -232,9 +311,8 @@ impl CollocationStep {
             }
         }
         for (i, &x) in start.iter().enumerate() {
-            let sum = (0..3)
-                .fold(DoubleDouble::ZERO, |sum, s| sum + self.scheme.weight[s] * self.stages[s][i]);
-            self.end[i] = x + step * sum;
+            let part = |s: usize| self.scheme.weight[s] * lengths[s] * self.stages[s][i];
+            self.end[i] = x + (0..3).fold(DoubleDouble::ZERO, |sum, s| sum + part(s));
         }
         Ok(settled && self.end.iter().all(|x| x.is_finite()))
     }

@@ -44,14 +44,19 @@ pub(super) struct Crossing {
 const LAST: f64 = 0.1;
 
 impl Crossing {
-    /// Whether the series still say something there, beyond the step they allow.
-    pub(super) fn is_known(&self, series: &Series) -> bool {
-        self.switches.iter().all(|&i| {
-            let switch = series.switch(i);
-            let last = switch.len() - 1;
-            let term = |k: usize| (switch[k] * math::powi(self.after.high, k as i32)).abs();
-            term(last).max(term(last - 1)) <= LAST * term(0)
-        })
+    /// Whether the series still say something there, beyond the step they allow: of the switches,
+    /// and to this part of every number.
+    pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
+        let last_of = |c: &[f64]| {
+            let term = |k: usize| (c[k] * math::powi(self.after.high, k as i32)).abs();
+            let last = c.len() - 1;
+            (term(last).max(term(last - 1)), (0..last).map(term).fold(0.0, f64::max))
+        };
+        let switches = self.switches.iter().map(|&i| series.switch(i));
+        switches.map(|c| (last_of(c).0, c[0].abs())).all(|(last, first)| last <= LAST * first)
+            && (0..series.inputs())
+                .map(|i| last_of(series.coefficients(i)))
+                .all(|(last, size)| last <= part * size)
     }
 }
 
@@ -114,9 +119,11 @@ impl Kinks {
             }
         }
         let (x, first) = earliest?;
-        let near = x + TOGETHER * end.min(x.max(1e-3 * end));
-        let switches = (0..series.switches()).filter(|&i| i == first || met(i, near).is_some());
-        let switches: Vec<usize> = switches.collect();
+        let width = TOGETHER * end.min(x.max(1e-3 * end));
+        // one that was only touched before is not met again here
+        let together =
+            |&i: &usize| i == first || met(i, x + width).is_some_and(|other| other >= x - width);
+        let switches: Vec<usize> = (0..series.switches()).filter(together).collect();
         let after = match series.sides()[first] {
             Side::Between => DoubleDouble::from(x),
             _ => self.polish(series, first, x),
@@ -248,4 +255,23 @@ fn candidates(before: &[Side]) -> Vec<Vec<Side>> {
     others.sort_by_key(|list| list.iter().filter(|side| **side == Side::Between).count());
     all.extend(others);
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_is_reported_by_a_term_above_a_billionth() {
+        assert_eq!(first_that_matters(&[0.0, 2e-9, 1.0], 1.0), Some(1));
+        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0), Some(2));
+        // in the unit of the time looked at
+        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 0.1), Some(1));
+    }
+
+    #[test]
+    fn five_switches_are_tried_in_every_combination_and_six_are_not() {
+        assert_eq!(candidates(&[Side::Positive; 5]).len(), 1 + 243);
+        assert_eq!(candidates(&[Side::Positive; 6]).len(), 2);
+    }
 }

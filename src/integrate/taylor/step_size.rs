@@ -149,3 +149,60 @@ fn of_one(logs: &[f64], log_tolerance: f64) -> f64 {
     }
     shortest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The logarithms of a series whose terms shrink by a factor from one to the next.
+    fn geometric(ratio: f64) -> Vec<f64> {
+        (0..29).map(|k| f64::from(k) * math::ln(ratio)).collect()
+    }
+
+    #[test]
+    fn a_step_leaves_last_terms_of_a_hundredth_of_the_tolerance() {
+        // of an entire function: |c_k| h^k = 1/k! · h^k, at h where the last is ε
+        let logs: Vec<f64> = std::iter::successors(Some((0.0, 0.0)), |(log, k): &(f64, f64)| {
+            Some((log - math::ln(k + 1.0), k + 1.0))
+        })
+        .map(|(log, _)| log)
+        .take(29)
+        .collect();
+        let tolerance = 1e-12 * SHARE;
+        let step = of_one(&logs, math::ln(tolerance));
+        let last = math::exp(logs[28] + 28.0 * math::ln(step));
+        let largest = (0..29).map(|k| math::exp(logs[k] + k as f64 * math::ln(step)));
+        let part = last / largest.fold(0.0, f64::max);
+        // earlier terms of the last ones are looked at as well: less than a hundredth is left
+        assert!((0.4e-15..4e-15).contains(&part), "{part:e}");
+    }
+
+    #[test]
+    fn a_step_stays_within_six_tenths_of_the_radius() {
+        // 1/(1 − t) has radius 1; a loose tolerance would lead beyond
+        let step = of_one(&geometric(1.0), math::ln(0.1));
+        assert!((0.59..0.61).contains(&step), "{step}");
+        // in any unit
+        let step = of_one(&geometric(4.0), math::ln(0.1));
+        assert!((0.147..0.153).contains(&step), "{step}");
+    }
+
+    #[test]
+    fn what_underflow_has_left_shortens_no_step() {
+        // FAINT is far below the last digit of the largest coefficient, and above what underflows
+        assert!(FAINT < 1e-250 && FAINT > f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn arguments_move_as_far_as_their_functions_stay_told() {
+        let line = |value: f64| [value, 1.0, 0.0, 0.0, 0.0];
+        let step = |function, value| of_argument(function, &line(value));
+        let near = |step: f64, wanted: f64| assert!((step / wanted - 1.0).abs() < 1e-9, "{step}");
+        near(step(FunctionId::Exp, 1.0), 6.0);
+        near(step(FunctionId::Exp, -749.0), 6.0);
+        // beyond the range of exponentials nothing changes until it comes back
+        near(step(FunctionId::Exp, -850.0), 50.0);
+        near(step(FunctionId::Ln, 100.0), 25.0);
+        near(step(FunctionId::Sin, 100.0), 6.0);
+    }
+}

@@ -207,7 +207,25 @@ fn a_claim_has_a_budget() {
                   [[events]]\nname = \"tick\"\nwhen = \"sin(100*t)\"\n\
                   [expect]\ncount = [{ name = \"tick\", until = 1e6, is = 1 }]";
     let file = one("x = { initial = 1 }", events);
-    with_file(&file, &["check", "system.toml"]).fails(65, &["`tick` happens", "not 1"]);
+    with_file(&file, &["check", "system.toml"]).fails(65, &["`tick` happens", "and more, not 1"]);
+    let more = file.replace("is = 1 }", "is = 31830988 }");
+    with_file(&more, &["check", "system.toml"]).fails(
+        65,
+        &[
+            "`tick` cannot be counted until t = 1000000: the ",
+            " steps that a check may take led only to t = ",
+        ],
+    );
+}
+
+#[test]
+fn a_root_that_is_squared_away_is_reported() {
+    let file = one("x = { initial = 1 }", "[lagrangian]\nL = \"1/2*x'^2 - (1 + sqrt(x)^2)\"");
+    let said = "`x` stands under a root that is squared away";
+    with_file(&file, &["check", "system.toml"]).says(said);
+    with_file(&file, &["derive", "system.toml"]).says("x ≥ 0");
+    let kept = file.replace("(1 + sqrt(x)^2)", "(sqrt(x) + sqrt(x)^2)");
+    assert!(!with_file(&kept, &["check", "system.toml"]).text().contains(said));
 }
 
 /// A claim is not true because the run ends before what makes it false; nor is its denial false.

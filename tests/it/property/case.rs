@@ -43,6 +43,12 @@ pub(crate) struct Case {
     pub(crate) dissipation: Vec<Tree>,
     pub(crate) forces: Vec<(usize, Tree)>,
     pub(crate) constraint: Option<Constraint>,
+    /// Of a Poisson system: {a, b} = −(A x)_c, around, with a symmetric A.
+    pub(crate) structure: [[f64; 3]; 3],
+    /// Whether the file claims that its energy is conserved.
+    pub(crate) claims: bool,
+    /// Which velocities of the start are given as momenta, beside the file.
+    pub(crate) by_momentum: Vec<usize>,
     /// Coordinates, then velocities or momenta.
     pub(crate) start: Vec<f64>,
     /// When, on which coordinate, and how much.
@@ -55,6 +61,9 @@ pub(crate) struct Case {
     pub(crate) tolerance: Option<f64>,
     pub(crate) units: Units,
 }
+
+/// The structure of an angular momentum.
+pub(crate) const ROTATIONS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Units {
     pub(crate) fn natural(count: usize) -> Units {
@@ -188,11 +197,19 @@ impl Case {
             Law::Poisson => {
                 let [x, y, z] = [0, 1, 2].map(|i| self.names[i].as_str());
                 let c = self.units.positions[0] / (energy * time);
+                let row = |i: usize| {
+                    let parts = (0..3).filter(|&j| self.structure[i][j] != 0.0);
+                    let part =
+                        |j: usize| format!("({:?})*{}", -c * self.structure[i][j], self.names[j]);
+                    let parts: Vec<String> = parts.map(part).collect();
+                    if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") }
+                };
+                let [of_x, of_y, of_z] = [0, 1, 2].map(row);
                 writeln!(
                     text,
                     "\n[poisson]\nH = \"{kinetic} + {potential}\"\nbrackets = [[\"{x}\", \"{y}\", \
-                     \"-{c:?}*{z}\"], [\"{y}\", \"{z}\", \"-{c:?}*{x}\"], [\"{z}\", \"{x}\", \
-                     \"-{c:?}*{y}\"]]"
+                     \"{of_z}\"], [\"{y}\", \"{z}\", \"{of_x}\"], [\"{z}\", \"{x}\", \
+                     \"{of_y}\"]]"
                 )
             }
         };
@@ -231,6 +248,9 @@ impl Case {
                 "\n[[events]]\nname = \"end\"\nwhen = \"{}\"\ndirection = \"either\"\naction = \"stop\"",
                 stop.write(&names)
             );
+        }
+        if self.claims {
+            let _ = writeln!(text, "\n[expect]\nconserves = [\"energy\"]");
         }
         let _ = writeln!(
             text,

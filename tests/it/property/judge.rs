@@ -11,11 +11,11 @@ use phaselab::claims::false_claims;
 use phaselab::diagnostic::{Document, Severity};
 use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::system::{ChannelKind, System};
+use phaselab::system::{ChannelKind, InitialOverride, System};
 
 use super::case::{Case, Law};
 use super::extrapolation::{Arrival, Lost, follow};
-use super::oracle::energy;
+use super::oracle::{energy, momentum};
 
 /// What may be wrong.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -32,6 +32,8 @@ pub(crate) enum Kind {
     DoesNotStart,
     /// A motion that goes on is ended by a fault of the default method.
     GivesUp,
+    /// A method that is not the default stops where the default goes on, and does not say so.
+    Unhelpful,
     /// A fault that does not say what and where.
     NoPlace,
     /// Completed, and wrong.
@@ -164,7 +166,17 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
     let conserved = equations.conserved.iter().map(|c| c.name.clone()).collect();
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let end = case.length * case.units.time;
-    let setup = Setup { end: Some(end), spacing: end / 1000.0, ..Setup::of(&model) };
+    let units = case.state_units();
+    let given = case.by_momentum.iter().map(|&i| {
+        let p = momentum(case, 0.0, &case.start, i);
+        InitialOverride::Momentum(i, p * case.units.energy * case.units.time / units[i])
+    });
+    let setup = Setup {
+        end: Some(end),
+        spacing: end / 1000.0,
+        overrides: given.collect(),
+        ..Setup::of(&model)
+    };
     let mut experiment =
         Experiment::new(&model, &equations, &system, setup).map_err(|_| Outcome::Unfit)?;
     let mut left = budget.steps;
@@ -267,7 +279,10 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         if !message.contains(" at t = ") && told.time > 0.0 || message.is_empty() {
             return failed(Kind::NoPlace, message);
         }
-        if told.time == 0.0 && told.check.is_empty() {
+        if message.contains("belongs to several starts") {
+            return Outcome::Stopped;
+        }
+        if told.time == 0.0 && told.check.is_empty() && case.by_momentum.is_empty() {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
     }
@@ -293,6 +308,9 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
     match &told.end {
         End::Fault(message) if default => {
             return failed(Kind::GivesUp, message);
+        }
+        End::Fault(message) if !message.contains("passes it") => {
+            return failed(Kind::Unhelpful, message);
         }
         End::Fault(_) => return Outcome::Stopped,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {

@@ -62,8 +62,9 @@ pub(crate) fn rates(case: &Case, time: f64, state: &[f64], branches: &mut Branch
         }
         Law::Poisson => {
             let slope = kinetic.plus(&potential).slope;
-            // {a, b} = −c, around
-            let x = state;
+            // {a, b} = −(A x)_c, around
+            let row = |i: usize| (0..3).map(|j| case.structure[i][j] * state[j]).sum::<f64>();
+            let x = [row(0), row(1), row(2)];
             vec![
                 -x[2] * slope[1] + x[1] * slope[2],
                 x[2] * slope[0] - x[0] * slope[2],
@@ -154,6 +155,15 @@ pub(crate) fn energy(case: &Case, time: f64, state: &[f64]) -> (f64, f64) {
         }
         _ => (kinetic.value + potential.value, kinetic.value.abs() + potential.value.abs()),
     }
+}
+
+/// The momentum of a coordinate of a Lagrangian.
+pub(crate) fn momentum(case: &Case, time: f64, state: &[f64], i: usize) -> f64 {
+    let at = point(case, time, state);
+    let kinetic = total(&case.kinetic, &at, &mut Branches::default());
+    let potential = total(&case.potential, &at, &mut Branches::default());
+    let n = case.count();
+    kinetic.slope[n + i] - potential.slope[n + i]
 }
 
 /// The state after the momentum of a coordinate has jumped; none where the velocities are not found.

@@ -1,6 +1,6 @@
 //! Random systems and runs of them, in natural units and in any others.
 
-use super::case::{Case, Constraint, Law, Units};
+use super::case::{Case, Constraint, Law, ROTATIONS, Units};
 use super::dice::Dice;
 use super::jet::Jet;
 use super::tree::{
@@ -29,6 +29,9 @@ pub(crate) fn case(seed: u64, index: u64) -> Case {
         dissipation: Vec::new(),
         forces: Vec::new(),
         constraint: None,
+        structure: ROTATIONS,
+        claims: false,
+        by_momentum: Vec::new(),
         start: (0..2 * n).map(|_| dice.between(-1.2, 1.2)).collect(),
         impulse: None,
         stop: None,
@@ -63,7 +66,19 @@ pub(crate) fn case(seed: u64, index: u64) -> Case {
     if dice.chance(0.1) {
         case.stop = Some(sum([variable(0), number(-dice.between(-1.5, 1.5))]));
     }
+    if law == Law::Poisson && dice.chance(0.6) {
+        for i in 0..3 {
+            for j in 0..=i {
+                let entry = dice.between(-1.0, 1.0);
+                (case.structure[i][j], case.structure[j][i]) = (entry, entry);
+            }
+        }
+    }
+    if law == Law::Lagrangian && case.constraint.is_none() && dice.chance(0.15) {
+        case.by_momentum = (0..n).filter(|_| dice.chance(0.7)).collect();
+    }
     method(&mut case, &mut dice);
+    case.claims = case.keeps_energy() && dice.chance(0.2);
     units(&mut case, &mut dice);
     case
 }

@@ -1,6 +1,6 @@
 //! The smallest case that still fails in the same way, as far as leaving parts out finds it.
 
-use super::case::{Case, Units};
+use super::case::{Case, ROTATIONS, Units};
 use super::tree::Tree;
 
 /// Simpler cases, the simplest first.
@@ -15,6 +15,9 @@ fn simpler(case: &Case) -> Vec<Case> {
     };
     add(&|c| c.units = Units::natural(c.count()));
     add(&|c| c.units.as_parameters = false);
+    add(&|c| c.by_momentum.clear());
+    add(&|c| c.claims = false);
+    add(&|c| c.structure = ROTATIONS);
     add(&|c| c.impulse = None);
     add(&|c| c.stop = None);
     add(&|c| c.constraint = None);

@@ -163,9 +163,31 @@ fn sides_are_chosen_before_a_series_is_judged() {
 }
 
 #[test]
-fn an_edge_without_a_limit_is_reported_with_its_place() {
+fn a_force_that_grows_without_bound_is_passed_where_the_velocity_does_not() {
+    // from rest at 1, √|x| is passed after (4/3) √2, |x|^(1/3) after ∫ dx / √(2 (1 − x^(1/3)))
+    let quarter = 4.0 / 3.0 * 2.0_f64.sqrt();
     let mut run = potential("1.0", "0.0", "sqrt(abs(x))");
-    let fault = run.try_to(10.0).expect_err("the force grows beyond all bounds");
+    near(&run.to(4.0 * quarter), &[1.0, 0.0], 1e-13);
+    near(&run.columns()[3..4], &[1.0], 1e-14);
+    let quarter = 3.0 / 2.0_f64.sqrt() * 16.0 / 15.0;
+    let mut run = potential("1.0", "0.0", "abs(x)^(1/3)");
+    // the tip is met to 1e-30, of which the third root is 1e-10
+    near(&run.to(4.0 * quarter), &[1.0, 0.0], 4e-9);
+}
+
+#[test]
+fn a_tip_that_is_only_touched_is_not_met_again_later() {
+    // x = 1 − t²/2 + … reaches the tip |x| = 0 at rest at t = 2, and the inner one at 1 and 3
+    let mut run = potential("1.0", "0.0", "abs(abs(x) - 0.5)");
+    let state = run.to(3.5).to_vec();
+    near(&[state[0].abs(), state[1].abs()], &[0.875, 0.5], 1e-7);
+    near(&run.columns()[3..4], &[0.5], 1e-14);
+}
+
+#[test]
+fn a_place_without_a_limit_is_reported() {
+    let mut run = potential("1.0", "0.0", "ln(abs(x))");
+    let fault = run.try_to(10.0).expect_err("the velocity grows beyond all bounds");
     assert!(
         matches!(fault.kind, MotionErrorKind::Rough | MotionErrorKind::StepUnderflow(_)),
         "{fault}"

@@ -1,0 +1,187 @@
+//! Places where a method stops, or used to: passed, or reported with what passes them.
+
+use phaselab::experiment::{Experiment, Progress, Status};
+
+use crate::cli::with_file;
+use crate::experiment::{PLENTY, build, run, value};
+
+fn file(text: &str) -> Experiment {
+    build(&format!("title = 'a test'\n{text}"), |_| ())
+}
+
+fn by(method: &str, step: Option<f64>, text: &str) -> Experiment {
+    build(&format!("title = 'a test'\n{text}"), |setup| {
+        method.clone_into(&mut setup.method);
+        setup.settings.step = step;
+    })
+}
+
+/// The message of the fault on the way to a time.
+fn fault(mut experiment: Experiment, time: f64) -> String {
+    assert_ne!(experiment.advance(time, PLENTY), Progress::Arrived);
+    match experiment.status() {
+        Status::Failed(fault) => fault.message.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+const DRIVEN: &str = r#"
+[coordinates]
+x = { initial = 0.0 }
+y = { initial = 0.0 }
+[lagrangian]
+L = "1/2*(x'^2 + y'^2)"
+forces = { x = "-0.8*x'/sqrt(x'^2+y'^2) + 1.2*sin(t)", y = "-0.8*y'/sqrt(x'^2+y'^2)" }
+"#;
+
+const IN_MOMENTA: &str = r#"
+[coordinates]
+x = { initial = 0.0, momentum = 1.0 }
+y = { initial = 0.0, momentum = 0.5 }
+[hamiltonian]
+H = "1/2*(p_x^2 + p_y^2)"
+forces = { x = "-0.8*p_x/sqrt(p_x^2+p_y^2)", y = "-0.8*p_y/sqrt(p_x^2+p_y^2)" }
+"#;
+
+/// A body on a plane sticks until the force beats friction, slides, and sticks again.
+#[test]
+fn dry_friction_in_the_plane_with_a_force_that_depends_on_time() {
+    let mut body = file(DRIVEN);
+    run(&mut body, 0.7);
+    assert_eq!([value(&body, "x"), value(&body, "x'")], [0.0, 0.0]);
+    // it sets out where 1.2 sin t = 0.8
+    let begin = (0.8_f64 / 1.2).asin();
+    let slides = |t: f64| {
+        let after = t - begin;
+        let v = 1.2 * (begin.cos() - t.cos()) - 0.8 * after;
+        let x = 1.2 * (begin.cos() * after - (t.sin() - begin.sin())) - 0.4 * after * after;
+        [x, v]
+    };
+    for t in [0.75, 1.0, 2.0] {
+        run(&mut body, t);
+        let [x, v] = slides(t);
+        let error = (value(&body, "x") - x).abs().max((value(&body, "x'") - v).abs());
+        assert!(error < 1e-14, "at {t}: {error:e}");
+    }
+    // at rest again before the force turns round
+    let (mut moves, mut rests) = (2.0, 4.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (moves + rests);
+        if slides(middle)[1] > 0.0 { moves = middle } else { rests = middle }
+    }
+    run(&mut body, 3.14);
+    if rests < 3.14 {
+        assert_eq!(value(&body, "x'"), 0.0);
+        assert!((value(&body, "x") - slides(rests)[0]).abs() < 1e-13);
+    }
+    assert_eq!([value(&body, "y"), value(&body, "y'")], [0.0, 0.0]);
+}
+
+#[test]
+fn dry_friction_in_the_plane_of_a_hamiltonian() {
+    let mut body = file(IN_MOMENTA);
+    run(&mut body, 5.0);
+    // p²/2 = 0.8 s
+    let (p, length) = (1.25_f64.sqrt(), 1.25 / 1.6);
+    let error =
+        (value(&body, "x") - length / p).abs().max((value(&body, "y") - 0.5 * length / p).abs());
+    assert!(error < 1e-14, "{error:e}");
+    assert_eq!([value(&body, "p_x"), value(&body, "p_y")], [0.0, 0.0]);
+}
+
+/// What a run of a file says, and how.
+fn said(text: &str, arguments: &[&str]) -> String {
+    let text = format!("title = 'a test'\n{text}");
+    with_file(&text, &[&["run", "system.toml"], arguments].concat()).text()
+}
+
+/// A method that stops says which one goes on.
+#[test]
+fn a_fault_names_the_method_that_passes() {
+    let message = said(IN_MOMENTA, &["--method", "dop853", "--until", "12"]);
+    assert!(message.contains("; --method taylor passes it"), "{message}");
+    let root = "[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - sqrt(abs(x))\"";
+    let message = said(root, &["--method", "dop853", "--until", "6"]);
+    assert!(message.contains("; --method taylor passes it"), "{message}");
+    // nothing leads through a collision, nor over it
+    let message = said(&root.replace("- sqrt(abs(x))", "+ 1/x^2"), &["--until", "5"]);
+    assert!(message.contains("# faulted") && !message.contains("passes"), "{message}");
+}
+
+const PARALLELOGRAM: &str = r#"
+[coordinates]
+a = { initial = 0, velocity = 1 }
+p = { initial = 0 }
+b = { initial = 0 }
+[lagrangian]
+L = "1/2*(a'^2 + b'^2 + p'^2) - cos(a)"
+[[constraints]]
+name = "x1"
+expression = "sin(a) + cos(p) - 1 - sin(b)"
+[[constraints]]
+name = "y1"
+expression = "cos(a) + sin(p) - cos(b)"
+"#;
+
+#[test]
+fn bars_in_line_are_reported_with_a_step_that_passes_them() {
+    let message = said(PARALLELOGRAM, &["--until", "4"]);
+    let told = message.contains("# faulted: singular configuration of the constraints at t = 3.59");
+    assert!(told && message.contains("; --method rk4 --step "), "{message}");
+}
+
+/// p = v³ − v turns back at v = 1/√3.
+#[test]
+fn a_fixed_step_does_not_jump_to_another_branch() {
+    let branched = "[coordinates]\nx = { initial = 0.3, velocity = 1.5 }\n[lagrangian]\n\
+                    L = \"1/4*x'^4 - 1/2*x'^2 - 1/2*x^2\"";
+    for step in [0.3, 0.01] {
+        let message = fault(by("rk4", Some(step), branched), 10.0);
+        assert!(message.starts_with("the branch of the velocities ends after t = 1."), "{message}");
+    }
+}
+
+/// The constraint whose multiplier is solved for may become useless where another one is not.
+#[test]
+fn redundant_constraints_are_chosen_anew_on_the_way() {
+    let hoop = r#"
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 1.0 }
+[lagrangian]
+L = "1/2*(x'^2 + y'^2)"
+[[constraints]]
+name = "product"
+expression = "y*(x^2 + y^2 - 1)"
+[[constraints]]
+name = "hoop"
+expression = "x^2 + y^2 - 1"
+"#;
+    let mut bead = file(hoop);
+    run(&mut bead, 10.0);
+    let error =
+        (value(&bead, "x") - 10.0_f64.sin()).abs().max((value(&bead, "y") - 10.0_f64.cos()).abs());
+    assert!(error < 1e-13, "{error:e}");
+}
+
+/// A momentum belongs to a velocity far from rest.
+#[test]
+fn a_single_momentum_is_solved_for_however_far_its_velocity() {
+    for (kinetic, momentum, velocity) in [
+        ("cosh(x')", 1e12, 1e12_f64.asinh()),
+        ("x'*atan(x') - 1/2*ln(1 + x'^2)", 1.5707, 1.5707_f64.tan()),
+        ("-sqrt(1 - x'^2)", 1e4, 1e4 / (1.0 + 1e8_f64).sqrt()),
+        ("exp(x')", 1e-12, 1e-12_f64.ln()),
+    ] {
+        let text = format!(
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 0.0 }}\n[lagrangian]\nL = \"{kinetic}\""
+        );
+        let (model, system) = crate::system::compile(&text);
+        let given = [phaselab::system::InitialOverride::Momentum(0, momentum)];
+        let state = system.initial(0.0, &model.parameter_values(), &given);
+        let state = state.unwrap_or_else(|fault| panic!("{kinetic}: {fault}"));
+        let error = (state.values[1] - velocity).abs() / velocity.abs();
+        assert!(error < 1e-11, "{kinetic}: {} for {velocity}", state.values[1]);
+    }
+}
