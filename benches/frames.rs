@@ -1,4 +1,4 @@
-//! How many bytes frames take: those of `view::frame` against those of ratatui's `CrosstermBackend` alone.
+//! The number of bytes in frames: `view::frame` compared with ratatui's `CrosstermBackend` alone.
 //!
 //! `cargo bench --bench frames` prints a line for each system and each depth of colour: the mean bytes of a frame in ten
 //! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds.
@@ -24,7 +24,7 @@ const SIZE: Size = Size { width: 80, height: 24 };
 const FIRST: u32 = 60;
 const COUNT: u32 = 300;
 
-/// A system in motion, drawn.
+/// A system in motion that is drawn.
 struct Motion {
     app: App,
     experiment: Experiment,

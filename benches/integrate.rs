@@ -1,9 +1,9 @@
-//! How fast motions are computed. Short by default: `cargo bench --bench integrate`.
+//! The speed of integration. Short by default: `cargo bench --bench integrate`.
 //!
-//! - `unit of time`: one unit of a motion by the default method; steps in one such unit are
-//!   printed beside, so that steps per second follow.
+//! - `unit of time`: one unit of time of a motion by the default method; the number of steps in it is
+//!   printed too and gives the steps per second.
 //! - `rates`: one evaluation of the equations of motion, compiled from the file's expressions and
-//!   written by hand. The quotient is printed; it was measured in the same run.
+//!   hand-written. Their quotient is printed; it is measured in the same run.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
@@ -16,7 +16,7 @@ use phaselab::mechanics;
 use phaselab::preset;
 use phaselab::system::{Rates, State, System};
 
-/// The rates of change of a state, written by hand.
+/// Hand-written rates of change of a state.
 type ByHand = fn(&[f64], &mut [f64]);
 
 /// A motion to be measured.
@@ -141,7 +141,7 @@ fn unit_of_time(criterion: &mut Criterion) {
     }
 }
 
-/// Steps in a unit of time, over a hundred of them.
+/// Counts the steps in a unit of time, averaged over a hundred.
 fn steps(stepper: &mut dyn Stepper) -> f64 {
     let mut count = 0.0;
     while stepper.time() < 100.0 {
@@ -158,7 +158,7 @@ fn rates(criterion: &mut Criterion) {
         let (system, state) = open(motion);
         let mut rates = system.native_rates();
         rates.set_parameters(&[]);
-        // away from the start, where too much is zero
+        // A state away from the start, where too many values are zero.
         let numbers: Vec<f64> =
             state.values.iter().enumerate().map(|(i, x)| x + 0.1 + 0.05 * i as f64).collect();
         let mut out = [vec![0.0; numbers.len()], vec![0.0; numbers.len()]];
@@ -182,8 +182,8 @@ fn rates(criterion: &mut Criterion) {
     }
 }
 
-/// The time of a compiled evaluation by that of a hand-written one: the median of rounds in which
-/// both take turns, so that a machine that slows down slows both.
+/// Returns the time of a compiled evaluation relative to a hand-written one: the median of rounds in
+/// which both alternate, so that a machine that slows down slows both.
 fn quotient(rates: &mut Rates, by_hand: ByHand, numbers: &[f64]) -> f64 {
     const CALLS: usize = 2000;
     let mut out = vec![0.0; numbers.len()];

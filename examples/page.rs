@@ -1,7 +1,8 @@
-//! A page of one's own in phaselab's shell: a clock that runs until it is reported otherwise.
+//! A custom page in phaselab's shell: a clock that runs until it is paused.
 //!
-//! `cargo run --example page`, then: Space holds it, `f` fills the screen with its digits, `i` opens a line of text, `M` has the mouse reported, `z` suspends, `p` panics, `t` panics on
-//! another thread, `q` quits. The tests of the shell run it on a pseudo-terminal.
+//! Run `cargo run --example page`. Space pauses the clock, `f` fills the screen with its digits, `i` opens a line of
+//! text, `M` turns on mouse reporting, `z` suspends, `p` panics, `t` panics on another thread, and `q` quits. The tests
+//! of the shell run it on a pseudo-terminal.
 
 use std::io::{Write, stderr};
 use std::process::ExitCode;
@@ -98,13 +99,13 @@ impl Screen for Clock {
         for ((y, line), style) in (area.y..area.bottom()).zip(lines).zip(styles) {
             buffer.set_stringn(area.x, y, line, area.width.into(), style);
         }
-        // The last cell of all shows that the whole screen is reached.
+        // The last cell shows that the whole screen is drawn.
         if let Some(cell) =
             buffer.cell_mut((area.right().wrapping_sub(1), area.bottom().wrapping_sub(1)))
         {
             cell.set_symbol("#");
         }
-        // The terminal's cursor stands in the line of text, and nowhere else.
+        // The terminal's cursor is shown only in the line of text.
         let long = self.typing.as_ref()?.chars().count() as u16;
         Some(Position::new(6 + long, 3))
     }

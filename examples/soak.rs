@@ -1,6 +1,6 @@
-//! A long run without a terminal: so many frames of a system in motion on a virtual clock, and the memory they take.
+//! A long run without a terminal: draws many frames of a system in motion on a virtual clock and measures their memory.
 //!
-//! `cargo run --release --example soak -- double-pendulum 1000000` ends with status 1 if the memory in use has grown by
+//! `cargo run --release --example soak -- double-pendulum 1000000` exits with status 1 if the memory in use has grown by
 //! more than a twentieth since the first tenth of the frames.
 
 use std::io::{Write, stdout};
@@ -19,7 +19,7 @@ use phaselab::view::theme::Theme;
 use phaselab::view::{self, RenderStyle};
 use ratatui::layout::Size;
 
-/// Pages of memory in use, as Linux counts them.
+/// Returns the number of memory pages in use, as Linux counts them.
 fn memory() -> Result<u64> {
     let text = std::fs::read_to_string("/proc/self/statm")?;
     let pages = text.split_whitespace().nth(1).ok_or_else(|| eyre!("no count of pages"))?;

@@ -1,9 +1,9 @@
-//! The application: what is on the screen and what a key means there.
+//! The application: what is on the screen and what each key does there.
 //!
 //! In: [`Event`]s. Out: [`Effect`]s, and the state that `view` draws. Pure: the same events give the same state.
 //! Never here: a clock, a thread, a file, a terminal, or how anything looks.
 //!
-//! A key goes through [`keymap::KEYS`] to an [`Action`]; `perform` carries it out.
+//! A key is looked up in [`keymap::KEYS`], which gives an [`Action`]; `perform` carries it out.
 
 mod action;
 mod buffer;

@@ -1,7 +1,7 @@
-//! A request to stop, shared by whoever asks and whatever is at work: one atomic flag.
+//! A request to stop, shared between the requester and the work in progress: one atomic flag.
 //!
-//! A system that is opened has one token: its [`Pool`](crate::expr::Pool) looks at it while
-//! expressions grow, the compiled [`System`](crate::system::System) while series are built and
+//! Each opened system has one token. Its [`Pool`](crate::expr::Pool) checks it while expressions
+//! grow, and the compiled [`System`](crate::system::System) checks it while series are built and
 //! steps are taken. Never here: signals, clocks, threads.
 
 use std::sync::Arc;
@@ -12,12 +12,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// A token of its own that nobody has set.
+    /// Creates a separate token that is not set.
     pub fn new() -> Cancel {
         Cancel::default()
     }
 
-    /// A token over a flag that a signal handler may set.
+    /// Creates a token from a flag that a signal handler may set.
     pub fn of(flag: Arc<AtomicBool>) -> Cancel {
         Cancel(flag)
     }
@@ -27,7 +27,7 @@ impl Cancel {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked.
+    /// Returns whether a stop has been requested.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -1,8 +1,9 @@
-//! What is wrong with a text, and where: documents, diagnostics in their places, the nearest right word.
+//! What is wrong with a text, and where: documents, diagnostics with their places, suggestions for
+//! misspelt words.
 //!
-//! In: the text of a file, and what a reader finds wrong in it. Out: a [`report()`] with file, line, column, a caret under
-//! the place, the reason, and what would be right. Used by presets, scripts, configuration and casts. Never here: what any
-//! text means.
+//! In: the text of a file, and the mistakes a reader finds in it. Out: a [`report()`] with file,
+//! line, column, a caret under the place, the reason, and a correction. Presets, scripts,
+//! configuration and casts use it. Never here: what any text means.
 
 mod document;
 mod list;

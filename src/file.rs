@@ -1,7 +1,8 @@
-//! Files as they are read: what they are is looked at first, and no more is read than is wanted.
+//! Bounded reading of files: the type of a file is checked first, and only the bytes needed are
+//! read.
 //!
-//! In: a path and a limit. Out: bytes, or why there are none. A pipe that nobody writes to, a device
-//! without an end, a folder: each is refused instead of being waited for. Never here: what the bytes
+//! In: a path and a limit. Out: bytes, or why there are none. A pipe without a writer, an endless
+//! device, a folder: each is refused instead of blocking the program. Never here: what the bytes
 //! mean; writing.
 
 use std::fs::{File, FileType, Metadata, OpenOptions};
@@ -12,18 +13,20 @@ use std::path::Path;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
 
-/// How long a pipe may stay silent, in seconds: a program that writes into it is at work meanwhile.
+/// How long a pipe may stay silent, in seconds, while the program that writes into it is working.
 const SILENCE: i64 = 10;
 
-/// How long somebody is waited for who opens the other end of a pipe: so many looks, so far apart.
-const LOOKS: u32 = 20;
-const BETWEEN: Timespec = Timespec { tv_sec: 0, tv_nsec: 50_000_000 };
+/// The number of attempts to read from a pipe that nobody has opened for writing yet, and the
+/// interval between them.
+const ATTEMPTS: u32 = 20;
+const INTERVAL: Timespec = Timespec { tv_sec: 0, tv_nsec: 50_000_000 };
 
-/// The bytes of a file, and how long it is: never more than `most` and one, by which a file that is
-/// too long is known.
+/// Reads a file or a pipe, and returns its bytes and its size. It reads at most `most` + 1 bytes;
+/// the extra byte shows that a file is too long.
 ///
 /// # Errors
-/// Those of opening and reading it; where it is no file; where a pipe stays silent.
+/// Returns an error if it cannot be opened or read, if it is neither a file nor a pipe, or if a
+/// pipe stays silent.
 pub fn read(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
     let (file, about) = open(path)?;
     if about.file_type().is_fifo() {
@@ -34,20 +37,20 @@ pub fn read(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
     whole(file, &about, most)
 }
 
-/// The same of a regular file alone: nothing is waited for.
+/// Reads a regular file only, so it never has to wait.
 ///
 /// # Errors
-/// Those of opening and reading it; where it is no regular file.
+/// Returns an error if the file cannot be opened or read, or if it is not a regular file.
 pub fn read_regular(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
     let (file, about) = open(path)?;
     check_regular(about.file_type())?;
     whole(file, &about, most)
 }
 
-/// Refuses what is no regular file.
+/// Checks that a file is a regular file.
 ///
 /// # Errors
-/// What it is instead.
+/// Returns an error that names what it is instead.
 pub fn check_regular(kind: FileType) -> io::Result<()> {
     if kind.is_fifo() { Err(refusal("it is a pipe, not a file")) } else { readable(kind) }
 }
@@ -59,9 +62,9 @@ fn whole(file: File, about: &Metadata, most: u64) -> io::Result<(Vec<u8>, u64)> 
     Ok((bytes, size))
 }
 
-/// Opens what can be read to an end, without waiting for anybody.
+/// Opens something that has an end to be read to, without blocking.
 fn open(path: &Path) -> io::Result<(File, Metadata)> {
-    // before it is opened: a device may do something when it is
+    // checked before opening, because opening a device may have an effect
     readable(std::fs::metadata(path)?.file_type())?;
     let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
     let file = OpenOptions::new().read(true).custom_flags(flags.bits() as i32).open(path)?;
@@ -86,17 +89,17 @@ fn refusal(what: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, what)
 }
 
-/// All that is written into a pipe until its other end is closed.
+/// Reads everything that is written into a pipe until its other end is closed.
 fn from_pipe(mut file: &File, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut chunk = [0; 8192];
-    let mut looks = 0;
+    let mut attempts = 0;
     while bytes.len() as u64 <= most {
         match file.read(&mut chunk) {
-            // before its first byte, an end only says that nobody has opened the other end yet
-            Ok(0) if bytes.is_empty() && looks < LOOKS => {
-                looks += 1;
-                wait(&mut [], BETWEEN)?;
+            // before the first byte, an end only means that nobody has opened the other end yet
+            Ok(0) if bytes.is_empty() && attempts < ATTEMPTS => {
+                attempts += 1;
+                wait(&mut [], INTERVAL)?;
             }
             Ok(0) if bytes.is_empty() => {
                 return Err(refusal("it is a pipe that nothing was written into"));

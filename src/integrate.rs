@@ -1,7 +1,7 @@
 //! Steps in time: one table of methods, one file per method.
 //!
-//! In: a [`System`](crate::system::System) and a state. Out: steppers, which carry the state from
-//! step to step and tell it anywhere inside the last one. Never here: rows, gauges, clocks.
+//! In: a [`System`](crate::system::System) and a state. Out: steppers, which advance the state step
+//! by step and evaluate it anywhere inside the last one. Never here: rows, gauges, wall clocks.
 
 mod clock;
 mod dop853;

@@ -1,7 +1,8 @@
-//! A job: a computation on the side of the one experiment, with a name, progress, a token that stops it, and a result.
+//! A job: a computation in the background of the experiment, with a name, progress, a cancellation token and a
+//! result.
 //!
-//! In: what is to be computed. Out: an [`Outcome`]. It runs wherever it is called: on a thread of its own in the
-//! laboratory, at once where nobody waits for a frame. Never here: threads, clocks, or what is computed.
+//! In: a function. Out: an [`Outcome`]. A job runs wherever it is called: on its own thread in the laboratory, or
+//! directly without a screen. Never here: threads, clocks, or what is computed.
 
 use std::any::Any;
 use std::fmt;
@@ -11,28 +12,28 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::cancel::Cancel;
 
-/// What a job does: it tells how far it is, looks whether it is to stop, and returns a result.
+/// The work of a job: it reports its progress, checks for cancellation, and returns a result.
 type Work<T> = dyn Fn(&Progress) -> T + Send + Sync;
 
-/// A computation that can be carried elsewhere before it runs. The same job gives the same result wherever it runs.
+/// A computation that can be sent to another thread. The same job gives the same result wherever it runs.
 pub struct Job<T> {
-    /// What it does, in a few words: "level curves of the energy".
+    /// A short description: "level curves of the energy".
     pub name: String,
     work: Arc<Work<T>>,
 }
 
-/// What became of a job.
+/// The outcome of a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome<T> {
-    /// It ran to its end.
+    /// It finished.
     Done(T),
-    /// Somebody asked it to stop, so what it returned is not used.
+    /// It was cancelled, so its result is discarded.
     Cancelled,
-    /// It could not run to its end; a sentence.
+    /// It failed, for the reason given in a sentence.
     Failed(String),
 }
 
-/// How far a job is, and whether it is to stop. Clones share both.
+/// The progress of a job and its cancellation. Clones share both.
 #[derive(Clone, Debug, Default)]
 pub struct Progress {
     cancel: Cancel,
@@ -40,17 +41,17 @@ pub struct Progress {
     total: Arc<AtomicU64>,
 }
 
-/// How far a job is.
+/// How much of a job is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Share {
-    /// How much is done. It never becomes less.
+    /// The amount done, which never decreases.
     pub done: u64,
-    /// Of how much; `None` where that is not known.
+    /// The total amount, or `None` if it is unknown.
     pub total: Option<u64>,
 }
 
 impl<T> Job<T> {
-    /// A job of a name.
+    /// Creates a named job.
     pub fn new(
         name: impl Into<String>,
         work: impl Fn(&Progress) -> T + Send + Sync + 'static,
@@ -58,9 +59,9 @@ impl<T> Job<T> {
         Self { name: name.into(), work: Arc::new(work) }
     }
 
-    /// Runs it to its end. A panic is caught and reported.
+    /// Runs the job. A panic is caught and reported.
     pub fn run(&self, progress: &Progress) -> Outcome<T> {
-        // what a panic leaves undone belongs to the job alone, and is dropped with it
+        // whatever a panic leaves half done belongs to the job alone and is dropped with it
         let made = catch_unwind(AssertUnwindSafe(|| (self.work)(progress)));
         match made {
             _ if progress.is_cancelled() => Outcome::Cancelled,
@@ -74,7 +75,7 @@ impl<T> Job<T> {
     }
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn reason(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given")
@@ -92,7 +93,7 @@ impl<T> fmt::Debug for Job<T> {
     }
 }
 
-/// Jobs are equal where they are the same job.
+/// Jobs are equal if they are the same job.
 impl<T> PartialEq for Job<T> {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.work, &other.work)
@@ -100,37 +101,37 @@ impl<T> PartialEq for Job<T> {
 }
 
 impl Progress {
-    /// Nothing is done, and nobody has asked to stop.
+    /// Creates a progress with nothing done and no cancellation.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The token that stops the job, for what it calls.
+    /// The cancellation token, for the functions that the job calls.
     pub fn token(&self) -> &Cancel {
         &self.cancel
     }
 
-    /// Asks the job to stop.
+    /// Cancels the job.
     pub fn cancel(&self) {
         self.cancel.cancel();
     }
 
-    /// Whether somebody asked it to stop.
+    /// Whether the job was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
 
-    /// How much there is to do.
+    /// Sets the total amount.
     pub fn expect(&self, total: u64) {
         self.total.store(total, Ordering::Relaxed);
     }
 
-    /// So much is done; less than before is not taken.
+    /// Sets the amount done; a smaller amount than before is ignored.
     pub fn reach(&self, done: u64) {
         self.done.fetch_max(done, Ordering::Relaxed);
     }
 
-    /// How far the job is.
+    /// How much of the job is done.
     pub fn share(&self) -> Share {
         let total = self.total.load(Ordering::Relaxed);
         let done = self.done.load(Ordering::Relaxed);

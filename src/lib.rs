@@ -1,7 +1,7 @@
-//! phaselab: a laboratory for analytical mechanics that lives in a terminal.
+//! phaselab: a laboratory for analytical mechanics in a terminal.
 //!
-//! The way of the data, one folder a stage: a file becomes a [`model`], the model [`mechanics`]'
-//! equations, …; `ARCHITECTURE.md` has the whole picture.
+//! The data flows through one folder per stage: a file becomes a [`model`], the model
+//! [`mechanics`]' equations, and so on; `ARCHITECTURE.md` has the whole picture.
 
 #![warn(clippy::disallowed_methods)]
 

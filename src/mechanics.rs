@@ -1,7 +1,7 @@
-//! From a law to equations of motion: one file per arrow, all of it symbolic.
+//! From a law to equations of motion: one file per derivation step, all of it symbolic.
 //!
-//! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, energy and the law
-//! of its change, what is conserved and why. Never here: numbers in motion.
+//! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, the energy and its
+//! rate of change, conserved quantities and their reasons. Never here: numerical motion.
 
 mod attitude;
 mod bracket;

@@ -1,6 +1,6 @@
-//! A checked system: every name resolved, nothing left to guess, nothing yet derived.
+//! A checked system: every name resolved, nothing ambiguous, nothing derived yet.
 //!
-//! In: what `preset` read and checked. Out: one [`Model`], the input of `mechanics`. Its
+//! In: what `preset` has read and checked. Out: one [`Model`], the input of `mechanics`. Its
 //! expressions live in its own [`Pool`]. Never here: files, spans of TOML, equations of motion.
 
 mod body;

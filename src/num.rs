@@ -1,8 +1,9 @@
-//! Numbers: the arithmetic everything else is computed in.
+//! Numbers: the arithmetic in which everything else is computed.
 //!
-//! In and out: numbers. [`Real`] is what a program is evaluated in: `f64`, [`DoubleDouble`] where twice its digits are
-//! wanted, [`ExtendedRange`] where something leaves the range of both. A [`Number`] stands in an expression. [`math`] has
-//! the elementary functions, the same bits on every machine. Never here: expressions, units, files.
+//! In and out: numbers. A program is evaluated in a [`Real`]: `f64`, [`DoubleDouble`] for twice its
+//! digits, [`ExtendedRange`] for values outside the range of both. A [`Number`] is a constant in an
+//! expression. [`math`] has the elementary functions, with the same bits on every machine. Never
+//! here: expressions, units, files.
 
 mod double_double;
 mod extended_range;

@@ -1,8 +1,8 @@
-//! Text fit to be shown: what would control a terminal, or reorder or hide what stands beside it, is
-//! written out (`\u{9b}`).
+//! Text that is safe to show: characters that would control a terminal, or reorder or hide the text
+//! beside them, are escaped (`\u{9b}`).
 //!
-//! In: text of a file, a name, an argument, a path. Out: the same as characters that only stand there.
-//! Everything quoted passes through here where it is written. Never here: colours, files.
+//! In: text of a file, a name, an argument, a path. Out: the same text with such characters
+//! escaped. Everything quoted is escaped here when it is written. Never here: colours, files.
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
@@ -10,16 +10,17 @@ use std::fmt::Write;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// The most characters of a piece of text quoted in a sentence.
+/// The largest number of characters of a text quoted in a sentence.
 pub const QUOTED: usize = 80;
 
-/// Beyond these magnitudes a number is reported with an exponent; it would have too many digits.
+/// Beyond these magnitudes a number is written with an exponent, because it would have too many
+/// digits.
 const LARGE: f64 = 1e15;
 const SMALL: f64 = 1e-5;
 
-/// Whether a character does not only stand where it is: controls (C0, DEL, C1), marks of direction,
-/// separators of lines and paragraphs, and what has no width and no shape (joiners, tags, and the
-/// byte order mark).
+/// Returns whether a character has an effect on the terminal or the text around it: controls (C0,
+/// DEL, C1), directional marks, line and paragraph separators, and characters without width or
+/// shape (joiners, tags, the byte order mark).
 pub fn is_steering(c: char) -> bool {
     c.is_control()
         || matches!(
@@ -40,23 +41,23 @@ pub fn is_steering(c: char) -> bool {
         )
 }
 
-/// Text for one line: line ends and tabs are written out as well.
+/// Escapes text for a single line; line ends and tabs are escaped as well.
 pub fn line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false)
 }
 
-/// Text for several lines: line ends and tabs are layout.
+/// Escapes text for several lines; line ends and tabs are preserved as layout.
 pub fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, is_layout)
 }
 
-/// Whether a character only moves on to the next line or column.
+/// Returns whether a character only moves to the next line or column.
 fn is_layout(c: char) -> bool {
     matches!(c, '\n' | '\t')
 }
 
 fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
-    // nearly all text is plain, and told to be so by its bytes
+    // nearly all text is printable ASCII, which a check of its bytes shows
     if text.bytes().all(|byte| (0x20..0x7f).contains(&byte)) {
         return Cow::Borrowed(text);
     }
@@ -75,7 +76,7 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A character written out: `\n`, `\t`, `\r`, else `\u{…}`.
+/// Appends a character as an escape: `\n`, `\t`, `\r`, else `\u{…}`.
 pub fn push_escape(out: &mut String, c: char) {
     match c {
         '\n' => out.push_str("\\n"),
@@ -88,8 +89,8 @@ pub fn push_escape(out: &mut String, c: char) {
     }
 }
 
-/// Text of several lines in which colours are ours: sequences that only choose colours (`ESC [ … m`)
-/// stay, all else is as in [`lines`].
+/// Escapes text of several lines that may contain our own colours: sequences that only set colours
+/// (`ESC [ … m`) remain, and everything else is treated as in [`lines`].
 pub fn coloured(text: &str) -> Cow<'_, str> {
     if !text.contains('\x1b') {
         return lines(text);
@@ -115,8 +116,8 @@ pub fn coloured(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// JSON that was serialised: in it such characters stand within strings only, and there they have an
-/// escape of JSON's own, so that it reads back to the same.
+/// Escapes serialised JSON. Such characters occur only within its strings, where JSON has an escape
+/// of its own, so the result parses to the same value.
 pub fn json(text: &str) -> Cow<'_, str> {
     let steers = |c: char| is_steering(c) && !is_layout(c);
     if text.bytes().all(|byte| byte == b'\n' || (0x20..0x7f).contains(&byte))
@@ -138,12 +139,12 @@ pub fn json(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A piece of text as a sentence quotes it: on one line, and not at any length.
+/// Prepares text for quotation in a sentence: on one line, and of limited length.
 pub fn quoted(text: &str) -> String {
     line(&shortened(text, QUOTED)).into_owned()
 }
 
-/// Text of so many characters at most; where there were more it ends in `…`.
+/// Shortens text to at most this many characters; shortened text ends in `…`.
 pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
@@ -151,12 +152,12 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     }
 }
 
-/// A file's path on one line; bytes that are no UTF-8 are written out (`\xff`).
+/// A file's path on one line; bytes that are not UTF-8 are escaped (`\xff`).
 pub fn path(path: &Path) -> String {
     os(path.as_os_str())
 }
 
-/// A word of the command line or a file's name on one line, as [`path`].
+/// A word of the command line or a file's name on one line, escaped like [`path`].
 pub fn os(word: &OsStr) -> String {
     let mut out = String::new();
     for chunk in word.as_encoded_bytes().utf8_chunks() {
@@ -169,7 +170,7 @@ pub fn os(word: &OsStr) -> String {
     out
 }
 
-/// A number in a sentence, never of hundreds of digits: `0.25`, `1e300`.
+/// A number in a sentence, without hundreds of digits: `0.25`, `1e300`.
 pub fn number(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() || (SMALL..LARGE).contains(&size) {
@@ -179,7 +180,7 @@ pub fn number(x: f64) -> String {
     }
 }
 
-/// What is wrong with a file or a stream, in words and without the system's number of it.
+/// Describes an error of a file or a stream in words, without the system's error number.
 pub fn why(error: &io::Error) -> String {
     if error.get_ref().is_some() {
         return lines(&error.to_string()).into_owned();
@@ -211,7 +212,7 @@ pub fn why(error: &io::Error) -> String {
 mod tests {
     use super::*;
 
-    /// One of each kind.
+    /// One character of each kind.
     const STEERING: [char; 22] = [
         '\0',
         '\x07',

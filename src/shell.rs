@@ -1,15 +1,17 @@
-//! The shell: the only doer. Terminal in and out, signals, the frame loop, and what the application asks for.
+//! The shell, which has all the side effects: terminal input and output, signals, the frame loop, and the
+//! application's effects.
 //!
-//! In: what to open and how to show it. Out: how it ended; the terminal as it was. Never here: what a key means, what
-//! anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Screen`] that takes inputs and
-//! can be drawn.
+//! In: what to open and how to show it. Out: how it ended, and the restored terminal. Never here: what a key means,
+//! what anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Screen`], which
+//! takes input and can be drawn.
 //!
-//! It is at home on Unix terminals. Their vocabulary and their encoding are crossterm's: events, commands for the modes,
-//! raw mode, the window's size. Two things are its own: `decoder` reads, for reasons its head lists one by one; and
-//! commands are queued into a buffer that the terminal empties as it can (`queue`), so that a stalled one holds nobody
-//! up. Whether there are colours the theme decides (`NO_COLOR` leaves it none), so crossterm is not asked to.
-//! No question is ever put to the terminal: answers arrive late over a slow line, or as text in tmux and screen; the
-//! environment says what there is to know.
+//! It supports Unix terminals. The vocabulary and the encoding are crossterm's: events, commands for the modes, raw
+//! mode, the window's size. Two parts replace crossterm's: `decoder` reads input, for reasons listed in its head;
+//! and commands are queued in a buffer that the terminal drains at its own speed (`queue`), so that a stalled
+//! terminal blocks nothing. The theme decides whether there are colours (`NO_COLOR` turns them off), so crossterm
+//! is not asked.
+//! The terminal is never queried: answers arrive late over a slow connection, or as text in tmux and screen. The
+//! environment provides all that is needed.
 
 pub(crate) mod atomic_file;
 mod bandwidth;

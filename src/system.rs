@@ -1,11 +1,10 @@
 //! A compiled system: from here on there are only numbers.
 //!
-//! In: a [`Model`](crate::model::Model), the [`Equations`](crate::mechanics::Equations) that
-//! follow from it, and expressions to be watched. Out: a [`System`], which makes initial states
-//! ([`System::initial`]), carries them through a change of parameters
-//! ([`System::change_parameters`]), tells what can be seen of them ([`System::observer`]) and
-//! gives the steppers of `integrate` their equations of motion. Never here: steps in time, files,
-//! symbols after compiling.
+//! In: a [`Model`](crate::model::Model), the [`Equations`](crate::mechanics::Equations) derived
+//! from it, and expressions to observe. Out: a [`System`], which makes initial states
+//! ([`System::initial`]), transfers states when parameters change ([`System::change_parameters`]),
+//! computes the observables of a state ([`System::observer`]) and gives the steppers of `integrate`
+//! their equations of motion. Never here: steps in time, files, symbols after compiling.
 
 mod attitude;
 mod branch;

@@ -1,10 +1,11 @@
-//! The screen: what the laboratory looks like, as cells of a ratatui buffer.
+//! The screen: phaselab's pages and panes as cells of a ratatui buffer.
 //!
 //! In: the application's state and the newest snapshot. Out: cells. Never here: a clock, a terminal, the worker,
-//! or a change of anything that is drawn.
+//! or a change to anything that is drawn.
 //!
-//! One file per pane or page. The lower half knows nothing of phaselab and could serve any program that draws curves
-//! in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`sparkline`], [`plot`] and [`frame`].
+//! There is one file per pane or page. The lower half does not depend on the rest of phaselab and could serve any
+//! program that draws curves in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`sparkline`],
+//! [`plot`] and [`frame`].
 
 mod canvas;
 pub mod caption;

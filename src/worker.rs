@@ -1,10 +1,10 @@
-//! The thread that keeps an experiment in motion: commands in, the newest snapshot out.
+//! The thread that runs an experiment: commands in, the newest snapshot out.
 //!
-//! In: an experiment ([`Worker::load`]) and [`Command`]s. Out: [`Snapshot`]s through a slot of
-//! one, where the newest wins and nobody waits. The mailbox is emptied before each slice of about
-//! two milliseconds, so a held key costs one slice; nothing is computed, and nothing wakes, while
-//! time is held. A panic of the experiment becomes a fault in a snapshot. What is no longer wanted is
-//! stopped within its step, by its token. Beside it a [`Side`] runs jobs, each on a thread of its own. Never here: terminals, physics, drawing.
+//! In: an experiment ([`Worker::load`]) and [`Command`]s. Out: [`Snapshot`]s through a slot of one, in which the
+//! newest replaces the last without blocking. The mailbox is emptied before each slice of about two milliseconds, so
+//! a repeating key costs one slice per press. While time is paused nothing is computed and the thread sleeps. A panic
+//! of the experiment becomes a fault in a snapshot. Obsolete work is cancelled within its step by a token. A [`Side`]
+//! runs background jobs, each on its own thread. Never here: terminals, physics, drawing.
 
 mod handle;
 mod pace;

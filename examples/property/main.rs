@@ -1,8 +1,9 @@
-//! Random systems without end: each is run and held against an independent motion, or must say why it cannot go on.
+//! An endless property test: random systems are run and compared with an independent motion, or must report why they
+//! cannot continue.
 //!
-//! `cargo run --release --example property -- --seconds 600 --seed 7` ends with status 1 where a case failed; each failing
-//! case is printed as a file, with the command that repeats it. `--case N` runs one, `--count N` so many in place of a
-//! time, `--files FOLDER` writes failing files there.
+//! `cargo run --release --example property -- --seconds 600 --seed 7` exits with status 1 if a case failed; each failing
+//! case is printed as a file, with the command that repeats it. `--case N` runs one case, `--count N` a number of cases
+//! instead of a time, and `--files FOLDER` writes failing files there.
 
 #[path = "../../tests/it/property/case.rs"]
 mod case;
@@ -36,10 +37,10 @@ use judge::{Budget, Kind, Outcome, judged};
 const BUDGET: Budget =
     Budget { steps: 100_000, evaluations: 100_000, watchdog: Duration::from_secs(60) };
 
-/// How many cases are tried for a smaller one that fails.
+/// The most cases tried in order to shrink one that fails.
 const LOOKS: u32 = 120;
 
-/// A thread that hangs goes on; with so many of them nothing else would.
+/// A thread that hangs keeps running; this many of them would block everything else.
 const MOST_HANGS: u32 = 4;
 
 struct Options {
@@ -73,7 +74,7 @@ fn main() -> Result<ExitCode> {
     let Options { seconds, seed, first, count, files } = options()?;
     let mut out = stdout();
     writeln!(out, "seed {seed}")?;
-    // a panic is reported as a failure of its case
+    // A panic is reported as a failure of its case.
     std::panic::set_hook(Box::new(|_| ()));
     let begun = Instant::now();
     let mut tally: BTreeMap<String, u64> = BTreeMap::new();

@@ -1,75 +1,75 @@
-//! What a key can ask for. One name for each thing a person does, whatever key it is on.
+//! The actions that keys and the palette trigger: one name for each, whatever key it is bound to.
 //!
-//! In: nothing. Out: [`Action`]. Never here: which key it is, or how it is done.
+//! In: nothing. Out: [`Action`]. Never here: the key bindings, or how an action is carried out.
 
 use super::{EditCommand, Page};
 
-/// Something a person wants done.
+/// Something the user asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
     /// End the program.
     Quit,
-    /// Stop the process, as Ctrl-Z does everywhere.
+    /// Suspend the process, as Ctrl-Z does in a shell.
     Suspend,
-    /// Draw every cell anew.
+    /// Redraw every cell.
     Repaint,
-    /// Show the keys, or hide them.
+    /// Show or hide the key help.
     Help,
     /// Search all actions by name.
     Palette,
-    /// Draw fewer frames in a second.
+    /// Draw fewer frames per second.
     FewerFrames,
-    /// Draw more frames in a second.
+    /// Draw more frames per second.
     MoreFrames,
-    /// Choose the colours.
+    /// Choose a colour theme.
     ChooseTheme,
-    /// Have the mouse reported, or leave it to the terminal again.
+    /// Capture the mouse, or leave it to the terminal again.
     Mouse,
-    /// Leave the innermost thing that is open.
+    /// Leave the innermost open element.
     Back,
     /// Show a page.
     Show(Page),
-    /// Read the present on the page of plain reading.
+    /// Read the current state on the plain-reading page.
     ReadAnew,
-    /// Read it anew by itself, or only when asked.
+    /// Turn automatic re-reading on or off.
     ReadOn,
-    /// Start or hold time.
+    /// Run or pause the simulation.
     PlayPause,
-    /// One single step.
+    /// Take a single integration step.
     Step,
-    /// Time goes slower.
+    /// Slow the simulation down.
     Slower,
-    /// Time goes faster.
+    /// Speed the simulation up.
     Faster,
-    /// Back to the initial values.
+    /// Return to the initial values.
     Reset,
-    /// Back to all values of the file.
+    /// Return to all values of the file.
     FullReset,
-    /// Take the gauges' reference anew.
+    /// Reset the gauges' reference.
     Reference,
-    /// Take back the last change of a value.
+    /// Undo the last change.
     Undo,
-    /// Do it again.
+    /// Redo the change undone last.
     Redo,
-    /// Ask for a bracket, or whether something is conserved.
+    /// Ask for a Poisson bracket, or whether a quantity is conserved.
     Ask,
     /// Edit the system's file.
     Edit,
-    /// Do something to the text being edited.
+    /// Apply an editor command to the text being edited.
     EditCommand(EditCommand),
-    /// Write a still of the screen.
+    /// Save a still image of the screen.
     Still,
-    /// Write the recorded motion as a table.
+    /// Export the recorded motion as a table.
     Data,
-    /// Record what is shown into a cast, or end the recording.
+    /// Start or stop recording the screen as a cast.
     Record,
-    /// Look from the next frame of the file.
+    /// Switch to the next reference frame of the file.
     NextFrame,
-    /// Strike an impulse that waits for a key.
+    /// Apply an impulse that is triggered by a key.
     ApplyImpulse,
     /// Choose a method of integration.
     ChooseMethod,
-    /// Type the step of a method of fixed step.
+    /// Type the step of a fixed-step method.
     TypeStep,
     /// Type the tolerance of an adaptive method.
     TypeTolerance,
@@ -77,21 +77,21 @@ pub enum Action {
     NextPane,
     /// Focus the previous pane.
     PreviousPane,
-    /// Let the focused pane fill the page, or put it back.
+    /// Zoom the focused pane to fill the page, or restore it.
     Zoom,
     /// Choose what the focused pane shows.
     ChooseAxes,
-    /// Move within the focused thing.
+    /// Move within the focused element.
     Move(Direction),
-    /// To its first line.
+    /// Go to the first line.
     First,
-    /// To its last line.
+    /// Go to the last line.
     Last,
-    /// A screenful back.
+    /// Go one page up.
     PageUp,
-    /// A screenful on.
+    /// Go one page down.
     PageDown,
-    /// Change the selected value by a step, up (+1) or down (−1), ten times as much if coarse.
+    /// Change the selected value by one step, up (+1) or down (−1); a coarse step is ten times as large.
     Change {
         /// +1 or −1.
         sign: i8,
@@ -100,29 +100,29 @@ pub enum Action {
     },
     /// Type the selected value.
     TypeValue,
-    /// Give the selected value back as the file has it.
+    /// Restore the selected value to the one in the file.
     Restore,
-    /// Write the present as a file of a system.
+    /// Export the current state as a system file.
     Export,
-    /// Look closer.
+    /// Zoom in.
     Closer(Axes),
-    /// Look from farther away.
+    /// Zoom out.
     Farther(Axes),
-    /// Make the axis upwards logarithmic, or linear again.
+    /// Switch the vertical axis between logarithmic and linear.
     Log,
-    /// Make a unit as long across as upwards, or let the plot fill its pane again.
+    /// Give both axes the same scale, or let the plot fill its pane again.
     Equal,
-    /// Put a cursor on the plot that reads coordinates, or take it away.
+    /// Show or hide a cursor that reads coordinates off the plot.
     Cursor,
-    /// The view as it was at first.
+    /// Restore the initial view.
     Home,
     /// Start typing a search.
     Search,
-    /// Open what is selected.
+    /// Open the selected item.
     Open,
-    /// Accept what is typed or selected.
+    /// Accept the typed text or the selected item.
     Accept,
-    /// Mark the selected line besides others.
+    /// Mark the selected line, in addition to others.
     Mark,
 }
 
@@ -137,7 +137,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// One step: to the right and upwards.
+    /// Returns a unit step: to the right, and up.
     pub(super) fn step(self) -> [f64; 2] {
         match self {
             Self::Left => [-1.0, 0.0],
@@ -158,7 +158,7 @@ pub enum Axes {
 }
 
 impl Axes {
-    /// Whether the one across is meant, and the one upwards.
+    /// Returns whether the horizontal axis is meant, and whether the vertical one is.
     pub(super) fn chosen(self) -> [bool; 2] {
         [self != Self::Upwards, self != Self::Across]
     }

@@ -1,7 +1,7 @@
-//! A sheet: the text of one system's file being edited, and what is known of it.
+//! A source buffer: the text of one system's file being edited, and its check results.
 //!
-//! In: keys, time, mistakes. Out: the text, its mistakes in their places, and when it is to be checked. Never here: the
-//! other sheets, the system that runs, files, how it is drawn.
+//! In: keys, time, diagnostics. Out: the text, its diagnostics with positions, and when it is due for a check.
+//! Never here: other buffers, the running system, files, or how it is drawn.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -16,116 +16,116 @@ use super::field::edit;
 use crate::diagnostic::TEXT_LIMIT;
 use crate::diagnostic::{Diagnostic, Severity};
 
-/// For how long typing rests before the text is checked.
+/// How long typing must pause before the text is checked.
 const REST: Duration = Duration::from_millis(150);
 
-/// For how long a file found wrong is left to the program that is perhaps still writing it.
+/// How long to wait before re-reading a file with mistakes, since another program may still be writing it.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// A check that takes this long is one that a person would rather stop than wait for.
+/// A check that takes longer than this is one that the user would rather stop than wait for.
 const LONG: Duration = Duration::from_secs(1);
 
-/// A file being edited.
+/// A system's file being edited.
 #[derive(Clone, Debug)]
 pub struct SourceBuffer {
-    /// What was asked for when the system was loaded.
+    /// The name under which the system was loaded.
     pub name: String,
-    /// What reports call it.
+    /// The name used in diagnostics.
     pub title: String,
-    /// The file it is saved to; a shipped preset has none until its copy has a name.
+    /// The file it is saved to. `None` for a built-in preset until its copy has a name.
     pub place: Option<PathBuf>,
     /// The text.
     pub editor: Editor,
-    /// What was wrong with it when it was last checked, in order.
+    /// The diagnostics of the last check, in order.
     pub flaws: Vec<BufferDiagnostic>,
-    /// What is known of the text.
+    /// Whether the text has been checked, and with what result.
     pub state: State,
-    /// What is being asked for below the text.
+    /// The prompt below the text, if one is open.
     pub asking: Option<Asking>,
     /// The first row and column shown.
     pub scroll: (usize, usize),
-    /// The text as the file has it.
+    /// The text as it is on disk.
     pub(super) on_disk: String,
-    /// Counts the texts.
+    /// Incremented with every change of the text.
     revision: u64,
-    /// The check under way, and the text that it is about.
+    /// The ticket of the running check, and the revision that it checks.
     checking: Option<(u64, u64)>,
-    /// For how long it has been so.
+    /// How long that check has been running.
     busy: Duration,
     /// The time left until the text is checked.
     rest: Option<Duration>,
-    /// A wrong text that just came from the file may be half of one, and is looked at once more.
+    /// Whether the text has just been read from disk and may be incomplete; if it is wrong, it is read once more.
     half: bool,
-    /// Another program has changed the file, and the next saving writes over it all the same.
+    /// Whether the next save overwrites the file although another program has changed it.
     pub(super) overrule: bool,
     pub(super) sought: String,
-    /// It was saved before it was checked: where mistakes are found, that is reported.
+    /// Whether it was saved before it was checked; mistakes found later are then reported.
     pub(super) unlooked: bool,
 }
 
-/// A text that was not saved, as it can be kept beyond the end of the program.
+/// An unsaved text, in the form stored between runs of the program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unsaved {
     /// The preset's name or the file's path.
     pub name: String,
-    /// What reports call it.
+    /// The name used in diagnostics.
     pub title: String,
     /// The file it is saved to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub place: Option<PathBuf>,
     /// The text.
     pub text: String,
-    /// The file's text that it was made from.
+    /// The file's text on which it is based.
     pub of: String,
 }
 
-/// A mistake in its place in the text.
+/// A diagnostic with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BufferDiagnostic {
-    /// Where it begins.
+    /// The start.
     pub from: Caret,
-    /// Where it ends, on the same line.
+    /// The end, on the same line.
     pub to: Caret,
-    /// Whether the text can still be used.
+    /// Whether it is only a warning, so that the text can still be used.
     pub warning: bool,
     /// What is wrong.
     pub message: String,
-    /// What would be right.
+    /// A suggested correction.
     pub help: Option<String>,
 }
 
-/// What is known of a text.
+/// The state of a buffer's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// It is the one that runs, and was built in so much time where that is known.
+    /// It is the running system's, built in this time if the time is known.
     Runs(Option<Duration>),
-    /// It has changed and was not checked yet.
+    /// It has changed and has not been checked yet.
     Changed,
-    /// It has mistakes; the last right one runs.
+    /// It has mistakes; the last correct version is running.
     Wrong,
-    /// It was left for another system; nothing is known of it until it is taken up again.
+    /// Another system is open; the text is checked again when it is reopened.
     Left,
 }
 
-/// Something asked for.
+/// What the prompt below the text asks for.
 #[derive(Clone, Debug)]
 pub enum Asking {
-    /// Words to look for.
+    /// A text to search for.
     Words(Input),
     /// The name of a copy.
     Name(Input),
 }
 
-/// What a text that is right or wrong means for the one that runs.
+/// Whether a check result is about the current text.
 pub(super) enum Found {
-    /// It is the newest.
+    /// It is about the current text.
     Newest,
-    /// The text has changed since.
+    /// The text has changed since the check began.
     Older,
 }
 
 impl SourceBuffer {
-    /// The file of a system, `place` being where it stands if that can be written to.
+    /// The file of a loaded system; `place` is its path if it can be written to.
     pub(super) fn new(loaded: &Loaded, place: Option<PathBuf>) -> Self {
         let text = &loaded.document.text;
         let known = Unsaved {
@@ -138,7 +138,7 @@ impl SourceBuffer {
         Self { state: State::Runs(None), ..Self::of_unsaved(known) }
     }
 
-    /// A text that was kept.
+    /// Restores an unsaved text.
     pub(super) fn of_unsaved(unsaved: Unsaved) -> Self {
         Self {
             name: unsaved.name,
@@ -149,7 +149,7 @@ impl SourceBuffer {
             state: State::Left,
             asking: None,
             scroll: (0, 0),
-            // what the file became since is noticed before it is written over
+            // A change of the file since then is noticed before it is overwritten.
             on_disk: unsaved.of,
             revision: 0,
             checking: None,
@@ -162,12 +162,12 @@ impl SourceBuffer {
         }
     }
 
-    /// Counts its changes.
+    /// Returns the revision: the number of its changes.
     pub(super) fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// The text, if it is to be kept.
+    /// Returns the text in the form to be stored, if it is unsaved.
     pub(super) fn unsaved(&self) -> Option<Unsaved> {
         self.is_modified().then(|| Unsaved {
             name: self.name.clone(),
@@ -178,17 +178,17 @@ impl SourceBuffer {
         })
     }
 
-    /// Whether it is that of a system, whose file stands there if it has one of its own.
+    /// Whether it belongs to the system of this name, or of this file if the system has one.
     pub(super) fn is_of(&self, name: &str, place: Option<&Path>) -> bool {
         self.name == name || place.is_some() && self.place.as_deref() == place
     }
 
-    /// Whether the text is not the file's.
+    /// Whether the text differs from the file's.
     pub fn is_modified(&self) -> bool {
         self.editor.text() != self.on_disk
     }
 
-    /// The mistake that the cursor stands on or before, else the first.
+    /// Returns the diagnostic at or after the cursor, or else the first one.
     pub fn flaw(&self) -> Option<&BufferDiagnostic> {
         let cursor = self.editor.cursor();
         let on_line = self.flaws.iter().find(|flaw| flaw.from.row == cursor.row);
@@ -197,12 +197,12 @@ impl SourceBuffer {
         at.or(on_line).or(after).or(self.flaws.first())
     }
 
-    /// How many mistakes there are with which the text cannot be used.
+    /// Returns the number of errors, which keep the text from being used.
     pub fn mistakes(&self) -> usize {
         self.flaws.iter().filter(|flaw| !flaw.warning).count()
     }
 
-    /// The first row and column to show, so that the cursor is among so many of them.
+    /// Returns the first row and column to show so that the cursor is visible in a window of this size.
     pub fn follow(&self, rows: usize, columns: usize) -> (usize, usize) {
         let cursor = self.editor.cursor();
         let within = |first: usize, at: usize, count: usize| {
@@ -215,12 +215,12 @@ impl SourceBuffer {
                 (at + 1 + count / 4).saturating_sub(count)
             }
         };
-        // the line as far as the cursor need not be moved where it fits from its beginning
+        // No horizontal scrolling is needed if the line fits up to the cursor.
         let start = if cursor.column < columns { 0 } else { self.scroll.1 };
         (within(self.scroll.0, cursor.row, rows), within(start, cursor.column, columns))
     }
 
-    /// The text has changed.
+    /// Registers a change of the text.
     pub(super) fn touch(&mut self) {
         self.revision += 1;
         self.rest = Some(REST);
@@ -228,13 +228,13 @@ impl SourceBuffer {
         self.state = State::Changed;
     }
 
-    /// The text has changed and is not being typed: it is checked at the next opportunity.
+    /// Registers a change that was not typed: the text is checked at the next opportunity.
     pub(super) fn touch_at_once(&mut self, half: bool) {
         self.touch();
         (self.rest, self.half) = (Some(Duration::ZERO), half);
     }
 
-    /// Another system has taken the place of its own.
+    /// Marks the buffer as left, since another system was opened.
     pub(super) fn leave(&mut self) {
         (self.checking, self.rest, self.asking) = (None, None, None);
         (self.half, self.overrule) = (false, false);
@@ -242,19 +242,19 @@ impl SourceBuffer {
         self.state = State::Left;
     }
 
-    /// Time has passed; whether the text is to be checked now, in place of an older one.
+    /// Advances the time. Returns whether the text is to be checked now, replacing any older check.
     pub(super) fn tick(&mut self, elapsed: Duration) -> bool {
         self.rest = self.rest.map(|rest| rest.saturating_sub(elapsed));
         self.busy = self.busy.saturating_add(elapsed);
         self.rest == Some(Duration::ZERO)
     }
 
-    /// Whether its check takes so long that who leaves it is not waiting for the end of it.
+    /// Whether its check has run so long that leaving the buffer should stop it.
     pub fn is_long_checked(&self) -> bool {
         self.checking.is_some() && self.busy >= LONG
     }
 
-    /// Its check is put off until it is looked at again; whether there was one under way.
+    /// Postpones its check until it is opened again. Returns whether a check was running.
     pub(super) fn put_off(&mut self) -> bool {
         let checking = self.checking.take().is_some();
         if checking {
@@ -263,24 +263,24 @@ impl SourceBuffer {
         checking
     }
 
-    /// Its text is being checked, and the answer will carry this number.
+    /// Marks its text as being checked; the result will carry this ticket.
     pub(super) fn begin_check(&mut self, ticket: u64) {
         (self.rest, self.checking) = (None, Some((ticket, self.revision)));
         self.busy = Duration::ZERO;
     }
 
-    /// Whether the answer of this number is about this sheet.
+    /// Whether the check with this ticket is this buffer's.
     pub(super) fn awaits(&self, ticket: u64) -> bool {
         self.checking.is_some_and(|(number, _)| number == ticket)
     }
 
-    /// The check has come to its end.
+    /// Ends the check.
     pub(super) fn end_check(&mut self) -> Found {
         let of = self.checking.take().map(|(_, revision)| revision);
         if of == Some(self.revision) { Found::Newest } else { Found::Older }
     }
 
-    /// It was found wrong: takes the mistakes in, unless it may be half a file that is looked at once more.
+    /// Stores the mistakes found, unless the text may be an incomplete file that is read once more.
     pub(super) fn is_wrong(&mut self, mistakes: &[Diagnostic]) {
         if self.half {
             (self.half, self.rest) = (false, Some(PATIENCE));
@@ -290,7 +290,7 @@ impl SourceBuffer {
         }
     }
 
-    /// What is reported when the text is saved as it is, or was saved before its mistakes were found.
+    /// Returns the warning for a text that is saved with mistakes, or before they were found.
     pub(super) fn saved_as(&self) -> Option<String> {
         let shown = self.place.as_ref()?.display();
         let flaw = self.flaws.iter().find(|flaw| !flaw.warning);
@@ -305,7 +305,7 @@ impl SourceBuffer {
         Some(format!("Saved: {shown}, with {count}: {row}:{column} {}", flaw.message))
     }
 
-    /// Types a key.
+    /// Handles a typed key.
     pub(super) fn press(&mut self, key: KeyEvent, page: usize) {
         match &mut self.asking {
             Some(Asking::Words(input) | Asking::Name(input)) => {
@@ -319,7 +319,7 @@ impl SourceBuffer {
         }
     }
 
-    /// Takes mistakes in, each where it stands.
+    /// Stores the diagnostics, each at its position.
     fn note(&mut self, mistakes: &[Diagnostic]) {
         let flaw = |mistake: &Diagnostic| {
             let from = self.editor.spot(mistake.place.start);
@@ -337,7 +337,7 @@ impl SourceBuffer {
         self.flaws = mistakes.iter().map(flaw).collect();
     }
 
-    /// To the next mistake (+1) or the one before (−1); whether there is one.
+    /// Goes to the next mistake (+1) or the previous one (−1). Returns whether there is one.
     pub(super) fn step(&mut self, sign: i8) -> bool {
         let cursor = self.editor.cursor();
         let mut places = self.flaws.iter().map(|flaw| flaw.from);

@@ -1,7 +1,7 @@
-//! Changes to the lab: each is made, noted, and can be taken back.
+//! Changes to the lab: each is made, recorded, and can be undone.
 //!
-//! In: new values, methods, settings and pictures. Out: commands, and the wishes that stand until the experiment shows
-//! them. Never here: which key asks for it, or how the history keeps it.
+//! In: new values, methods, settings and pictures. Out: commands, and the pending values until the experiment shows
+//! them. Never here: which key triggers a change, or how the history is stored.
 
 use super::history::Change;
 use super::{App, Effect, Lab, Pane, ValueId};
@@ -11,7 +11,7 @@ use crate::integrate::Settings;
 use crate::num::significant;
 use crate::system::InitialOverride;
 
-/// What was asked of the experiment and not yet seen, beside single values.
+/// Changes sent to the experiment and not yet confirmed by a snapshot, except single values.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingChanges {
     method: Option<&'static str>,
@@ -20,7 +20,7 @@ pub(super) struct PendingChanges {
 }
 
 impl PendingChanges {
-    /// Forgets what a snapshot shows.
+    /// Removes the changes that a snapshot confirms.
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
         self.method.take_if(|wish| *wish == snapshot.method.name);
         self.settings.take_if(|wish| *wish == snapshot.setup.settings);
@@ -28,7 +28,7 @@ impl PendingChanges {
     }
 }
 
-/// Which side of a change: as it was before, or as it was made.
+/// A side of a change: the state before it, or after it.
 #[derive(Clone, Copy)]
 enum Side {
     Before,
@@ -36,8 +36,8 @@ enum Side {
 }
 
 impl App {
-    /// Gives a value to something, as a person would: it is selected in its list and can be taken back. The same value
-    /// again begins the motion anew where it is an initial one.
+    /// Sets a value as the user would: it is selected in its list, and the change can be undone. Setting an initial
+    /// value restarts the motion even if the value is the same.
     pub fn give(&mut self, target: ValueId, value: f64) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         match target {
@@ -54,7 +54,7 @@ impl App {
         })]
     }
 
-    /// What is changed from now on until [`App::drop_hold`] is one change.
+    /// Groups all changes from now until [`App::drop_hold`] into one.
     pub fn hold_on(&mut self) {
         if let Some(lab) = &mut self.lab {
             lab.history.begin_group();
@@ -63,7 +63,7 @@ impl App {
 }
 
 impl Lab {
-    /// The method's name: what was asked for last, until the experiment shows it too.
+    /// Returns the method's name: the one requested last, until the experiment confirms it.
     pub(super) fn method(&self) -> Option<&'static str> {
         self.asked.method.or(self.snapshot.as_ref().map(|s| s.method.name))
     }
@@ -97,7 +97,7 @@ impl Lab {
         }
     }
 
-    /// Begins the motion with several initial values at once.
+    /// Starts the motion with several initial values at once.
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
         let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
@@ -107,7 +107,7 @@ impl Lab {
         vec![self.begin_with(after)]
     }
 
-    /// All values back to the file's.
+    /// Restores all values of the file.
     pub(super) fn full_reset(&mut self) -> Vec<Effect> {
         let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let parameters = parameters.filter_map(|target| self.value(target)).collect();
@@ -115,10 +115,10 @@ impl Lab {
         vec![self.give_back()]
     }
 
-    /// Takes another method.
+    /// Switches to another method.
     pub(super) fn integrate_by(&mut self, name: &'static str) -> Vec<Effect> {
         match self.method() {
-            // it would only begin its measures anew
+            // Switching to the same method would only restart its statistics.
             Some(before) if before == name => return Vec::new(),
             Some(before) => self.history.note(Change::Method([before, name])),
             None => {}
@@ -127,13 +127,13 @@ impl Lab {
         vec![Effect::Tell(Command::Method(name.to_owned()))]
     }
 
-    /// Gives the method another step.
+    /// Sets the method's step.
     pub(super) fn step_by(&mut self, step: f64) -> Vec<Effect> {
         self.settle(|settings| settings.step = Some(step));
         vec![Effect::Tell(Command::StepSize(step))]
     }
 
-    /// Gives the method another tolerance.
+    /// Sets the method's tolerance.
     pub(super) fn tolerate(&mut self, tolerance: f64) -> Vec<Effect> {
         self.settle(|settings| settings.tolerance = Some(tolerance));
         vec![Effect::Tell(Command::Tolerance(tolerance))]
@@ -162,21 +162,21 @@ impl Lab {
         self.answers.stale = true;
     }
 
-    /// Takes the last change back, and says what it was; nothing if there is none.
+    /// Undoes the last change and returns its description. Returns `None` if there is none.
     pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.undo()?;
         let told = format!("undone: {}", self.words(&change, Side::Before));
         Some((self.carry_out(change, Side::Before), told))
     }
 
-    /// Makes the change last taken back again, and says what it is; nothing if there is none.
+    /// Redoes the change undone last and returns its description. Returns `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.redo()?;
         let told = format!("redone: {}", self.words(&change, Side::After));
         Some((self.carry_out(change, Side::After), told))
     }
 
-    /// What goes where when one side of a change is made so: `g 9.81 → 3.2`.
+    /// Describes the transition to one side of a change: `g 9.81 → 3.2`.
     fn words(&self, change: &Change, side: Side) -> String {
         let named = |target| {
             self.value_info(target).map_or_else(String::new, |value_info| value_info.shown)
@@ -212,7 +212,7 @@ impl Lab {
         }
     }
 
-    /// Makes one side of a change so, and shows the pane in which it is seen.
+    /// Applies one side of a change, and shows the pane in which it is visible.
     fn carry_out(&mut self, change: Change, side: Side) -> Vec<Effect> {
         match change {
             Change::Parameter { index, numbers } => {
@@ -271,15 +271,15 @@ impl Lab {
         Effect::Tell(Command::Parameter { index, value })
     }
 
-    /// The motion begins with these in place of the file's values.
+    /// Starts the motion with these in place of the file's values.
     fn begin_with(&mut self, given: Vec<InitialOverride>) -> Effect {
-        // What the others then are, the experiment tells.
+        // The experiment reports the resulting other initial values.
         self.pending.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.asked.given = Some(given.clone());
         Effect::Tell(Command::Start(given))
     }
 
-    /// All values are the file's.
+    /// Restores all values of the file.
     fn give_back(&mut self) -> Effect {
         self.pending.clear();
         let parameters = self.loaded.model.parameter_values().into_iter().enumerate();
@@ -294,7 +294,7 @@ impl Lab {
     }
 }
 
-/// Which value is given: of which coordinate, and whether it is its rate or momentum.
+/// Returns the index of the coordinate, and whether its rate or momentum is given.
 fn place(given: &InitialOverride) -> (usize, bool) {
     match given {
         InitialOverride::Position(i, _) => (*i, false),
@@ -302,13 +302,13 @@ fn place(given: &InitialOverride) -> (usize, bool) {
     }
 }
 
-/// A number in six digits at most.
+/// Formats a number with at most six digits.
 fn short(value: f64) -> String {
     significant(value, 6, 1e-4..1e7)
 }
 
 impl Side {
-    /// From the other side to this one.
+    /// Orders a pair so that it leads to this side.
     fn way<T>(self, [before, after]: [T; 2]) -> [T; 2] {
         match self {
             Self::Before => [after, before],

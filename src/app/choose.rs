@@ -1,7 +1,7 @@
-//! What the pop-up lists offer, and what taking a line of them or a typed value does.
+//! The contents of the pop-up lists, and the effect of choosing a line or entering a value.
 //!
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
-//! Never here: how a list is moved in.
+//! Never here: navigation within a list.
 
 use super::{App, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Purpose};
 use crate::instrument::{Axis, Plot, offers};
@@ -58,7 +58,7 @@ impl App {
         Vec::new()
     }
 
-    /// Takes what is offered for a plot; further axes are then asked for.
+    /// Chooses an offer for a plot; any further axes are asked for next.
     fn take_offer(&mut self, plot: usize, index: usize) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let physics = lab.loaded.physics();
@@ -69,7 +69,7 @@ impl App {
         self.choose_on(plot, begun, offer.label)
     }
 
-    /// Shows what was begun for a plot where all its axes are chosen; else asks for the next.
+    /// Shows the new contents of a plot once all axes are chosen; otherwise asks for the next axis.
     fn choose_on(&mut self, plot: usize, begun: Plot, label: String) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(axis) = begun.kind.chosen().get(begun.columns.len()) else {
@@ -88,7 +88,7 @@ impl App {
         Vec::new()
     }
 
-    /// Enter, in a list or a field.
+    /// Handles Enter in a list or a field.
     pub(super) fn accept(&mut self) -> Vec<Effect> {
         match self.overlay.take() {
             Some(Overlay::Menu(menu)) => self.accept_line(menu),
@@ -184,7 +184,7 @@ fn line(label: &str, about: &str, choice: Choice) -> Item {
     }
 }
 
-/// A line for every channel that can be told from the others.
+/// Returns a line for each distinguishable channel.
 fn channels(lab: &Lab) -> Vec<Item> {
     let named = lab.loaded.physics().named();
     named

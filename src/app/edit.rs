@@ -1,10 +1,10 @@
-//! Editing: what is done to the file of the system in the lab while that runs.
+//! Editing the file of the system in the lab while it runs.
 //!
-//! In: keys, time, and what became of checks, of saving and of the file on disk. Out: the changed sheet, and what is to
-//! be checked or saved. Never here: files, threads, how it is drawn.
+//! In: keys, time, and the results of checks, saves and changes on disk. Out: the changed buffer, and what to check
+//! or save. Never here: files, threads, how it is drawn.
 //!
-//! A text is checked when typing rests, one check at a time, and where it is right the lab is built anew from it. A
-//! newer text stops the check of an older one. A file changed by another program takes the same way.
+//! A text is checked when typing pauses, one check at a time. If it is correct, the lab is rebuilt from it. A newer
+//! text cancels the check of an older one. A file changed by another program is handled the same way.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -18,30 +18,30 @@ use super::{App, Effect, Lab, Loaded, Notification, Overlay, Page};
 use crate::diagnostic::Diagnostic;
 use crate::preset::{Origin, is_path};
 
-/// A text that was asked to be checked: what became of it.
+/// The result of checking a text.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// Which check it was.
+    /// The ticket of the check.
     pub ticket: u64,
-    /// The system it makes, running already, or its mistakes.
+    /// The system it describes, already running, or its mistakes.
     pub outcome: Result<Loaded, Vec<Diagnostic>>,
-    /// How long that took.
+    /// How long the check took.
     pub took: Duration,
 }
 
-/// Why a text was not saved.
+/// Why a text could not be saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SaveError {
-    /// The file is not what it was when it was read.
+    /// The file has changed since it was read.
     Changed,
-    /// There is a file of that name already.
+    /// A file of that name already exists.
     Exists(PathBuf),
-    /// Anything else, a sentence.
+    /// Any other reason, as a sentence.
     Refused(String),
 }
 
 impl App {
-    /// The sheet being edited, while its editor is open.
+    /// Returns the buffer being edited, while the editor is open.
     pub fn open_buffer(&self) -> Option<&SourceBuffer> {
         self.workbench.top().filter(|_| matches!(self.overlay, Some(Overlay::Workbench)))
     }
@@ -50,13 +50,13 @@ impl App {
         self.workbench.top_mut()
     }
 
-    /// The sheet of the system in the lab, if it has one.
+    /// Returns the buffer of the system in the lab, if it has one.
     pub(super) fn own_buffer(&self) -> Option<&SourceBuffer> {
         let lab = self.lab.as_ref()?;
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
     }
 
-    /// The file of the loaded system, where it has one of its own.
+    /// Returns the file of the loaded system, if it has one.
     pub fn file(&self) -> Option<PathBuf> {
         let name = &self.lab.as_ref()?.loaded.name;
         if is_path(name) {
@@ -69,7 +69,7 @@ impl App {
         }
     }
 
-    /// A line on what is wrong with the file while its editor is closed.
+    /// Returns a line about the file's mistakes while its editor is closed.
     pub fn banner(&self) -> Option<String> {
         let buffer = self.own_buffer().filter(|_| self.overlay.is_none())?;
         let flaw = buffer.flaws.first().filter(|_| buffer.state == State::Wrong)?;
@@ -77,12 +77,12 @@ impl App {
         Some(format!("{}:{row}:{column}: {}; what was right goes on", buffer.title, flaw.message))
     }
 
-    /// Whether the answer to a check is still wanted.
+    /// Whether the result of a check is still wanted.
     pub fn awaits(&self, ticket: u64) -> bool {
         self.own_buffer().is_some_and(|buffer| buffer.awaits(ticket))
     }
 
-    /// The texts of all systems that are not saved.
+    /// Returns the unsaved texts of all systems.
     pub fn unsaved(&self) -> Vec<Unsaved> {
         self.workbench.unsaved()
     }
@@ -95,13 +95,13 @@ impl App {
         Vec::new()
     }
 
-    /// The sheet of the system in the lab, as it was left.
+    /// Returns the buffer of the system in the lab, as it was left.
     fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
         let place = self.file();
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
 
-    /// Ends the program; where a text would be lost only when asked twice.
+    /// Ends the program. If a text would be lost, the user has to ask twice.
     pub(super) fn quit(&mut self) -> Vec<Effect> {
         let Some(told) = self.loss().filter(|_| !self.workbench.keeps) else {
             return vec![Effect::Quit];
@@ -112,25 +112,25 @@ impl App {
         self.notify(told)
     }
 
-    /// The program was about to end, and a text could not be kept.
+    /// Cancels the end of the program because a text could not be stored.
     pub fn stay(&mut self) {
         self.workbench.keeps = false;
         self.notice = self.loss().map(Notification::error);
     }
 
-    /// A sentence on what would be lost.
+    /// Returns a sentence about what would be lost.
     fn loss(&self) -> Option<String> {
         let text = self.workbench.unsaved().into_iter().next()?;
         Some(format!("{} has changes that are not saved; quit again to lose them.", text.title))
     }
 
-    /// The text that was not saved is the one that ran: it is checked at once. Whether there is such a text.
+    /// Checks an unsaved text at once if it is the one that was running. Returns whether there is one.
     pub(super) fn wake(&mut self) -> bool {
         let modified = self.own_buffer().is_some_and(SourceBuffer::is_modified);
         modified && self.ready_buffer().is_some()
     }
 
-    /// Tells of a text of the system in the lab that was not saved.
+    /// Reminds the user of an unsaved text of the system in the lab.
     pub(super) fn remind(&mut self) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
             let told = format!("{} has changes that are not saved; E goes to them.", buffer.title);
@@ -138,7 +138,7 @@ impl App {
         }
     }
 
-    /// A key that stands for itself.
+    /// Handles a key that is typed as text.
     pub(super) fn type_into_buffer(&mut self, key: KeyEvent) {
         let page = usize::from(self.drawn.rows).saturating_sub(1);
         if let Some(buffer) = self.buffer() {
@@ -146,7 +146,7 @@ impl App {
         }
     }
 
-    /// Pasted text; whether all of it found room.
+    /// Inserts pasted text. Returns whether all of it fitted.
     pub(super) fn paste_into_buffer(&mut self, text: &str) -> bool {
         let Some(buffer) = self.buffer() else { return true };
         match &mut buffer.asking {
@@ -159,7 +159,7 @@ impl App {
         }
     }
 
-    /// Something done to the text as a whole.
+    /// Carries out an editor command.
     pub(super) fn work(&mut self, work: EditCommand) -> Vec<Effect> {
         let Some(buffer) = self.buffer() else { return Vec::new() };
         let changed = match work {
@@ -196,7 +196,7 @@ impl App {
             }
             EditCommand::Reread => {
                 let Some(place) = &buffer.place else {
-                    // what is shipped has not changed
+                    // A built-in preset has not changed.
                     let text = buffer.on_disk.clone();
                     self.changed_on_disk(&text, true);
                     return Vec::new();
@@ -210,7 +210,7 @@ impl App {
         Vec::new()
     }
 
-    /// Esc: leaves what is asked for, else the workbench; the text stays. A check that takes long is stopped.
+    /// Handles Esc: closes the prompt, or else the editor; the text stays. A long check is stopped.
     pub(super) fn leave_buffer(&mut self) -> Vec<Effect> {
         let Some(buffer) = self.workbench.top_mut() else {
             self.overlay = None;
@@ -233,7 +233,7 @@ impl App {
         if stopped { vec![Effect::StopCheck] } else { Vec::new() }
     }
 
-    /// Enter, where something is asked for.
+    /// Handles Enter in a prompt.
     pub(super) fn accept_in_buffer(&mut self) -> Vec<Effect> {
         let Some(buffer) = self.buffer() else { return Vec::new() };
         match buffer.asking.take() {
@@ -283,7 +283,7 @@ impl App {
         }
     }
 
-    /// A text was saved, or was not.
+    /// Handles the result of saving a text.
     pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
         let Some(buffer) = self.workbench.top_mut() else { return };
         buffer.overrule = outcome == Err(SaveError::Changed);
@@ -292,7 +292,7 @@ impl App {
                 let shown = place.display().to_string();
                 buffer.on_disk = text;
                 if buffer.place.as_ref() != Some(&place) {
-                    // from now on the copy is what is open
+                    // From now on the copy is the open file.
                     let here = |lab: &&mut Lab| lab.loaded.name == buffer.name;
                     let name = if is_path(&shown) { shown.clone() } else { format!("./{shown}") };
                     if let Some(lab) = self.lab.as_mut().filter(here) {
@@ -322,7 +322,7 @@ impl App {
         });
     }
 
-    /// The file holds this text now; `asked` says that it was read because the user wanted it.
+    /// Handles a new text of the file on disk; `asked` says whether the user asked to read it.
     pub(super) fn changed_on_disk(&mut self, text: &str, asked: bool) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
             if buffer.on_disk != text {
@@ -343,7 +343,7 @@ impl App {
         buffer.overrule = false;
     }
 
-    /// The watched file has gone, or is there again.
+    /// Handles the disappearance or return of the watched file.
     pub(super) fn found_on_disk(&mut self, there: bool) {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
@@ -354,7 +354,7 @@ impl App {
         });
     }
 
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick_buffer(&mut self, elapsed: Duration) -> Option<Effect> {
         if self.page == Page::Picker {
             return self.workbench.put_off().then_some(Effect::StopCheck);
@@ -362,7 +362,7 @@ impl App {
         self.workbench.tick(elapsed)
     }
 
-    /// The screen was drawn: the cursor is kept on it.
+    /// Scrolls the text so that the cursor is visible on the screen that was drawn.
     pub(super) fn follow_cursor(&mut self) {
         let (rows, columns) = (self.drawn.rows.into(), self.drawn.columns.into());
         if matches!(self.overlay, Some(Overlay::Workbench))
@@ -372,7 +372,7 @@ impl App {
         }
     }
 
-    /// A text was checked, and where it was right its system runs already.
+    /// Handles the result of a check; if the text is correct, its system is already running.
     pub(super) fn checked(&mut self, checked: Checked) -> Vec<Effect> {
         let Checked { ticket, outcome, took } = checked;
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
@@ -393,7 +393,7 @@ impl App {
                 }
                 self.rebuilt(loaded)
             }
-            // what was wrong with a text that has changed since is no longer so
+            // Mistakes of a text that has changed since are out of date.
             (Err(_), Found::Older) => Vec::new(),
             (Err(mistakes), Found::Newest) => {
                 buffer.is_wrong(&mistakes);
@@ -408,27 +408,27 @@ impl App {
     }
 }
 
-/// What can be done to the text beside typing.
+/// A command of the editor, besides typing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EditCommand {
     /// Save it.
     Save,
-    /// Look for words.
+    /// Search for a text.
     Find,
-    /// Look for them again.
+    /// Search for it again.
     FindNext,
-    /// To the next mistake (+1) or the one before (−1).
+    /// Go to the next mistake (+1) or the previous one (−1).
     Diagnostic(i8),
-    /// Cut what is selected, or the line.
+    /// Cut the selection, or the line.
     Cut,
-    /// Keep it without cutting it.
+    /// Copy the selection, or the line.
     Copy,
-    /// Put in what was cut.
+    /// Paste what was cut or copied.
     PutBack,
-    /// Take back the last change.
+    /// Undo the last change.
     Undo,
-    /// Make it again.
+    /// Redo it.
     Redo,
-    /// Read the file anew.
+    /// Read the file again.
     Reread,
 }

@@ -1,14 +1,14 @@
-//! A text of many lines being edited: cursor, selection, undo, search.
+//! A multi-line text being edited: cursor, selection, undo, search.
 //!
-//! In: keys and pasted text. Out: the text, and where the cursor stands. Never here: what the text means, where it is
-//! kept, how it is drawn.
+//! In: keys and pasted text. Out: the text, and the position of the cursor. Never here: what the text means, where
+//! it is stored, how it is drawn.
 //!
-//! Every change is one replacement of a stretch by another text, so taking one back is a replacement too. (The widgets
-//! for ratatui keep what was last drawn and move the cursor by it; here nothing is known of a screen.)
+//! Every change replaces one range by another text, so undoing it is a replacement too. (The editor widgets for
+//! ratatui store what was last drawn and move the cursor by it; this editor does not depend on a screen.)
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// A place in the text, both counted from 0.
+/// A position in the text; row and column are counted from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Caret {
     /// The line.
@@ -21,38 +21,38 @@ pub struct Caret {
 #[derive(Clone, Debug)]
 pub struct Editor {
     lines: Vec<String>,
-    /// Whether lines end as on Windows.
+    /// Whether lines end with CR LF.
     carriage: bool,
     cursor: Caret,
-    /// The other end of what is selected.
+    /// The other end of the selection.
     anchor: Option<Caret>,
-    /// The column that moves up and down keep to.
+    /// The column that vertical moves aim for.
     goal: Option<usize>,
     done: Vec<Change>,
     undone: Vec<Change>,
-    /// Whether the next character typed belongs to the last change.
+    /// Whether the next typed character joins the last change.
     typing: bool,
-    /// What was cut or copied last.
+    /// The clipboard: what was cut or copied last.
     kept: String,
-    /// The most bytes the text may have.
+    /// The maximum size of the text in bytes.
     limit: usize,
 }
 
-/// A stretch replaced by another text.
+/// The replacement of a range by another text.
 #[derive(Clone, Debug)]
 struct Change {
     at: Caret,
     old: String,
     new: String,
-    /// Where the cursor stood before.
+    /// The position of the cursor before the change.
     cursor: Caret,
 }
 
-/// The columns of a tabulator.
+/// The width of a tab in columns.
 const TAB: usize = 4;
 
 impl Editor {
-    /// A text with the cursor at its beginning; it may become `limit` bytes long.
+    /// Creates an editor with the cursor at the start; the text may grow to `limit` bytes.
     pub fn new(text: &str, limit: usize) -> Self {
         let carriage = text.contains("\r\n") && !text.replace("\r\n", "").contains('\n');
         let ending = if carriage { "\r\n" } else { "\n" };
@@ -70,28 +70,28 @@ impl Editor {
         }
     }
 
-    /// The whole text, byte for byte as it was given where nothing was changed.
+    /// Returns the whole text. Unchanged parts keep their original bytes.
     pub fn text(&self) -> String {
         self.lines.join(if self.carriage { "\r\n" } else { "\n" })
     }
 
-    /// Its lines, at least one.
+    /// Returns the lines, at least one.
     pub fn lines(&self) -> &[String] {
         &self.lines
     }
 
-    /// Where the cursor stands.
+    /// Returns the position of the cursor.
     pub fn cursor(&self) -> Caret {
         self.cursor
     }
 
-    /// What is selected, its beginning first.
+    /// Returns the selection, its start first.
     pub fn selection(&self) -> Option<(Caret, Caret)> {
         let anchor = self.anchor.filter(|anchor| *anchor != self.cursor)?;
         Some((anchor.min(self.cursor), anchor.max(self.cursor)))
     }
 
-    /// The place of a byte of the text.
+    /// Returns the position of a byte offset.
     pub fn spot(&self, byte: usize) -> Caret {
         let ending = if self.carriage { 2 } else { 1 };
         let mut left = byte;
@@ -105,14 +105,14 @@ impl Editor {
         Caret::default()
     }
 
-    /// Puts the cursor on a place, or the nearest there is.
+    /// Moves the cursor to a position, or to the nearest valid one.
     pub fn go(&mut self, spot: Caret) {
         let row = spot.row.min(self.lines.len() - 1);
         self.cursor = Caret { row, column: spot.column.min(self.length(row)) };
         (self.anchor, self.goal, self.typing) = (None, None, false);
     }
 
-    /// Handles a key of typing or moving, `page` being how many rows are shown; whether the text changed.
+    /// Handles a typing or movement key; `page` is the number of visible rows. Returns whether the text changed.
     pub fn press(&mut self, key: KeyEvent, page: usize) -> bool {
         let held = |modifier| key.modifiers.contains(modifier);
         match (key.code, held(KeyModifiers::CONTROL)) {
@@ -140,12 +140,13 @@ impl Editor {
         }
     }
 
-    /// Takes text in where the cursor stands, in the place of what is selected; whether it found room.
+    /// Inserts text at the cursor, replacing the selection. Returns whether it fitted.
     pub fn insert(&mut self, text: &str) -> bool {
         self.type_in(text, false)
     }
 
-    /// Pasted text: lines of any ending, no characters that steer a terminal; whether all of it found room.
+    /// Inserts pasted text, with line endings normalized and control characters removed. Returns whether all of it
+    /// fitted.
     pub fn paste(&mut self, text: &str) -> bool {
         let text = text.replace("\r\n", "\n").replace('\r', "\n").replace('\t', "    ");
         let text: String = text.chars().filter(|c| *c == '\n' || !c.is_control()).collect();
@@ -155,7 +156,7 @@ impl Editor {
         beginning.len() == text.len()
     }
 
-    /// Takes what is selected, or else the line, out of the text and keeps it.
+    /// Cuts the selection, or else the line.
     pub fn cut(&mut self) -> bool {
         self.copy();
         let (from, to) = self.selected_or_line();
@@ -164,19 +165,19 @@ impl Editor {
         had
     }
 
-    /// Keeps what is selected, or else the line.
+    /// Copies the selection, or else the line.
     pub fn copy(&mut self) {
         let (from, to) = self.selected_or_line();
         self.kept = self.between(from, to);
     }
 
-    /// Puts in what was cut or copied last.
+    /// Pastes what was cut or copied last.
     pub fn put_back(&mut self) -> bool {
         let kept = self.kept.clone();
         !kept.is_empty() && self.insert(&kept)
     }
 
-    /// Takes the last change back; whether there was one.
+    /// Undoes the last change. Returns whether there was one.
     pub fn undo(&mut self) -> bool {
         let Some(change) = self.done.pop() else { return false };
         let end = end_of(change.at, &change.new);
@@ -186,7 +187,7 @@ impl Editor {
         true
     }
 
-    /// Makes the change last taken back again; whether there was one.
+    /// Redoes the change undone last. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(change) = self.undone.pop() else { return false };
         let end = end_of(change.at, &change.old);
@@ -196,8 +197,8 @@ impl Editor {
         true
     }
 
-    /// Selects the next place behind the cursor where this stands, from the beginning again after the end; neither
-    /// small nor great letters matter. Whether there is one.
+    /// Selects the next match after the cursor, ignoring case and wrapping around at the end. Returns whether there
+    /// is one.
     pub fn find(&mut self, wanted: &str) -> bool {
         let fold = |text: &str| -> Vec<char> {
             text.chars().map(|c| c.to_lowercase().next().unwrap_or(c)).collect()
@@ -221,7 +222,7 @@ impl Editor {
         false
     }
 
-    /// Another text in the place of this one, as one change that can be taken back.
+    /// Replaces the whole text in one undoable change.
     pub fn become_text(&mut self, text: &str) {
         let cursor = self.cursor;
         let last = self.lines.len() - 1;
@@ -232,7 +233,7 @@ impl Editor {
         self.go(cursor);
     }
 
-    /// How many bytes the text has at most.
+    /// Returns an upper bound on the size of the text in bytes.
     fn size(&self) -> usize {
         self.lines.iter().map(|line| line.len() + 2).sum()
     }
@@ -264,7 +265,7 @@ impl Editor {
         true
     }
 
-    /// Takes out what is selected, or what lies between the cursor and another place.
+    /// Deletes the selection, or the range between the cursor and another position.
     fn erase(&mut self, to: fn(&Self) -> Caret) -> bool {
         let other = to(self);
         let (from, to) =
@@ -286,7 +287,7 @@ impl Editor {
         self.go(end_of(from, text));
     }
 
-    /// Puts a text in the place of a stretch, and returns what stood there.
+    /// Replaces a range by a text, and returns the replaced text.
     fn exchange(&mut self, from: Caret, to: Caret, text: &str) -> String {
         let old = self.between(from, to);
         let byte = |line: &str, column: usize| {
@@ -325,7 +326,7 @@ impl Editor {
         })
     }
 
-    /// Moves the cursor, with Shift one end of the selection.
+    /// Moves the cursor; with Shift, extends the selection.
     fn shift(&mut self, key: KeyEvent, page: usize) {
         let Caret { row, column } = self.cursor;
         let last = self.lines.len() - 1;
@@ -380,7 +381,7 @@ impl Editor {
         }
     }
 
-    /// To the beginning of a word.
+    /// Returns the start of the word to the left.
     fn word_left(&self) -> Caret {
         let Caret { row, column } = self.cursor;
         if column == 0 {
@@ -397,7 +398,7 @@ impl Editor {
         Caret { row, column: at }
     }
 
-    /// Behind the end of a word.
+    /// Returns the end of the word to the right.
     fn word_right(&self) -> Caret {
         let Caret { row, column } = self.cursor;
         let line: Vec<char> = self.lines[row].chars().collect();
@@ -415,7 +416,7 @@ impl Editor {
     }
 }
 
-/// As many whole characters of a text as have room in so many bytes.
+/// Returns the longest prefix of whole characters that fits in this many bytes.
 pub(super) fn beginning(text: &str, room: usize) -> &str {
     let mut ends = (0..=room.min(text.len())).rev();
     &text[..ends.find(|end| text.is_char_boundary(*end)).unwrap_or(0)]
@@ -425,7 +426,7 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Where a text ends that begins here.
+/// Returns the position at which a text ends if it starts at `at`.
 fn end_of(at: Caret, text: &str) -> Caret {
     match text.rsplit_once('\n') {
         None => Caret { row: at.row, column: at.column + text.chars().count() },

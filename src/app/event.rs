@@ -1,7 +1,7 @@
-//! What can happen to the application, and what it then asks to be done.
+//! Events that reach the application, and the effects it asks for.
 //!
 //! In: nothing. Out: [`Event`]s as the shell reports them, [`Effect`]s as the shell performs them, both plain data.
-//! Never here: how anything is done.
+//! Never here: how an effect is performed.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,92 +18,92 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::System;
 
-/// Something that happened.
+/// An event from outside.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A key was pressed.
     Key(KeyEvent),
-    /// Text was pasted; it counts only where text is typed.
+    /// Text was pasted; it is ignored unless text is being typed.
     Paste(String),
-    /// The screen has another size: columns, rows.
+    /// The screen was resized: columns, rows.
     Resize(u16, u16),
-    /// The mouse did something at a spot that `view` has found.
+    /// A mouse event on a target that `view` has identified.
     Mouse(MouseEventKind, HitTarget),
-    /// The window of the terminal has got the keyboard, or lost it.
+    /// The terminal's window has gained or lost the keyboard focus.
     Focus(bool),
-    /// The experiment has moved on. Snapshots of another epoch than the loaded system's are dropped.
+    /// The experiment has advanced. Snapshots of an epoch other than the loaded system's are dropped.
     Snapshot(Arc<Snapshot>),
-    /// A system asked for by [`Effect::Load`] is there, or is not.
+    /// A system requested by [`Effect::Load`] was loaded, or could not be.
     Loaded(Result<Loaded, LoadError>),
-    /// A file that was asked for is written, or why it is not: a sentence.
+    /// A requested file was written, or the reason why not: a sentence.
     Written(Result<String, String>),
-    /// The system in the lab was built anew from its changed file.
+    /// The system in the lab was rebuilt from its changed file.
     Rebuilt(Loaded),
-    /// A frame has passed, and this much time since the last one.
+    /// A frame has passed; this is the time since the last one.
     Tick(Duration),
-    /// A text that [`Effect::Check`] asked about is right and runs already, or is wrong.
+    /// The result of [`Effect::Check`]; if the text is correct, its system is already running.
     Checked(Box<Checked>),
-    /// A text was saved to this file, or was not.
+    /// A text was saved to this file, or could not be.
     FileSaved(Result<(PathBuf, String), SaveError>),
-    /// The file of the system holds this text now.
+    /// The file of the system was read.
     FileRead {
         /// Its text.
         text: String,
         /// Whether it was read because [`Effect::Reread`] asked for it.
         asked: bool,
     },
-    /// A job that [`Effect::Compute`] asked for has ended.
+    /// A job requested by [`Effect::Compute`] has ended.
     Computed {
-        /// Its number.
+        /// Its ticket.
         ticket: u64,
-        /// What became of it.
+        /// Its outcome.
         outcome: Outcome<Answer>,
     },
-    /// A job is so far.
+    /// The progress of a job.
     Progress {
-        /// Its number.
+        /// Its ticket.
         ticket: u64,
-        /// How far.
+        /// The completed share.
         share: Share,
     },
-    /// The watched file of the system is there again, or is there no longer.
+    /// Whether the watched file of the system exists; sent when that changes.
     FileThere(bool),
-    /// The screen was drawn, and this is what came of it.
+    /// The screen was drawn, with this result.
     Drawn(Drawn),
 }
 
-/// What drawing the screen has shown.
+/// What drawing the screen has determined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Drawn {
-    /// How many rows of the page of text lie beyond the screen when it stands at its beginning.
+    /// The number of rows of the text page beyond the screen when it is scrolled to its start.
     pub beyond: u16,
-    /// How many of its rows the screen holds.
+    /// The number of its rows that fit on the screen.
     pub rows: u16,
-    /// How many columns of a text being edited it holds.
+    /// The number of columns of an edited text that fit.
     pub columns: u16,
-    /// Where the terminal's cursor belongs, column and row: in the text being typed, or at the line being read.
+    /// The position of the terminal's cursor, column and row: in the text being typed, or at the line being read.
     pub cursor: Option<(u16, u16)>,
 }
 
-/// A system ready to be looked at.
+/// A system ready to be shown.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// What was asked for: a preset's name or a file's path.
+    /// The requested name: a preset's name or a file's path.
     pub name: String,
     /// The epoch of its snapshots.
     pub epoch: u64,
-    /// The file's text.
+    /// The parsed text of the file.
     pub document: Arc<Document>,
-    /// What the file says.
+    /// The model that the file describes.
     pub model: Arc<Model>,
-    /// What follows from it.
+    /// The equations derived from it.
     pub equations: Arc<Equations>,
-    /// The same as a program, with its channels.
+    /// The compiled system, with its channels.
     pub system: Arc<System>,
 }
 
 impl Loaded {
-    /// The system as instruments look at it.
+    /// Returns the system as instruments see it.
     pub fn physics(&self) -> Physics<'_> {
         Physics { model: &self.model, equations: &self.equations, system: &self.system }
     }
@@ -112,70 +112,70 @@ impl Loaded {
 /// Why a system could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoadError {
-    /// What was asked for.
+    /// The requested name.
     pub name: String,
-    /// What is wrong, as it would be printed, in one or many lines.
+    /// What is wrong, as it would be printed, in one or more lines.
     pub message: String,
 }
 
-/// Something to be done by the shell.
+/// An effect for the shell to perform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
-    /// Hand a command to the experiment.
+    /// Send a command to the experiment.
     Tell(Command),
     /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
     Load(String),
-    /// Load no longer what was asked for last; nothing answers.
+    /// Cancel the last load; there is no response.
     StopLoading,
-    /// Write the present as a file of a system; [`Event::Written`] answers.
+    /// Export the current state as a system file; [`Event::Written`] answers.
     Export,
-    /// Check a text, and no longer the one before; where it is right, what it describes takes the place of the system in
-    /// the lab. [`Event::Checked`] answers.
+    /// Check a text and cancel the previous check; if the text is correct, its system replaces the one in the lab.
+    /// [`Event::Checked`] answers.
     Check {
-        /// Counts the checks of all texts.
+        /// The number of the check, counted over all texts.
         ticket: u64,
-        /// What reports call it.
+        /// The name used in diagnostics.
         title: String,
         /// The text.
         text: String,
     },
-    /// Run a job, and no longer the one before of the same asker; [`Event::Computed`] answers.
+    /// Run a job and cancel the previous one of the same asker; [`Event::Computed`] answers.
     Compute(Computation),
-    /// The job of an asker is no longer wanted; nothing answers.
+    /// Cancel the job of an asker; there is no response.
     StopComputing(Asker),
-    /// Check no text any more; nothing answers.
+    /// Cancel the check; there is no response.
     StopCheck,
-    /// Write a text to its file, if that still holds what is known of it. [`Event::FileSaved`] answers.
+    /// Write a text to its file if the file still has the expected contents. [`Event::FileSaved`] answers.
     Save {
         /// The file.
         place: PathBuf,
         /// The text.
         text: String,
-        /// What the file should hold; `None` writes over whatever it holds.
+        /// The expected contents of the file; with `None` the file is overwritten in any case.
         known: Option<String>,
     },
-    /// Write a text to a new preset of the user's, or to a new file. [`Event::FileSaved`] answers.
+    /// Write a text to a new user preset, or to a new file. [`Event::FileSaved`] answers.
     SaveCopy {
         /// A preset's name, or a file's path.
         name: String,
         /// The text.
         text: String,
     },
-    /// Read the system's file anew; [`Event::FileRead`] answers.
+    /// Read the system's file again; [`Event::FileRead`] answers.
     Reread(PathBuf),
-    /// Draw every cell anew.
+    /// Redraw every cell.
     Repaint,
-    /// Draw at most so many frames in a second.
+    /// Draw at most this many frames per second.
     Frames(u16),
-    /// Have the terminal report the mouse, or leave it alone.
+    /// Capture the mouse, or leave it to the terminal.
     Mouse(bool),
-    /// Write a still of the screen into a fresh file.
+    /// Write a still image of the screen to a new file.
     Still,
-    /// Write the recorded motion as a table into a fresh file.
+    /// Write the recorded motion as a table to a new file.
     Data,
-    /// Begin to record what is shown, or end it.
+    /// Start or stop recording the screen.
     Record(bool),
-    /// Stop the process as the terminal's Ctrl-Z does.
+    /// Suspend the process, as Ctrl-Z does.
     Suspend,
     /// End the program.
     Quit,

@@ -1,6 +1,6 @@
 //! A field in which a value is typed.
 //!
-//! In: characters. Out: the text, the number it stands for, or a sentence on why it stands for none.
+//! In: characters. Out: the text, the number it denotes, or a sentence on why it denotes none.
 //! Never here: where the field is drawn.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
@@ -11,7 +11,7 @@ use super::ValueId;
 use crate::expr::Pool;
 use crate::model::{Allowed, Model, Scope};
 
-/// The most characters a field takes, so that a paste can do no harm.
+/// The maximum number of characters in a field; it limits what a paste can insert.
 const MOST: usize = 4096;
 
 const CTRL_ALT: KeyModifiers = KeyModifiers::CONTROL.union(KeyModifiers::ALT);
@@ -21,7 +21,7 @@ const CTRL_ALT: KeyModifiers = KeyModifiers::CONTROL.union(KeyModifiers::ALT);
 pub enum Purpose {
     /// A parameter or an initial value.
     Value(ValueId),
-    /// The step of a method of fixed step.
+    /// The step of a fixed-step method.
     Step,
     /// The tolerance of an adaptive method.
     Tolerance,
@@ -34,20 +34,20 @@ pub struct Field {
     pub purpose: Purpose,
     /// What is typed so far, with the cursor.
     pub input: Input,
-    /// Whether the text is still the one it began with, marked as a whole: what is typed takes its place.
+    /// Whether the text is still the initial one, selected as a whole: typing replaces it.
     pub whole: bool,
-    /// What is wrong with what was typed when it was last to be accepted.
+    /// What was wrong with the text when it was last submitted.
     pub mistake: Option<String>,
 }
 
 impl Field {
-    /// A field that holds a text to begin with.
+    /// Creates a field with an initial text.
     pub fn new(purpose: Purpose, text: String) -> Self {
         let whole = !text.is_empty();
         Self { purpose, input: Input::new(text), whole, mistake: None }
     }
 
-    /// Handles a key of editing; whatever it was, the last complaint is answered.
+    /// Handles an editing key and clears the last error message.
     pub fn press(&mut self, key: KeyEvent) {
         let replaces = types(key) || matches!(key.code, KeyCode::Backspace | KeyCode::Delete);
         let emptied = std::mem::take(&mut self.whole) && replaces;
@@ -59,7 +59,7 @@ impl Field {
         }
     }
 
-    /// Takes pasted text in as if it were typed; whether all of it found room.
+    /// Inserts pasted text as if it were typed. Returns whether all of it fitted.
     pub(super) fn paste(&mut self, text: &str) -> bool {
         if std::mem::take(&mut self.whole) {
             self.input.reset();
@@ -68,10 +68,10 @@ impl Field {
         paste(&mut self.input, text)
     }
 
-    /// The number typed, positive where the purpose asks for it.
+    /// Parses the typed number, which must be positive if the purpose requires it.
     ///
     /// # Errors
-    /// A sentence that says what is wrong with the text.
+    /// Returns a sentence that says what is wrong with the text.
     pub fn read(&self, model: &Model, parameters: &[f64]) -> Result<f64, String> {
         let value = number(model, parameters, self.input.value())?;
         let sentence = match self.purpose {
@@ -84,7 +84,7 @@ impl Field {
     }
 }
 
-/// The value of a typed expression in numbers and parameters, which have these values.
+/// Evaluates an expression of numbers and parameters with these parameter values.
 fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> {
     let mut pool: Pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "a typed value");
@@ -106,17 +106,17 @@ fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> 
     }
 }
 
-/// Whether a key stands for a character of text.
+/// Whether a key types a character.
 fn types(key: KeyEvent) -> bool {
     matches!(key.code, KeyCode::Char(c) if !c.is_control()) && !key.modifiers.intersects(CTRL_ALT)
 }
 
-/// Handles a key of editing; whether the text or the cursor changed.
+/// Handles an editing key. Returns whether the text or the cursor changed.
 pub(super) fn edit(input: &mut Input, key: KeyEvent) -> bool {
     let key = match key.code {
-        // Ctrl with Alt would be taken for a character that Windows types by AltGr
+        // The input library would insert Ctrl-Alt with a letter, since Windows reports AltGr that way.
         KeyCode::Char(c) if c.is_control() || key.modifiers.contains(CTRL_ALT) => return false,
-        // a character, or what was cut from the line
+        // A character, or a yank (Ctrl-y) of what was cut from the line.
         KeyCode::Char(c) if types(key) || c == 'y' => {
             if input.value().len() >= MOST {
                 return false;
@@ -132,7 +132,7 @@ pub(super) fn edit(input: &mut Input, key: KeyEvent) -> bool {
     input.handle_event(&Event::Key(key)).is_some()
 }
 
-/// Takes pasted text in as if it were typed; whether all of it found room.
+/// Inserts pasted text as if it were typed. Returns whether all of it fitted.
 pub(super) fn paste(input: &mut Input, text: &str) -> bool {
     let mut characters = text.chars().filter(|c| !c.is_control());
     let room = MOST.saturating_sub(input.value().len());
@@ -158,7 +158,7 @@ mod tests {
         field.input.value().to_owned()
     }
 
-    /// What a field begins with is marked as a whole, as in any other field of a form.
+    /// The initial text is selected as a whole, as in any form field.
     #[test]
     fn what_is_typed_takes_the_place_of_the_old_value() {
         let [three, dot] = ['3', '.'].map(|c| KeyEvent::from(KeyCode::Char(c)));

@@ -1,36 +1,38 @@
-//! Search by a few letters: how well what is typed fits the texts of a line.
+//! Fuzzy search: how well a query matches the texts of a line.
 //!
-//! In: what is typed, the texts of a line. Out: a score and the letters to be marked. Never here: which lines there are.
+//! In: the query, the texts of a line. Out: a score and the letters to highlight. Never here: which lines there
+//! are.
 //!
-//! Each word is sought by itself, and scored by nucleo's matcher: beginnings of words count most, then letters that stand
-//! together, and gaps cost. Letters scattered over a text are chance, in a long one almost any stand in order; so a match
-//! has to be worth something for each of its letters, and they stand near each other or are initials.
+//! Each word is matched separately, and scored by nucleo's matcher: starts of words count most, then consecutive
+//! letters; gaps reduce the score. Letters scattered over a text match by chance (a long text contains almost any
+//! sequence), so a match must reach a minimum score per letter, and its letters must be close together or be
+//! initials.
 
 use nucleo_matcher::pattern::{Atom, AtomKind, CaseMatching, Normalization};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
-/// The least that a match is worth for each of its letters: at the beginning of a word one is worth 24 and more, behind
-/// another 16 and a bonus, and each gap takes some away.
+/// The minimum score of a match per letter. A letter at the start of a word scores 24 or more, one that follows
+/// another match 16 and a bonus; each gap costs some.
 const LEAST: u32 = 24;
 
-/// More at the beginning of a text, at the end of a word, and for all of a text.
+/// A bonus for a match at the start of a text, at the end of a word, and of a whole text.
 const BEGINS: u32 = 8;
 const ENDS: u32 = 4;
 const ALL: u32 = 12;
 
-/// Less for a name that is not shown first.
+/// A penalty for a name that is not shown first.
 const SECOND: u32 = 4;
 
-/// What is only said about a line counts so many times less.
+/// The divisor of the score of a match in a description.
 const SAID: u32 = 4;
 
-/// What is typed, ready to be sought.
+/// A parsed query.
 pub(super) struct Query {
     words: Vec<Word>,
     matcher: Matcher,
 }
 
-/// A word, to be found with gaps in names and without them in what is said.
+/// A word, matched with gaps in names and without gaps in descriptions.
 struct Word {
     fuzzy: Atom,
     plain: Atom,
@@ -40,20 +42,20 @@ struct Word {
 /// The texts of a line.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Texts<'a> {
-    /// What the line is called; its letters are marked.
+    /// The label of the line; its matched letters are highlighted.
     pub label: &'a str,
-    /// What else it is called.
+    /// Other names of it.
     pub names: &'a [&'a str],
-    /// What is said about it.
+    /// Its descriptions.
     pub about: &'a [&'a str],
 }
 
-/// How a line fits what is typed.
+/// How a line matches a query.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fit {
-    /// The greater, the better.
+    /// The score; higher is better.
     pub score: u32,
-    /// The places of the letters of the label that were found, in rising order.
+    /// The indices of the matched letters of the label, in rising order.
     pub messages: Vec<usize>,
 }
 
@@ -63,7 +65,7 @@ impl Query {
         Self { words, matcher: Matcher::new(Config::DEFAULT) }
     }
 
-    /// How a line fits, if each word stands somewhere in its texts.
+    /// Returns how a line matches, if each word occurs somewhere in its texts.
     pub(super) fn fit(&mut self, texts: Texts<'_>) -> Option<Fit> {
         let mut fit = Fit::default();
         for word in &self.words {
@@ -84,14 +86,14 @@ impl Word {
         Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), messages }
     }
 
-    /// What it is worth in these texts, and its letters in the label.
+    /// Returns the word's score in these texts, and its letters in the label.
     fn fit(&self, texts: Texts<'_>, matcher: &mut Matcher) -> Option<Fit> {
         let label = self.named(texts.label, matcher);
         let names = texts.names.iter().filter_map(|name| {
             let score = self.named(name, matcher)?.score.saturating_sub(SECOND);
             Some(Fit { score, messages: Vec::new() })
         });
-        // of equals the label comes first
+        // The label wins a tie.
         let named = label.into_iter().chain(names);
         named.reduce(|a, b| if b.score > a.score { b } else { a }).or_else(|| {
             let said = texts.about.iter().filter_map(|text| self.said(text, matcher));
@@ -99,7 +101,7 @@ impl Word {
         })
     }
 
-    /// What it is worth in a name, and where its letters stand.
+    /// Returns the word's score in a name, and the indices of its letters.
     fn named(&self, text: &str, matcher: &mut Matcher) -> Option<Fit> {
         let (mut buffer, mut places) = (Vec::new(), Vec::new());
         let text = Utf32Str::new(text, &mut buffer);
@@ -123,7 +125,7 @@ impl Word {
         Some(Fit { score: score + more, messages })
     }
 
-    /// What it is worth in what is said about a line: three letters anywhere, two at the beginning of a word.
+    /// Returns the word's score in a description: three letters match anywhere, two only at the start of a word.
     fn said(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
         let mut buffer = Vec::new();
         let score = self.plain.score(Utf32Str::new(text, &mut buffer), matcher)?.into();

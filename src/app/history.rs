@@ -1,7 +1,7 @@
-//! Undo: all that a person changed of values, method and pictures, to be taken back and done again in one order.
+//! Undo history: all changes of values, method and pictures, to be undone and redone in one order.
 //!
-//! In: changes as they are made. Out: the change to be taken back or made again. Never here: how it is carried out.
-//! Where a person looks (the focus, the page, a pane that fills the page) is no change.
+//! In: changes as they are made. Out: the change to be undone or redone. Never here: how it is carried out.
+//! Navigation (the focus, the page, a zoomed pane) is not a change.
 
 use std::time::Duration;
 
@@ -9,54 +9,54 @@ use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
-/// Changes of one thing that follow each other within this time are taken back together.
+/// Changes of one thing that follow each other within this time are undone together.
 const TOGETHER: Duration = Duration::from_millis(800);
 
-/// One change that can be taken back.
+/// One undoable change.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Change {
-    /// A parameter went from one number to another.
+    /// A parameter was changed.
     Parameter {
-        /// Which.
+        /// Its index.
         index: usize,
-        /// The number before, and after.
+        /// Its value before and after.
         numbers: [f64; 2],
     },
-    /// An initial value was given.
+    /// An initial value was changed.
     Initial {
-        /// Which.
+        /// Its index.
         index: usize,
-        /// What stood there before, and after.
+        /// Its value before and after.
         numbers: [f64; 2],
-        /// All that was given in place of the file's values before, and after.
+        /// All overrides of the file's initial values before and after.
         given: [Vec<InitialOverride>; 2],
     },
-    /// Several initial values were given at once: all that was given before, and after.
+    /// Several initial values were set at once: all overrides before and after.
     Start([Vec<InitialOverride>; 2]),
-    /// All values were given back to the file; these are the ones before.
+    /// All values were reset to the file's.
     FullReset {
-        /// The parameters.
+        /// The parameters before.
         parameters: Vec<f64>,
-        /// What was given in place of the file's initial values.
+        /// The overrides of the file's initial values before.
         given: Vec<InitialOverride>,
     },
-    /// A picture shows something else, or is looked at in another way.
+    /// A picture shows something else, or its view has changed.
     Plot {
-        /// Its place among the pictures.
+        /// Its index among the pictures.
         index: usize,
-        /// It before, and after.
+        /// The picture before and after.
         plots: Box<[Plot; 2]>,
     },
-    /// Another method integrates: its name before, and after.
+    /// The method was changed: its name before and after.
     Method([&'static str; 2]),
-    /// It has another step or tolerance: before, and after.
+    /// The method's step or tolerance was changed: before and after.
     Settings([Settings; 2]),
-    /// Several things were changed in one go, in this order.
+    /// Several changes made as one, in this order.
     Together(Vec<Change>),
 }
 
 impl Change {
-    /// Takes in a later change of the same thing; whether it is one that goes together with it.
+    /// Merges a later change of the same thing into this one. Returns whether the two belong together.
     fn join(&mut self, later: &Self) -> bool {
         match (self, later) {
             (
@@ -82,23 +82,23 @@ impl Change {
     }
 }
 
-/// What was changed, and what of it was taken back.
+/// The changes made, and the changes undone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct History {
     done: Vec<Change>,
     undone: Vec<Change>,
     since: Option<Duration>,
-    /// How much was done when the mouse took hold of something.
+    /// The number of changes made when the mouse began to drag something.
     begin_group: Option<usize>,
 }
 
 impl History {
-    /// Takes note of a change made now.
+    /// Records a change made now.
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
         let last = self.done.len().saturating_sub(1);
         let joining = match self.begin_group {
-            // All that is done while something is held is one change, however long it takes.
+            // Everything changed during a drag is one change, however long it takes.
             Some(before) => self.done.get_mut(before..).unwrap_or_default(),
             None if self.since.is_some_and(|since| since < TOGETHER) => &mut self.done[last..],
             None => &mut [],
@@ -109,12 +109,12 @@ impl History {
         }
     }
 
-    /// The mouse takes hold of something, or values begin to be carried elsewhere.
+    /// Begins a group: the mouse begins to drag something, or values begin to move.
     pub(super) fn begin_group(&mut self) {
         self.begin_group = Some(self.done.len());
     }
 
-    /// They are let go; all that was changed meanwhile is taken back as one.
+    /// Ends the group; all changes made since its start are undone as one.
     pub(super) fn end_group(&mut self) {
         if let Some(before) = self.begin_group.filter(|before| self.done.len() > before + 1) {
             let changes = self.done.split_off(before);
@@ -123,12 +123,12 @@ impl History {
         (self.begin_group, self.since) = (None, None);
     }
 
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.map(|since| since.saturating_add(elapsed));
     }
 
-    /// The change to be taken back.
+    /// Returns the change to be undone.
     pub(super) fn undo(&mut self) -> Option<Change> {
         let change = self.done.pop()?;
         self.since = None;
@@ -136,7 +136,7 @@ impl History {
         Some(change)
     }
 
-    /// The change to be made again.
+    /// Returns the change to be redone.
     pub(super) fn redo(&mut self) -> Option<Change> {
         let change = self.undone.pop()?;
         self.since = None;
@@ -149,7 +149,7 @@ impl History {
 mod tests {
     use super::*;
 
-    /// How many changes are taken back of two that follow each other after so many milliseconds.
+    /// Returns how many undo entries result from two changes this many milliseconds apart.
     fn changes(milliseconds: u64) -> usize {
         let mut history = History::default();
         history.note(Change::Parameter { index: 0, numbers: [1.0, 2.0] });

@@ -1,24 +1,25 @@
-//! Spots: what a place on the screen shows, for the mouse.
+//! Hit targets: what a position on the screen shows, for the mouse.
 //!
-//! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Grab`], what the mouse holds on to. Never here: where anything
-//! stands on the screen, or what a click does.
+//! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Grab`], what the mouse drags. Never here: where
+//! anything is on the screen, or what a click does.
 
 use super::{Action, Page, Pane, ValueId};
 
-/// What is under the mouse. Places are parts of a picture's width from the left and of its height from below.
+/// What is under the mouse. Positions are fractions of a picture's width from the left and of its height from
+/// below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HitTarget {
-    /// The name of a page in the line of headings.
+    /// The name of a page in the line of tabs.
     Page(Page),
     /// A key's hint.
     Hint(Action),
     /// A page of text.
     Text,
-    /// The lines of a pop-up list, beside all of them.
+    /// The area of a pop-up list outside its lines.
     Menu,
     /// A line of it, counted among those shown.
     Line(usize),
-    /// The list of systems, beside all of them.
+    /// The area of the list of systems outside its lines.
     Systems,
     /// A system, counted among those shown.
     System(usize),
@@ -26,45 +27,45 @@ pub enum HitTarget {
     Pane(Pane),
     /// A value in a list.
     Value(ValueId),
-    /// The bar of a value.
+    /// The slider of a value.
     Bar {
-        /// Whose.
+        /// The value's identifier.
         target: ValueId,
-        /// The value that has its knob in this column.
+        /// The value at this column.
         value: f64,
     },
     /// A gauge.
     Gauge(usize),
-    /// A picture of the motion in space.
+    /// A spatial view of the motion.
     Space {
-        /// Its place among the pictures.
+        /// Its index among the pictures.
         index: usize,
-        /// Where in it.
+        /// The position in it.
         place: [f64; 2],
     },
     /// A plot.
     Plot {
-        /// Its place among the pictures.
+        /// The index of the plot.
         index: usize,
-        /// Where in it.
+        /// The position in it.
         place: [f64; 2],
-        /// The coordinates of the middle of the cell.
+        /// The coordinates of the centre of the cell.
         at: [f64; 2],
     },
 }
 
-/// What the mouse holds while its button is down: it goes with the mouse, wherever that goes.
+/// What the mouse drags while its button is down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grab {
-    /// The knob of a value's bar.
+    /// The knob of a value's slider.
     Bar(ValueId),
     /// A picture.
     Picture {
-        /// Its place among the pictures.
+        /// Its index.
         index: usize,
-        /// Where the mouse was last.
+        /// The last position of the mouse.
         place: [f64; 2],
-        /// Whether it has moved since the button went down.
+        /// Whether the mouse has moved since the button was pressed.
         moved: bool,
     },
 }

@@ -1,13 +1,13 @@
-//! The impulses that wait for a person's hand: which they are, and the list to choose one from.
+//! The impulses that the user triggers: which ones exist, and the list to choose from.
 //!
-//! In: the impulses and events of a model. Out: menus and commands. Never here: what an impulse does.
+//! In: the impulses and events of a model. Out: menus and commands. Never here: the effect of an impulse.
 
 use super::{App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay};
 use crate::experiment::{Command, Status};
 use crate::model::Action;
 
 impl Lab {
-    /// The impulses that fall at no time of their own and by no event, by index.
+    /// Returns the indices of the impulses that neither a time nor an event triggers.
     pub fn impulses(&self) -> Vec<usize> {
         let model = &self.loaded.model;
         let by_event =
@@ -19,7 +19,7 @@ impl Lab {
         (0..model.impulses.len()).filter(waits).collect()
     }
 
-    /// A line of a list for each of them.
+    /// Returns a menu line for each of them.
     pub(super) fn impulse_lines(&self) -> Vec<Item> {
         let line = |index: usize| {
             let impulse = &self.loaded.model.impulses[index];
@@ -36,7 +36,7 @@ impl Lab {
 }
 
 impl App {
-    /// Applies the one impulse there is, or asks which.
+    /// Applies the only impulse there is, or asks which one to apply.
     pub(super) fn apply_one_impulse(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         match lab.impulse_lines().as_slice() {

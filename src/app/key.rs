@@ -1,13 +1,14 @@
 //! Key notation: keys as the help, the README and scripts write them.
 //!
-//! In: crossterm's [`KeyEvent`]s, or their names: `z`, `Tab`, `Shift-Left`, `Ctrl-r`, `F1`. Out: the other of the two.
+//! In: crossterm's [`KeyEvent`]s, or their names: `z`, `Tab`, `Shift-Left`, `Ctrl-r`, `F1`. Out: the other of the
+//! two.
 //! Never here: what a key does, or how a terminal sends it.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyEventState, KeyModifiers};
 
 use crate::diagnostic::nearest;
 
-/// The names of keys that are not one character. Where a key has several, the first one is shown.
+/// The names of keys that are not one character. If a key has several names, the first one is shown.
 const NAMES: [(&str, KeyCode); 22] = [
     ("Enter", KeyCode::Enter),
     ("Esc", KeyCode::Esc),
@@ -37,27 +38,27 @@ const NAMES: [(&str, KeyCode); 22] = [
 const MODIFIERS: [(&str, KeyModifiers); 3] =
     [("Ctrl", KeyModifiers::CONTROL), ("Alt", KeyModifiers::ALT), ("Shift", KeyModifiers::SHIFT)];
 
-/// A typed character. As in all of crossterm, Shift goes with a capital letter.
+/// A typed character. As everywhere in crossterm, a capital letter carries Shift.
 pub fn character(character: char) -> KeyEvent {
     let shift = if character.is_uppercase() { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
     KeyEvent::new(KeyCode::Char(character), shift)
 }
 
-/// A key as it is first pressed: repetitions count as that, and the state of the locks does not. `None` where the key
-/// was released.
+/// Normalizes a key to its first press: a repetition counts as a press, and lock states are dropped. Returns `None`
+/// if the key was released.
 pub fn pressed(key: KeyEvent) -> Option<KeyEvent> {
     let key = KeyEvent { state: KeyEventState::NONE, ..key };
     (!key.is_release()).then_some(KeyEvent { kind: KeyEventKind::Press, ..key })
 }
 
-/// The name of a key.
+/// Returns the name of a key.
 pub fn name(key: &KeyEvent) -> String {
     let (code, mut modifiers) = match key.code {
         KeyCode::BackTab => (KeyCode::Tab, key.modifiers | KeyModifiers::SHIFT),
         code => (code, key.modifiers),
     };
     if let KeyCode::Char(_) = code {
-        // the character tells
+        // The character already implies Shift.
         modifiers.remove(KeyModifiers::SHIFT);
     }
     let mut name = String::new();
@@ -75,10 +76,10 @@ pub fn name(key: &KeyEvent) -> String {
     }
 }
 
-/// The key of a name.
+/// Returns the key of a name.
 ///
 /// # Errors
-/// The nearest name there is, if one is near.
+/// Returns the nearest known name, if one is close.
 pub fn named(name: &str) -> Result<KeyEvent, Option<String>> {
     let (mut modifiers, mut rest) = (KeyModifiers::NONE, name);
     while let Some((modifier, behind)) =

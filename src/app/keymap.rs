@@ -1,19 +1,19 @@
-//! The one table of keys: what each does, where it holds, and what the help says about it.
+//! The table of key bindings: what each key does, where it is active, and what the help says about it.
 //!
-//! In: a key and the places that are active. Out: an [`Action`]. The help page, the hints in the footer, the palette
-//! and the README's table are made from [`KEYS`]. Never here: how an action is carried out.
+//! In: a key and the active places. Out: an [`Action`]. The help page, the hints in the footer, the palette and the
+//! README's table are generated from [`KEYS`]. Never here: how an action is carried out.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::action::{Action, Axes, Direction};
 use super::{EditCommand, Page, key};
 
-/// Where a key holds.
+/// A context in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Place {
-    /// Everywhere, also while text is typed.
+    /// Everywhere, even while text is typed.
     Always,
-    /// Wherever no text is typed.
+    /// Wherever no text is being typed.
     Anywhere,
     /// The list of systems.
     Picker,
@@ -33,7 +33,7 @@ pub enum Place {
     Gauges,
     /// A page of text, the help included.
     Text,
-    /// The page of plain reading.
+    /// The plain-reading page.
     Plain,
     /// A pop-up list.
     Menu,
@@ -41,7 +41,7 @@ pub enum Place {
     Workbench,
     /// A field in which a value is typed.
     Field,
-    /// Wherever letters are text: fields and searches.
+    /// Wherever letters are typed as text: fields and searches.
     Typing,
 }
 
@@ -66,7 +66,7 @@ impl Place {
         Self::Always,
     ];
 
-    /// How the help calls it.
+    /// Returns its title on the help page.
     pub fn title(self) -> &'static str {
         match self {
             Self::Always => "Always, also while typing",
@@ -89,7 +89,7 @@ impl Place {
     }
 }
 
-/// The places that can be active together, the innermost first.
+/// The combinations of places that can be active together, the innermost first.
 #[rustfmt::skip]
 pub const CHAINS: [&[Place]; 13] = {
     use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
@@ -110,16 +110,16 @@ pub const CHAINS: [&[Place]; 13] = {
     ]
 };
 
-/// One row of the table.
+/// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
-    /// The keys, the one to be shown first.
+    /// The keys; the first one is shown.
     pub keys: &'static [KeyEvent],
-    /// Where they hold.
+    /// Where they are active.
     pub place: Place,
     /// What they do.
     pub action: Action,
-    /// One or two words for the footer; empty for what is not worth its room there.
+    /// One or two words for the footer; empty if the binding is not shown there.
     pub hint: &'static str,
     /// A line for the help page and the palette.
     pub help: &'static str,
@@ -136,7 +136,7 @@ const fn row(
 }
 
 impl Binding {
-    /// The names of its keys.
+    /// Returns the names of its keys.
     pub fn key_names(&self) -> Vec<String> {
         self.keys.iter().map(key::name).collect()
     }
@@ -179,7 +179,7 @@ const PAGE_DOWN: KeyEvent = plain(KeyCode::PageDown);
 const SHIFT_LEFT: KeyEvent = shift(KeyCode::Left);
 const SHIFT_RIGHT: KeyEvent = shift(KeyCode::Right);
 
-/// All keys.
+/// All key bindings.
 #[rustfmt::skip]
 pub const KEYS: &[Binding] = &[
     row(Place::Always, &[ctrl('c')], Action::Quit, "", "leave, whatever is being typed"),
@@ -318,13 +318,13 @@ pub const KEYS: &[Binding] = &[
     row(Place::Typing, &[ESC], Action::Back, "leave", "leave it as it was"),
 ];
 
-/// What a key does where these places are active, the innermost first.
+/// Returns the action of a key where these places are active, the innermost first.
 pub fn action(key: KeyEvent, places: &[Place]) -> Option<Action> {
     let holds = |row: &&Binding| places.contains(&row.place) && row.keys.contains(&key);
     KEYS.iter().find(holds).map(|row| row.action)
 }
 
-/// The keys that would be ambiguous: held by two rows that can be active together.
+/// Returns the ambiguous keys: those bound by two rows that can be active together.
 pub fn duplicates() -> Vec<(KeyEvent, &'static Binding, &'static Binding)> {
     let mut found = Vec::new();
     for chain in CHAINS {

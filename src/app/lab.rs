@@ -1,4 +1,4 @@
-//! The laboratory: one loaded system, what is seen of it, and what is selected there.
+//! The laboratory: one loaded system, its snapshots, and the selection.
 //!
 //! In: a loaded system and its snapshots. Out: the state of the panes, and commands for changed values.
 //! Never here: keys, pop-ups, other pages.
@@ -22,7 +22,7 @@ use crate::model::Shape;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Pane {
-    /// A picture, by its place among the plots.
+    /// A picture, by its index among the plots.
     Plot(usize),
     /// The parameters.
     Parameters,
@@ -43,36 +43,36 @@ pub struct Selection {
     pub gauge: usize,
 }
 
-/// A loaded system and how it is looked at.
+/// A loaded system and its view.
 #[derive(Clone, Debug)]
 pub struct Lab {
     /// The system.
     pub loaded: Loaded,
-    /// What was last seen of it.
+    /// Its newest snapshot.
     pub snapshot: Option<Arc<Snapshot>>,
     /// The pictures.
     pub plots: Vec<Plot>,
-    /// The pane that keys go to.
+    /// The pane with the keyboard focus.
     pub focus: Pane,
-    /// Whether that pane fills the page.
+    /// Whether that pane is zoomed to fill the page.
     pub zoomed: bool,
     /// What is selected in the lists.
     pub selection: Selection,
     rods: Rods,
-    /// What was computed on the side for the pictures, and what is.
+    /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
-    /// Values asked for and not yet seen.
+    /// Values requested and not yet confirmed by a snapshot.
     pub(super) pending: Vec<(ValueId, f64)>,
-    /// What else was asked for and not yet seen.
+    /// Other changes requested and not yet confirmed.
     pub(super) asked: PendingChanges,
-    /// The speed asked for and not yet seen.
+    /// The speed requested and not yet confirmed.
     pub(super) speed_wish: Option<f64>,
     pub(super) history: History,
-    /// The motion that the experiment is to take up, until it has.
+    /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
 }
 
-/// For each shape whether it is a rod, a line that keeps its length: of the picture in space, then of each view with
+/// For each shape whether it is a rod, a line of constant length: of the spatial picture, then of each view with
 /// shapes of its own.
 #[derive(Clone, Debug)]
 struct Rods {
@@ -88,7 +88,7 @@ fn rods(loaded: &Loaded) -> Rods {
     }
 }
 
-/// Whether the length of each line does not vary with the coordinates.
+/// Returns for each line whether its length is independent of the coordinates.
 fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
     let mut pool = loaded.equations.pool.clone();
     let is_rod = |shape: &Shape| {
@@ -107,7 +107,7 @@ fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
 }
 
 impl Lab {
-    /// A system as it is first seen.
+    /// Creates the initial view of a system.
     pub fn new(loaded: Loaded) -> Self {
         let plots = Plot::opening(loaded.physics());
         let rods = rods(&loaded);
@@ -128,7 +128,7 @@ impl Lab {
         }
     }
 
-    /// The experiment has moved on; whether the snapshot speaks of this system.
+    /// Takes in a new snapshot. Returns whether it belongs to this system.
     pub(super) fn see(&mut self, snapshot: Arc<Snapshot>) -> bool {
         if snapshot.epoch != self.loaded.epoch {
             return false;
@@ -150,12 +150,12 @@ impl Lab {
         true
     }
 
-    /// The present as instruments look at it, once the motion was seen.
+    /// Returns the current state as instruments see it, once there is a snapshot.
     pub fn present(&self) -> Option<Present<'_>> {
         self.seen().map(|snapshot| self.present_of(snapshot))
     }
 
-    /// The same of a snapshot that fits the system.
+    /// Returns the same for a snapshot that fits the system.
     pub fn present_of<'a>(&'a self, snapshot: &'a Snapshot) -> Present<'a> {
         Present {
             physics: self.loaded.physics(),
@@ -166,12 +166,12 @@ impl Lab {
         }
     }
 
-    /// What the symbols of the system are worth now; nothing before the motion was seen.
+    /// Returns the current values of the system's symbols, which are empty before the first snapshot.
     pub fn valuation(&self) -> Valuation {
         self.present().map(|present| present.valuation()).unwrap_or_default()
     }
 
-    /// What an eye sees: each shape, and whether it is a rod.
+    /// Returns each shape that a camera sees, and whether it is a rod.
     pub fn shapes(&self, eye: CameraPose) -> impl Iterator<Item = (&Shape, bool)> {
         let model = &self.loaded.model;
         let own = eye.own_shapes(model).map(|view| &self.rods.views[view]);
@@ -179,30 +179,30 @@ impl Lab {
         eye.shapes(model).iter().zip(rods)
     }
 
-    /// The newest snapshot, if it says all that the system has to show; one that tells of a panic does not.
+    /// Returns the newest snapshot, if it is complete; one that reports a panic is not.
     pub fn seen(&self) -> Option<&Snapshot> {
         self.snapshot.as_deref().filter(|snapshot| self.fits(snapshot))
     }
 
-    /// Whether a snapshot says all that the system has to show.
+    /// Whether a snapshot has all the data that the system's views need.
     pub fn fits(&self, snapshot: &Snapshot) -> bool {
         snapshot.parameters.len() == self.loaded.model.parameters.len()
             && snapshot.values.len() == self.loaded.system.channels().len()
     }
 
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
         self.answers.tick(elapsed);
     }
 
-    /// The panes in the order in which Tab visits them.
+    /// Returns the panes in Tab order.
     pub fn panes(&self) -> impl DoubleEndedIterator<Item = Pane> + Clone {
         let lists = [Pane::Parameters, Pane::Initial, Pane::Gauges];
         (0..self.plots.len()).map(Pane::Plot).chain(lists)
     }
 
-    /// The focused picture.
+    /// Returns the focused picture and its index.
     pub fn focused_plot(&self) -> Option<(usize, &Plot)> {
         match self.focus {
             Pane::Plot(index) => self.plots.get(index).map(|plot| (index, plot)),
@@ -210,7 +210,7 @@ impl Lab {
         }
     }
 
-    /// The value that keys would change.
+    /// Returns the value that keys would change.
     pub fn selected(&self) -> Option<ValueId> {
         let target = match self.focus {
             Pane::Parameters => ValueId::Parameter(self.selection.parameter),
@@ -220,7 +220,7 @@ impl Lab {
         self.value_info(target).map(|_| target)
     }
 
-    /// Moves the selection of the focused list to `to(place)`, kept within the list.
+    /// Moves the selection of the focused list to `to(place)`, clamped to the list.
     pub(super) fn select(&mut self, to: impl FnOnce(usize) -> usize) {
         let gauges = self.snapshot.as_ref().map_or(0, |s| s.gauges.len());
         let (count, place) = match self.focus {
@@ -232,7 +232,7 @@ impl Lab {
         *place = to(*place).min(count.saturating_sub(1));
     }
 
-    /// The value that the file gives.
+    /// Returns the value given in the file.
     pub(super) fn of_file(&self, target: ValueId) -> Option<f64> {
         match target {
             ValueId::Parameter(index) => self.loaded.model.parameters.get(index).map(|p| p.value),

@@ -1,6 +1,6 @@
 //! A pop-up list: methods, variables for an axis, or all actions.
 //!
-//! In: lines and what each stands for. Out: the line taken. Never here: what taking it does.
+//! In: lines and what each denotes. Out: the chosen line. Never here: the effect of a choice.
 
 use tui_input::Input;
 
@@ -9,7 +9,7 @@ use super::fuzzy::{Fit, Query, Texts};
 use super::{Pane, ValueId};
 use crate::instrument::Plot;
 
-/// A list from which one line, or several, can be taken.
+/// A list from which one or more lines can be chosen.
 #[derive(Clone, Debug)]
 pub struct Menu {
     /// Its heading.
@@ -18,13 +18,13 @@ pub struct Menu {
     pub purpose: Choosing,
     /// All lines.
     pub items: Vec<Item>,
-    /// The search above the lines, where there is one.
+    /// The search field above the lines, if there is one.
     pub filter: Option<Input>,
-    /// The selected line, counted among those shown.
+    /// The index of the selected line among those shown.
     pub selected: usize,
-    /// The lines marked besides, counted among all.
+    /// The indices of additionally marked lines among all.
     pub marked: Vec<usize>,
-    /// What is being chosen for a plot, and what it was called where it was begun.
+    /// A partly specified plot, and its label in the list where it was begun.
     pub begun: Option<(Plot, String)>,
 }
 
@@ -39,14 +39,14 @@ pub enum Choosing {
     Impulse,
     /// A theme.
     Theme,
-    /// What the plot of this index shows.
+    /// The contents of the plot of this index.
     Contents {
-        /// Its place among the plots.
+        /// Its index among the plots.
         plot: usize,
     },
-    /// What runs along the next axis of what was begun for it.
+    /// The quantity on the next axis of a partly specified plot.
     Axis {
-        /// Its place among the plots.
+        /// Its index among the plots.
         plot: usize,
         /// Whether the axis takes several quantities.
         several: bool,
@@ -58,17 +58,17 @@ pub enum Choosing {
 pub struct Item {
     /// Its name.
     pub label: String,
-    /// What it is, in a line.
+    /// A one-line description.
     pub about: String,
-    /// The keys that do the same, with spaces between them.
+    /// The keys with the same effect, separated by spaces.
     pub keys: String,
-    /// Why it cannot be taken here.
+    /// Why it cannot be chosen at present.
     pub refusal: Option<String>,
-    /// What it stands for.
+    /// What choosing it means.
     pub choice: Choice,
 }
 
-/// What a line stands for.
+/// What a line denotes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// The method of this name.
@@ -77,22 +77,22 @@ pub enum Choice {
     Action(Action),
     /// The impulse of this index.
     Impulse(usize),
-    /// What is offered for a plot, by its place among all that is.
+    /// The offer of this index, among all offers for a plot.
     Offer(usize),
     /// A channel.
     Channel(usize),
-    /// The system of this place in the catalog.
+    /// The system of this index in the catalog.
     System(usize),
     /// A value to be typed.
     Value(ValueId),
     /// A pane of the lab.
     Pane(Pane),
-    /// The theme of this place among all.
+    /// The theme of this index among all.
     Theme(usize),
 }
 
 impl Menu {
-    /// A list on its first line.
+    /// Creates a list with its first line selected.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
         let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
         let filter = (!plain).then(Input::default);
@@ -107,14 +107,14 @@ impl Menu {
         }
     }
 
-    /// The list with the line of a choice selected.
+    /// Selects the line of a choice.
     #[must_use]
     pub fn on(mut self, choice: Choice) -> Self {
         self.selected = self.items.iter().position(|item| item.choice == choice).unwrap_or(0);
         self
     }
 
-    /// The same where there is a choice, else the list as it is.
+    /// Selects the line of a choice if there is one.
     #[must_use]
     pub fn at(self, choice: Option<Choice>) -> Self {
         match choice {
@@ -123,7 +123,7 @@ impl Menu {
         }
     }
 
-    /// The places of the lines that fit what is typed, the best first, and how each fits.
+    /// Returns the indices of the lines that match the search, best first, and how each matches.
     pub fn found(&self) -> Vec<(usize, Fit)> {
         let text = self.filter.as_ref().map_or("", Input::value);
         if text.trim().is_empty() {
@@ -136,7 +136,7 @@ impl Menu {
         };
         let mut found: Vec<(usize, Fit)> =
             lines.filter_map(|(index, item)| Some((index, fit(item)?))).collect();
-        // Of equals what can be done comes first, and then the order of the list.
+        // Among equal matches, available lines come first, then the order of the list decides.
         found.sort_by_key(|(index, fit)| {
             let item = &self.items[*index];
             (item.refusal.is_some(), std::cmp::Reverse(fit.score))
@@ -144,12 +144,12 @@ impl Menu {
         found
     }
 
-    /// The places of the lines that fit what is typed, the best first.
+    /// Returns the indices of the lines that match the search, best first.
     pub fn shown(&self) -> Vec<usize> {
         self.found().into_iter().map(|(index, _)| index).collect()
     }
 
-    /// The selected line.
+    /// Returns the selected line and its index.
     pub fn current(&self) -> Option<(usize, &Item)> {
         let index = *self.shown().get(self.selected)?;
         Some((index, &self.items[index]))
@@ -161,12 +161,12 @@ impl Menu {
         self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    /// Whether several lines may be taken.
+    /// Whether several lines may be chosen.
     pub fn takes_several(&self) -> bool {
         matches!(self.purpose, Choosing::Axis { several: true, .. })
     }
 
-    /// Marks the selected line, or takes its mark away.
+    /// Marks the selected line, or removes its mark.
     pub fn mark(&mut self) {
         let Some((index, _)) = self.current().filter(|_| self.takes_several()) else { return };
         match self.marked.iter().position(|marked| *marked == index) {
@@ -175,7 +175,7 @@ impl Menu {
         }
     }
 
-    /// The channels taken: those marked, and else the selected one.
+    /// Returns the chosen channels: the marked ones, or else the selected one.
     pub fn channels(&self) -> Vec<usize> {
         let current = self.current().map(|(index, _)| index);
         let taken = if self.marked.is_empty() {

@@ -1,17 +1,17 @@
-//! What the user is reported in passing, beside the key hints.
+//! Transient notifications, shown beside the key hints.
 //!
-//! In: sentences. Out: the one to be shown now, and those that wait. Never here: what lasts, as a fault does.
+//! In: sentences. Out: the one to show now, and those that wait. Never here: lasting conditions, such as a fault.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// While another waits, a sentence is shown for this long.
+/// How long a sentence is shown while another waits.
 const TURN: Duration = Duration::from_secs(2);
 
-/// More sentences than this do not wait; all of them are on the page of plain reading.
+/// The maximum number of waiting sentences; all of them appear on the plain-reading page.
 const WAITING: usize = 8;
 
-/// A sentence that goes away by itself.
+/// A sentence that disappears after a while.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notification {
     /// The sentence.
@@ -22,14 +22,14 @@ pub struct Notification {
     shown: Duration,
 }
 
-/// Sentences that wait until the ones before were shown.
+/// Sentences that wait until earlier ones have been shown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NotificationQueue(VecDeque<Notification>);
 
 impl NotificationQueue {
     /// Shows a sentence now, or after those before it.
     pub(super) fn tell(&mut self, now: &mut Option<Notification>, notice: Notification) {
-        // The newer word on the same thing takes the place of the older.
+        // A newer notification on the same subject replaces the older one.
         let told = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
         if let Some(told) = told {
             *told = Notification { shown: told.shown, ..notice };
@@ -40,7 +40,7 @@ impl NotificationQueue {
         }
     }
 
-    /// Time has passed: what was shown long enough gives way to what waits.
+    /// Advances the time: a sentence shown long enough is replaced by the next one.
     pub(super) fn tick(&mut self, now: &mut Option<Notification>, elapsed: Duration) {
         *now = now.take().and_then(|notice| notice.after(elapsed));
         let gives_way = now.as_ref().is_none_or(|notice| notice.shown >= TURN);
@@ -55,13 +55,13 @@ impl NotificationQueue {
 }
 
 impl Notification {
-    /// Whether both begin with the same words before a colon: `m: energy jumped by …`.
+    /// Whether both start with the same words before a colon: `m: energy jumped by …`.
     fn says_more_of(&self, other: &Self) -> bool {
         let lead = |text: &str| text.split_once(": ").map(|(lead, _)| lead.to_owned());
         lead(&self.text).is_some_and(|of| lead(&other.text) == Some(of))
     }
 
-    /// For what went well.
+    /// Creates a notification of success or of a change.
     pub fn info(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -71,7 +71,7 @@ impl Notification {
         }
     }
 
-    /// For what did not.
+    /// Creates a notification of an error.
     pub fn error(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -81,7 +81,7 @@ impl Notification {
         }
     }
 
-    /// The notice after some time has passed.
+    /// Returns the notification after this time, or `None` if it has expired.
     #[must_use]
     pub fn after(self, elapsed: Duration) -> Option<Self> {
         let left = self.left.saturating_sub(elapsed);

@@ -1,6 +1,7 @@
-//! The palette: every action of the program by name, and all that can be chosen or typed by its own.
+//! The command palette: every action of the program, and everything that can be chosen or typed, by name.
 //!
-//! In: the table of keys, the loaded system, the catalog. Out: a menu; what means nothing here is listed too, with why.
+//! In: the table of keys, the loaded system, the catalog. Out: a menu; unavailable lines are listed with the
+//! reason.
 //! Never here: how a line is searched, drawn or carried out.
 
 use super::keymap::{Binding, KEYS, Place};
@@ -10,14 +11,14 @@ use crate::system::System;
 
 impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
-        // What is chosen is done to the page, not to the help above it.
+        // A choice applies to the page, not to the help above it.
         if let Some(Overlay::Help { scroll, .. }) = self.overlay {
             self.scroll = scroll;
         }
         self.overlay = None;
         let places = self.places_below();
         let rows = |wanted: fn(&Binding) -> bool| {
-            // What can be done with the motion first, what holds everywhere last.
+            // Actions on the motion come first, global ones last.
             let outer = places.iter().filter(|place| OUTER.contains(place));
             let inner = places.iter().filter(|place| !OUTER.contains(place)).rev();
             let places = inner.chain(outer);
@@ -52,7 +53,7 @@ impl App {
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
         let refusal = elsewhere.or_else(|| self.lack(row.action));
-        // The word of the footer is what people look for.
+        // Users search for the word in the footer.
         let named = row.hint.is_empty() || moves(row.action) || row.help.contains(row.hint);
         let name = if named { String::new() } else { format!("{}: ", row.hint) };
         Item {
@@ -64,7 +65,7 @@ impl App {
         }
     }
 
-    /// Why an action can do nothing with the loaded system; most always can.
+    /// Returns why an action has no effect on the loaded system, or `None` if it has one.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
         if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.overlay) {
             return (!menu.takes_several()).then_some("one line is taken here");
@@ -81,7 +82,7 @@ impl App {
         }
     }
 
-    /// A line for each theme.
+    /// Returns a line for each theme.
     fn theme_lines(&self) -> impl Iterator<Item = Item> {
         self.themes.iter().enumerate().map(|(index, (name, about))| Item {
             label: format!("theme: {name}"),
@@ -92,7 +93,7 @@ impl App {
         })
     }
 
-    /// A line for each system of the catalog.
+    /// Returns a line for each system of the catalog.
     fn system_lines(&self) -> Vec<Item> {
         let open = self.lab.as_ref().filter(|_| self.page != super::Page::Picker);
         let open = open.map(|lab| lab.loaded.name.as_str());
@@ -108,7 +109,7 @@ impl App {
             .collect()
     }
 
-    /// Shows the pane of a value and opens the field in which it is typed.
+    /// Shows the pane of a value and opens the field for typing it.
     pub(super) fn type_into(&mut self, target: ValueId) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
@@ -137,16 +138,16 @@ impl App {
     }
 }
 
-/// Places whose keys hold wherever one is; their lines stand behind those of the page.
+/// Places whose keys are active everywhere; their lines follow those of the page.
 const OUTER: [Place; 2] = [Place::Anywhere, Place::Always];
 
-/// Whether an action only moves a selection or a window: keys that nobody looks for by name.
+/// Whether an action only moves a selection or a window; nobody searches for such an action by name.
 fn moves(action: Action) -> bool {
     use Action::{Change, First, Last, Move, PageDown, PageUp};
     matches!(action, Move(_) | First | Last | PageUp | PageDown | Change { .. })
 }
 
-/// Where the keys of a place hold, for one who looks for them elsewhere.
+/// Returns where the keys of a place are active, as a hint to a user who is elsewhere.
 fn where_it_holds(place: Place) -> &'static str {
     match place {
         Place::Always | Place::Anywhere => "it holds where no text is typed",
@@ -190,7 +191,7 @@ impl Lab {
         }
     }
 
-    /// A line for each value that can be typed.
+    /// Returns a line for each value that can be typed.
     fn value_lines(&self) -> Vec<Item> {
         let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let initial = (0..self.count(ValueId::Initial)).map(ValueId::Initial);
@@ -223,7 +224,7 @@ impl Lab {
         parameters.chain(initial).filter_map(line).collect()
     }
 
-    /// A line for each pane.
+    /// Returns a line for each pane.
     fn pane_lines(&self) -> Vec<Item> {
         let line = |pane: Pane| Item {
             label: format!("focus: {}{}", self.kind_of(pane), self.name_of(pane)),
@@ -235,13 +236,13 @@ impl Lab {
         self.panes().map(line).collect()
     }
 
-    /// What is said before the name of a pane where that is but names of quantities.
+    /// Returns the prefix of a pane's name if the name itself consists only of quantities.
     fn kind_of(&self, pane: Pane) -> &'static str {
         let plot = if let Pane::Plot(index) = pane { self.plots.get(index) } else { None };
         plot.map_or("", |plot| plot.kind.lead())
     }
 
-    /// What a pane is called: its title, or the quantities it shows.
+    /// Returns the name of a pane: its title, or the quantities it shows.
     pub fn name_of(&self, pane: Pane) -> String {
         let name = match pane {
             Pane::Plot(index) => {

@@ -1,6 +1,6 @@
-//! What each action does.
+//! The effect of each action.
 //!
-//! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; what a pop-up list offers.
+//! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; the contents of pop-up lists.
 
 use super::field::Field;
 use super::keymap::Place;
@@ -13,7 +13,7 @@ use crate::instrument::{Plot, Sight, Viewport};
 use crate::integrate::{METHODS, Stepping};
 
 impl App {
-    /// Carries out an action; where it means nothing it does nothing.
+    /// Carries out an action. It does nothing if the action does not apply.
     pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
         match action {
             Action::Quit => self.quit(),
@@ -53,7 +53,7 @@ impl App {
         }
     }
 
-    /// The actions that need a loaded system.
+    /// Carries out the actions that need a loaded system.
     fn in_lab(&mut self, action: Action) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         match action {
@@ -76,7 +76,7 @@ impl App {
                 vec![Effect::Tell(Command::Speed(speed))]
             }
             Action::Reset | Action::FullReset => {
-                // What was reported of the motion before is no longer so.
+                // Notifications about the previous motion are out of date.
                 self.notice = None;
                 self.notifications.clear();
                 if action == Action::FullReset {
@@ -150,13 +150,13 @@ impl App {
         }
     }
 
-    /// Does something and tells what it was.
+    /// Shows a notification and passes the effects on.
     fn told(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
         self.notice = Some(Notification::info(sentence));
         effects
     }
 
-    /// Tells the user something.
+    /// Shows an error to the user.
     pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notice = Some(Notification::error(text));
         Vec::new()
@@ -171,8 +171,8 @@ impl App {
         Vec::new()
     }
 
-    /// The focused picture, or else the first of the motion in space, is seen from the next frame; after the last from
-    /// the axes of the file.
+    /// Switches the focused picture, or else the first spatial view, to the next reference frame; the axes of the
+    /// file follow the last frame.
     fn next_frame(&mut self) -> Vec<Effect> {
         let count = self.lab.as_ref().map_or(0, |lab| lab.loaded.model.frames.len());
         if count == 0 {
@@ -282,7 +282,7 @@ impl App {
         self.with_plot(|plot, _| plot.shift(way.step()))
     }
 
-    /// Moves by lines in whatever is scrolled or selected, or up and down in a plot.
+    /// Moves by lines in whatever is scrolled or selected, or vertically in a plot.
     pub(super) fn jump(&mut self, by: isize) -> Vec<Effect> {
         match &mut self.overlay {
             Some(Overlay::Menu(menu)) => menu.step(by),
@@ -313,7 +313,7 @@ impl App {
         self.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
     }
 
-    /// How far a page up or down goes.
+    /// Returns the number of lines that a page up or down moves.
     fn screenful(&self) -> isize {
         let places = self.places();
         let text = places.contains(&Place::Text) || places.contains(&Place::Plain);
@@ -362,7 +362,7 @@ impl App {
     }
 }
 
-/// Why a method has no use for what would be typed.
+/// Returns why a method has no use for this setting, or `None` if it has.
 fn idle(purpose: Purpose, method: &str) -> Option<String> {
     let stepping = METHODS.iter().find(|m| m.name == method)?.stepping;
     match (purpose, stepping) {
@@ -376,7 +376,7 @@ fn idle(purpose: Purpose, method: &str) -> Option<String> {
     }
 }
 
-/// A number as it would be typed: short, without loss.
+/// Formats a number for typing: short, without loss.
 fn written(value: f64) -> String {
     let plain = value.to_string();
     if plain.len() <= 12 { plain } else { format!("{value:e}").replace("e0", "") }

@@ -1,6 +1,6 @@
-//! The picker: which systems there are, which one is selected, and when its preview is to be loaded.
+//! The picker: the list of systems, the selected one, and when its preview is due to be loaded.
 //!
-//! In: the catalog, moves and searches. Out: the name of the system wanted. Never here: loading.
+//! In: the catalog, moves and searches. Out: the name of the system to load. Never here: loading.
 
 use std::cmp::Reverse;
 use std::time::Duration;
@@ -11,17 +11,17 @@ use super::LoadError;
 use super::fuzzy::{Fit, Query, Texts};
 use crate::preset::Entry;
 
-/// For how long a selection rests before its system is loaded.
+/// How long a selection must stay unchanged before its system is loaded.
 const REST: Duration = Duration::from_millis(120);
 
 /// The list of systems.
 #[derive(Clone, Debug, Default)]
 pub struct Picker {
-    /// All systems, those of one topic together.
+    /// All systems, grouped by topic.
     pub entries: Vec<Entry>,
-    /// What is searched for, while something is.
+    /// The search field, while it is open.
     pub search: Option<Input>,
-    /// The selected system, counted among those shown.
+    /// The index of the selected system among those shown.
     pub selected: usize,
     /// Why the preview of the selected system cannot be shown.
     pub failure: Option<LoadError>,
@@ -29,12 +29,12 @@ pub struct Picker {
 }
 
 impl Picker {
-    /// The systems of the catalog, in its order.
+    /// Creates the list from the catalog, in the catalog's order.
     pub fn new(entries: Vec<Entry>) -> Self {
         Self { entries, ..Self::default() }
     }
 
-    /// The places of the systems that fit what is sought, the best first, and how each fits.
+    /// Returns the indices of the systems that match the search, best first, and how each matches.
     pub fn found(&self) -> Vec<(usize, Fit)> {
         let Some(sought) = self.sought() else {
             return (0..self.entries.len()).map(|index| (index, Fit::default())).collect();
@@ -53,17 +53,17 @@ impl Picker {
         found
     }
 
-    /// What is sought, if anything is.
+    /// Returns the text searched for, if there is one.
     pub fn sought(&self) -> Option<&str> {
         self.search.as_ref().map(|input| input.value().trim()).filter(|text| !text.is_empty())
     }
 
-    /// The places of the systems that fit what is sought, the best first.
+    /// Returns the indices of the systems that match the search, best first.
     pub fn shown(&self) -> Vec<usize> {
         self.found().into_iter().map(|(index, _)| index).collect()
     }
 
-    /// The selected system.
+    /// Returns the selected system.
     pub fn current(&self) -> Option<&Entry> {
         self.shown().get(self.selected).map(|&index| &self.entries[index])
     }
@@ -84,7 +84,7 @@ impl Picker {
         }
     }
 
-    /// Selects the system of a place among those shown.
+    /// Selects the system of this index among those shown.
     pub(super) fn point(&mut self, place: usize) {
         if place != self.selected && place < self.shown().len() {
             self.selected = place;
@@ -92,14 +92,14 @@ impl Picker {
         }
     }
 
-    /// Changes the search, and selects the best that fits.
+    /// Changes the search, and selects the best match.
     pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
         change(self.search.get_or_insert_default());
         self.selected = 0;
         self.touch();
     }
 
-    /// Forgets the search; what was selected stays so.
+    /// Closes the search; the selection stays.
     pub fn forget_search(&mut self) {
         let name = self.current().map(|entry| entry.name.clone());
         self.search = None;
@@ -110,12 +110,12 @@ impl Picker {
         }
     }
 
-    /// The selection has changed: its system is to be loaded once it rests.
+    /// Schedules the selected system for loading once the selection stays unchanged.
     fn touch(&mut self) {
         (self.waiting, self.failure) = (Some(REST), None);
     }
 
-    /// Time has passed: the system to be loaded now, if there is one.
+    /// Advances the time. Returns the system that is now due to be loaded, if there is one.
     pub fn tick(&mut self, elapsed: Duration) -> Option<String> {
         let left = self.waiting?.saturating_sub(elapsed);
         self.waiting = (!left.is_zero()).then_some(left);
@@ -123,7 +123,7 @@ impl Picker {
         self.current().filter(|_| due).map(|entry| entry.name.clone())
     }
 
-    /// The system to be loaded at once, without waiting for the selection to rest.
+    /// Returns the system to load at once, without the delay.
     pub fn take(&mut self) -> Option<String> {
         self.waiting = None;
         self.current().map(|entry| entry.name.clone())

@@ -1,6 +1,7 @@
-//! What the mouse does: it selects, takes, drags, turns, zooms, and throws the motion to another beginning.
+//! Mouse input: it selects, clicks, drags, turns and zooms, and restarts the motion from another point.
 //!
-//! In: what was done with the left button or the wheel, the spot it happened at. Out: the changed state and the effects. Never here: bytes, or where a spot is.
+//! In: what the left button or the wheel did, and the hit target. Out: the changed state and the effects.
+//! Never here: bytes, or hit testing.
 
 use crossterm::event::{MouseButton, MouseEventKind};
 
@@ -8,14 +9,14 @@ use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, ValueId};
 use crate::system::InitialOverride;
 
-/// Lines of text or of a list that the wheel moves by.
+/// The number of lines of text or of a list per notch of the wheel.
 const LINES: isize = 3;
 
-/// A notch of the wheel magnifies by this much.
+/// The magnification per notch of the wheel.
 const NOTCH: f64 = 1.25;
 
 impl App {
-    /// Takes in what the mouse did; only the left button and the wheel do something.
+    /// Handles a mouse event; only the left button and the wheel have an effect.
     pub(super) fn point(&mut self, kind: MouseEventKind, spot: HitTarget) -> Vec<Effect> {
         match kind {
             MouseEventKind::Down(MouseButton::Left) => self.touch(spot),
@@ -27,7 +28,7 @@ impl App {
         }
     }
 
-    /// The mouse holds nothing any more, though no terminal said that its button came up.
+    /// Ends a drag, even if the terminal did not report the release of the button.
     pub fn drop_hold(&mut self) {
         self.hold = None;
         if let Some(lab) = &mut self.lab {
@@ -43,7 +44,7 @@ impl App {
                 menu.selected = line;
                 return self.perform(Action::Accept);
             }
-            // Beside a list it closes; a text being typed is not given up by a slip of the hand.
+            // A click beside a list closes it; an accidental click does not discard text being typed.
             (Some(Overlay::Menu(_)), HitTarget::Menu)
             | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
             (Some(Overlay::Menu(_)), _) => return self.perform(Action::Back),
@@ -163,7 +164,7 @@ impl App {
         Vec::new()
     }
 
-    /// The knob of a value is where the mouse has it.
+    /// Sets a value to the position of its knob under the mouse.
     fn pull(&mut self, target: ValueId, value: f64) -> Vec<Effect> {
         let Some(lab) = self.lab.as_mut().filter(|_| self.page == Page::Lab) else {
             return Vec::new();
@@ -174,7 +175,7 @@ impl App {
 }
 
 impl Lab {
-    /// The initial values that a place in a plot stands for, if it stands for some.
+    /// Returns the initial values that a point of a plot represents, if it does represent some.
     fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<[InitialOverride; 2]> {
         let plot = self.plots.get(index)?;
         plot.kind.start(plot, self.loaded.physics(), at)

@@ -1,6 +1,7 @@
-//! The prompt at which one asks for a bracket, or whether something is conserved.
+//! The prompt for Poisson brackets and for questions whether a quantity is conserved.
 //!
-//! In: characters. Out: the question, its answer, or a mistake at its place. Never here: how either is found.
+//! In: characters. Out: the question, its answer, or an error with its position. Never here: how either is
+//! computed.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,40 +16,40 @@ use crate::expr::SyntaxError;
 use crate::instrument::Answer;
 use crate::job::{Job, Outcome};
 
-/// A question being typed, and what was answered to the last one.
+/// A question being typed, and the answer to the last one.
 #[derive(Clone, Debug, Default)]
 pub struct Prompt {
     /// What is typed so far, with the cursor.
     pub input: Input,
-    /// The question that was answered, and the answer.
+    /// The question answered last, and its answer.
     pub answered: Option<(String, Box<Inquiry>)>,
-    /// What is wrong with what was typed when it was last to be answered.
+    /// The syntax error of the text submitted last.
     pub mistake: Option<SyntaxError>,
     /// The question that is being answered.
     pub under_way: Option<(String, UnderWay)>,
 }
 
 impl Prompt {
-    /// Handles a key of editing; whatever it was, the last complaint is answered.
+    /// Handles an editing key and clears the last error message.
     pub(super) fn press(&mut self, key: KeyEvent) {
         if edit(&mut self.input, key) {
             self.mistake = None;
         }
     }
 
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         if let Some((_, job)) = &mut self.under_way {
             job.tick(elapsed);
         }
     }
 
-    /// Whether the job of a number is the one it waits for.
+    /// Whether it waits for the job with this ticket.
     pub(super) fn awaits(&self, ticket: u64) -> bool {
         self.under_way.as_ref().is_some_and(|(_, job)| job.ticket == ticket)
     }
 
-    /// The answer is there, or there will be none.
+    /// Takes in the outcome of the job.
     pub(super) fn take(&mut self, outcome: &Outcome<Answer>) {
         let Some((text, _)) = self.under_way.take() else { return };
         let Outcome::Done(answer) = outcome else { return };
@@ -71,7 +72,7 @@ impl App {
         Vec::new()
     }
 
-    /// Asks what is typed; the prompt stays for the answer and for the next question.
+    /// Submits the typed question; the prompt stays open for the answer and the next question.
     pub(super) fn answer(&mut self, mut prompt: Prompt) -> Vec<Effect> {
         let text = prompt.input.value().to_owned();
         let mut effects = Vec::new();

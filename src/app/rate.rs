@@ -1,22 +1,23 @@
-//! How fast things go: frames and integration steps per second of the wall clock.
+//! Rates: frames and integration steps per second of wall-clock time.
 //!
-//! In: ticks and the step counts of snapshots. Out: two numbers that change twice a second, so that they can be read.
+//! In: ticks and the step counts of snapshots. Out: two numbers that change twice a second, so that they stay
+//! readable.
 //! Never here: a clock.
 
 use std::time::Duration;
 
-/// For how long is counted before a number is shown.
+/// The interval over which is counted before a number is shown.
 const WINDOW: Duration = Duration::from_millis(500);
 
-/// Frames in a second that can be asked for, one after the other.
+/// The frame rates to choose from, per second.
 const RATES: [u16; 8] = [2, 4, 8, 15, 20, 30, 60, 120];
 
 /// Counts frames and steps.
 #[derive(Clone, Debug)]
 pub struct RateMeter {
-    /// Frames per second that are asked for.
+    /// The requested frames per second.
     pub asked: u16,
-    /// The most that may be asked for.
+    /// The maximum that may be requested.
     pub most: u16,
     /// Frames per second, once known.
     pub frames: Option<f64>,
@@ -44,7 +45,7 @@ impl Default for RateMeter {
 }
 
 impl RateMeter {
-    /// The next greater (`more`) or smaller number of frames to ask for; `None` at the end.
+    /// Returns the next higher (`more`) or lower frame rate, or `None` at the end.
     pub(super) fn next_rate(&self, more: bool) -> Option<u16> {
         let mut rates = RATES.iter().copied().filter(|rate| *rate <= self.most);
         if more {
@@ -54,7 +55,7 @@ impl RateMeter {
         }
     }
 
-    /// A frame has passed.
+    /// Counts a frame.
     pub fn tick(&mut self, elapsed: Duration) {
         self.counted += 1;
         self.elapsed = self.elapsed.saturating_add(elapsed);
@@ -68,7 +69,7 @@ impl RateMeter {
         self.first = self.first.map(|_| self.last);
     }
 
-    /// The experiment has taken this many steps since its last reset.
+    /// Takes in the number of steps since the experiment's last reset.
     pub fn count(&mut self, steps: u64) {
         if self.first.is_none_or(|first| steps < first) {
             self.first = Some(steps);
@@ -76,7 +77,7 @@ impl RateMeter {
         self.last = steps;
     }
 
-    /// Another experiment is looked at.
+    /// Restarts the count for another experiment.
     pub fn forget(&mut self) {
         (self.steps, self.first, self.last) = (None, None, 0);
     }

@@ -1,7 +1,7 @@
-//! The plain reading: what was seen at one moment, to be read line by line in peace.
+//! Plain reading: a frozen snapshot, to be read line by line.
 //!
-//! In: a snapshot. Out: the snapshot read, the line the reader is at, and when it is to be read anew. Never here: the
-//! words.
+//! In: a snapshot. Out: the snapshot being read, the reader's line, and when it is due to be refreshed. Never here:
+//! the wording.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,31 +9,31 @@ use std::time::Duration;
 use super::{Action, App, Effect, Notification, Page};
 use crate::experiment::Snapshot;
 
-/// Between two readings where they come by themselves.
+/// The interval of automatic refreshes.
 const PAUSE: Duration = Duration::from_secs(2);
 
-/// What is read, and where the reader is. It stays as it is until it is asked for anew.
+/// The snapshot being read, and the reader's position. It stays unchanged until a refresh is requested.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
-    /// What was seen.
+    /// The snapshot.
     pub snapshot: Option<Arc<Snapshot>>,
-    /// The line the reader is at.
+    /// The reader's line.
     pub line: usize,
-    /// Whether it is read anew by itself.
+    /// Whether it is refreshed automatically.
     pub automatic: bool,
-    /// A command was given, and what comes of it is wanted.
+    /// Whether a command was given whose result is to be shown.
     due: bool,
-    /// Since it was read.
+    /// The time since the last refresh.
     since: Duration,
 }
 
 impl Reading {
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.saturating_add(elapsed);
     }
 
-    /// Something new is seen; it is read if it was asked for.
+    /// Takes in a new snapshot if a refresh is due.
     pub(super) fn see(&mut self, snapshot: &Arc<Snapshot>) {
         if self.due || self.automatic && self.since >= PAUSE {
             self.snapshot = Some(Arc::clone(snapshot));
@@ -43,14 +43,14 @@ impl Reading {
 }
 
 impl App {
-    /// Reads the present, from the first line.
+    /// Reads the current state, from the first line.
     pub(super) fn read(&mut self) {
         let automatic = self.reading.automatic;
         let snapshot = self.lab.as_ref().and_then(|lab| lab.snapshot.clone());
         self.reading = Reading { snapshot, automatic, ..Reading::default() };
     }
 
-    /// The actions of the page.
+    /// Carries out the actions of the page.
     pub(super) fn read_by(&mut self, action: Action) -> Vec<Effect> {
         if action == Action::ReadAnew {
             let line = self.reading.line;
@@ -67,7 +67,7 @@ impl App {
         Vec::new()
     }
 
-    /// What is done on the page shows in what is read.
+    /// Schedules a refresh if these effects, caused on this page, include a command.
     pub(super) fn expect(&mut self, effects: &[Effect]) {
         let told = effects.iter().any(|effect| matches!(effect, Effect::Tell(_)));
         self.reading.due |= told && self.page == Page::Plain;

@@ -1,8 +1,10 @@
-//! A session as it can be kept and gone on with: which system, how it is looked at, and where its motion is.
+//! A session that can be stored and resumed: which system, how it is viewed, and the state of its motion.
 //!
-//! In: the application. Out: plain data by names, and the application as it was. Never here: the file it is kept in.
+//! In: the application. Out: plain data by names, and the restored application. Never here: the file it is stored
+//! in.
 //!
-//! A system that was rebuilt from a changed file is taken up the same way: what has a name here and there stays.
+//! A system rebuilt from a changed file is resumed in the same way: everything that has the same name in both is
+//! kept.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,34 +15,34 @@ use crate::instrument::{Plot, SavedPlot};
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Saved {
-    /// The version of this form, [`Saved::VERSION`].
+    /// The version of this format, [`Saved::VERSION`].
     pub version: u32,
-    /// The program that wrote it.
+    /// The version of the program that wrote it.
     pub phaselab: String,
     /// The preset's name or the file's path.
     pub open: String,
     /// The page that was shown.
     pub page: Page,
-    /// The pane that keys went to.
+    /// The focused pane.
     pub focus: Pane,
-    /// Whether it filled the page.
+    /// Whether that pane was zoomed.
     pub zoomed: bool,
     /// The selected lines.
     pub selection: Selection,
-    /// Whether the system was not the file's but that of a text that is not saved.
+    /// Whether the system came from an unsaved text instead of the file.
     #[serde(default)]
     pub edited: bool,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
-    /// The motion.
+    /// The state of the motion.
     pub moment: Checkpoint,
 }
 
 impl Saved {
-    /// The version of this form that this program writes and reads.
+    /// The version of this format that this program writes and reads.
     pub const VERSION: u32 = 1;
 
-    /// The session of a lab on a page; `None` before its motion was seen.
+    /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
         let Loaded { name, model, system, .. } = &lab.loaded;
         let moment = match &lab.awaited {
@@ -63,11 +65,11 @@ impl Saved {
 }
 
 impl Lab {
-    /// Looks at the system as a session did, as far as it is the same.
+    /// Restores the view of a session, as far as the systems agree.
     fn look_as(&mut self, saved: &Saved) {
         let physics = self.loaded.physics();
         let plots: Vec<Plot> = saved.plots.iter().filter_map(|plot| plot.place(physics)).collect();
-        // pictures of a system with other quantities are better opened anew
+        // If the quantities differ, the default pictures are better.
         if plots.len() == saved.plots.len() {
             self.plots = plots;
         }
@@ -80,7 +82,7 @@ impl Lab {
 }
 
 impl App {
-    /// The session to be kept, once a system moves in the lab.
+    /// Returns the session to be stored, once a system is running in the lab.
     pub fn saved(&self) -> Option<Saved> {
         if self.page == Page::Picker {
             return self.left.clone();
@@ -91,13 +93,13 @@ impl App {
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }
 
-    /// Goes on with a session as soon as its system is loaded.
+    /// Resumes a session as soon as its system is loaded.
     pub fn resume(&mut self, saved: Saved) {
         self.resuming = Some(saved);
     }
 
-    /// The system that was asked for is there, to be opened or only previewed: goes on with the session that was left
-    /// with it, or lets it move.
+    /// Starts a system that was just loaded, opened or only previewed: resumes the session left with it, or runs it
+    /// from its initial values.
     pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let saved = self.resuming.take().filter(|saved| saved.open == lab.loaded.name);
@@ -111,28 +113,28 @@ impl App {
         lab.awaited = Some(saved.moment);
         self.page = saved.page;
         self.remind();
-        // the motion belongs to the text that is not saved, and waits until that is checked
+        // The motion belongs to the unsaved text, and waits until that is checked.
         if saved.edited && self.wake() { Vec::new() } else { self.restore() }
     }
 
-    /// Has the experiment take up the motion that is waited for, if there is one.
+    /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
         let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
         awaited.map(command).into_iter().collect()
     }
 
-    /// The system in the lab was built anew from a changed file: the motion goes on, and is looked at as before.
+    /// Replaces the system in the lab by one rebuilt from a changed file; the motion and its view continue.
     pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
         let Some(old) = self.lab.take() else { return self.loaded(loaded) };
         let mut saved = Saved::of(&old, self.page);
         if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
-            // what is drawn of the motion goes on too
+            // The recorded trail continues too.
             let moment = std::mem::take(&mut saved.moment);
             saved.moment = moment.with_past(&old.loaded.system, seen);
         }
         let mut lab = Lab::new(loaded);
-        // A history speaks of values, channels, views and frames by their places.
+        // A history refers to values, channels, views and frames by index.
         let places = |lab: &Lab| {
             let Loaded { model, system, .. } = &lab.loaded;
             let names = model.parameters.iter().map(|p| p.name.clone());
@@ -143,11 +145,11 @@ impl App {
         if places(&old) == places(&lab) {
             lab.history = old.history;
         }
-        // What is open speaks of the old system's places.
+        // An open list or field refers to indices of the old system.
         if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
             self.overlay = None;
         }
-        // and what was asked of it is no longer derived
+        // The answer to a pending question would be about the old system.
         if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
             prompt.under_way = None;
         }

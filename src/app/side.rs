@@ -1,7 +1,7 @@
-//! Jobs: what is computed on the side, asked for, under way and answered.
+//! Background jobs: those requested, those under way, and their results.
 //!
-//! In: what instruments and the prompt need. Out: [`Effect::Compute`], and the answers in their places. An answer to what
-//! nobody waits for any more is dropped: its number is not known. Never here: threads, or what is computed.
+//! In: what instruments and the prompt need. Out: [`Effect::Compute`], and the stored results. A result that is no
+//! longer wanted is dropped, because its ticket is unknown. Never here: threads, or what is computed.
 
 use std::time::Duration;
 
@@ -9,24 +9,24 @@ use super::{App, Effect, Event, Lab, Overlay};
 use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 
-/// A job that takes longer than this is shown to be under way.
+/// A job that takes longer than this is reported as under way.
 const PATIENCE: Duration = Duration::from_millis(300);
 
-/// Who asked for a job; each has one at a time.
+/// The requester of a job; each has at most one job at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Asker {
-    /// The plot of this place.
+    /// The plot of this index.
     Plot(usize),
     /// The prompt for brackets.
     Prompt,
 }
 
-/// A job to be run on the side.
+/// A job to be run in the background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Computation {
-    /// Its number.
+    /// Its ticket.
     pub ticket: u64,
-    /// Who asked for it.
+    /// Its requester.
     pub asker: Asker,
     /// The job.
     pub job: Job<Answer>,
@@ -42,26 +42,26 @@ pub struct UnderWay {
 }
 
 impl UnderWay {
-    /// A job that begins now.
+    /// A job that starts now.
     pub(super) fn new(computation: &Computation) -> Self {
         let name = computation.job.name.clone();
         let (since, share) = (Duration::ZERO, Share::default());
         Self { ticket: computation.ticket, name, since, share }
     }
 
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.saturating_add(elapsed);
     }
 
-    /// How far it is.
+    /// Updates the progress of the job with this ticket.
     pub(super) fn reach(&mut self, ticket: u64, share: Share) {
         if ticket == self.ticket {
             self.share = share;
         }
     }
 
-    /// What is reported of it once it has taken a while: its name and how far it is.
+    /// Returns the name and progress of a job that has taken a while.
     pub fn told(&self) -> Option<String> {
         let share = self.share.total.map_or_else(String::new, |total| {
             format!(" {} %", self.share.done * 100 / total.max(1))
@@ -70,15 +70,15 @@ impl UnderWay {
     }
 }
 
-/// What was computed for the plots of a lab, and what is.
+/// The results and running jobs for the plots of a lab.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     entries: Vec<Entry>,
-    /// Whether something has changed since it was last looked at what is needed.
+    /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
 }
 
-/// The answer to what a plot needed last, and the job under way.
+/// The last result for a plot, and the job under way.
 #[derive(Clone, Debug)]
 struct Entry {
     kind: &'static dyn Instrument,
@@ -89,14 +89,14 @@ struct Entry {
 }
 
 impl Entry {
-    /// Whether it is that of a plot, however that is looked at.
+    /// Whether it belongs to a plot with these contents, whatever its view.
     fn is_of(&self, plot: &Plot) -> bool {
         self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
     }
 }
 
 impl Answers {
-    /// Time has passed.
+    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.all_under_way().for_each(|job| job.tick(elapsed));
     }
@@ -109,7 +109,7 @@ impl Answers {
         self.entries.iter().find(|entry| entry.is_of(plot))
     }
 
-    /// Takes a result in; whether somebody waited for it.
+    /// Takes in an outcome. Returns whether it was wanted.
     fn take(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
         let waits =
             |entry: &&mut Entry| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
@@ -124,17 +124,17 @@ impl Answers {
 }
 
 impl Lab {
-    /// What was computed for a plot.
+    /// Returns the result computed for a plot.
     pub fn answer(&self, plot: &Plot) -> Option<&Answer> {
         self.answers.of(plot)?.answer.as_ref()
     }
 
-    /// What is computed for a plot, if it is.
+    /// Returns the job under way for a plot.
     pub fn under_way(&self, plot: &Plot) -> Option<&UnderWay> {
         self.answers.of(plot)?.under_way.as_ref()
     }
 
-    /// The jobs that plots need and that are not under way, numbered on from `tickets`.
+    /// Returns the jobs that plots need and that are not yet under way, numbered from `tickets` on.
     fn needs(&mut self, tickets: &mut u64) -> Vec<Computation> {
         let mut kept = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
@@ -170,16 +170,16 @@ impl Lab {
 }
 
 impl App {
-    /// A job as it is handed out.
+    /// Creates a job with a new ticket.
     pub(super) fn computation(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
         self.jobs += 1;
         Computation { ticket: self.jobs, asker, job }
     }
 
-    /// The jobs that the pictures need now; they run at once where they are not handed out.
+    /// Requests the jobs that the pictures need now, or runs them at once if there is no background.
     pub(super) fn look_after_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
-        // a flood of keys that change no picture costs nothing
+        // Keys that change no picture cost nothing here.
         let stale = std::mem::take(&mut lab.answers.stale);
         let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
@@ -199,7 +199,7 @@ impl App {
         }
     }
 
-    /// A job has ended. What nobody waits for is dropped.
+    /// Handles the outcome of a job. An outcome that is no longer wanted is dropped.
     pub(super) fn computed(&mut self, ticket: u64, outcome: Outcome<Answer>) -> Vec<Effect> {
         let lab = self.lab.as_mut();
         let waited = match &mut self.overlay {
@@ -215,7 +215,7 @@ impl App {
         }
     }
 
-    /// A job is so far.
+    /// Handles the progress of a job.
     pub(super) fn progressed(&mut self, ticket: u64, share: Share) {
         let answers = self.lab.as_mut().map(|lab| &mut lab.answers);
         answers

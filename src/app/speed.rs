@@ -1,18 +1,18 @@
-//! The speeds that keys step through: 1, 2, 5 times powers of ten, and as fast as it can.
+//! The speeds that keys step through: 1, 2, 5 times powers of ten, and unlimited.
 //!
 //! In: a speed in simulated seconds per second. Out: the next one. Never here: pacing.
 
 use crate::num::math;
 
-/// The slowest and the fastest speed before flat out, as powers of ten.
+/// The slowest and the fastest limited speed, as powers of ten.
 const ENDS: [i32; 2] = [-3, 3];
 
-/// The next faster speed; after the last it is infinite.
+/// Returns the next faster speed; after the last one it is infinite.
 pub(super) fn faster(speed: f64) -> f64 {
     steps().find(|step| *step > speed * (1.0 + 1e-9)).unwrap_or(f64::INFINITY)
 }
 
-/// The next slower speed; the slowest stays.
+/// Returns the next slower speed, or the slowest itself.
 pub(super) fn slower(speed: f64) -> f64 {
     let slowest = math::powi(10.0, ENDS[0]);
     steps().filter(|step| *step < speed * (1.0 - 1e-9)).last().unwrap_or(slowest)

@@ -1,6 +1,6 @@
-//! What the user is doing, as one value.
+//! The state of the user interface, as one value.
 //!
-//! In: the parts of the room. Out: an [`App`] and what can be asked of it. Never here: how it changes (`update`).
+//! In: the parts of this room. Out: an [`App`] and its queries. Never here: how it changes (`update`).
 
 use serde::{Deserialize, Serialize};
 
@@ -25,48 +25,49 @@ use crate::preset::Catalog;
 /// The application's state.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// What is shown.
+    /// The page shown.
     pub page: Page,
-    /// What lies over it.
+    /// The overlay above it.
     pub overlay: Option<Overlay>,
     /// The systems to choose from.
     pub picker: Picker,
     /// The loaded system, shown as a preview beside the picker.
     pub lab: Option<Lab>,
-    /// What is reported in passing.
+    /// The notification shown.
     pub notice: Option<Notification>,
-    /// How fast things go.
+    /// Frame and step rates.
     pub meter: RateMeter,
-    /// Whether the terminal is to report the mouse; its own selection of text does not work meanwhile.
+    /// Whether the terminal reports the mouse; its own text selection does not work meanwhile.
     pub mouse: bool,
-    /// Whether time is held from outside, as that of a demo is.
+    /// Whether time is controlled from outside, as in a demo.
     pub held: bool,
-    /// Whether what is shown is being recorded.
+    /// Whether the screen is being recorded.
     pub recording: bool,
-    /// How many rows the page of text is scrolled down.
+    /// The number of rows by which the page of text is scrolled.
     pub scroll: u16,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
-    /// The themes there are, each with a line about it.
+    /// The available themes, each with a description.
     pub themes: Vec<(&'static str, &'static str)>,
-    /// The theme chosen, in place of the one phaselab was opened with.
+    /// The theme chosen by the user, instead of the one at the start.
     pub theme: Option<&'static str>,
-    /// What is read on the page of plain reading.
+    /// The state of the plain-reading page.
     pub reading: Reading,
-    /// What is to be reported after that.
+    /// The notifications that wait.
     pub(super) notifications: notification::NotificationQueue,
-    /// What the mouse holds on to.
+    /// What the mouse drags.
     pub hold: Option<Grab>,
-    /// Whether jobs are handed out by [`Effect::Compute`], so that no frame waits for them; else they run at once.
+    /// Whether jobs are sent out by [`Effect::Compute`], so that no frame waits for them; otherwise they run at
+    /// once.
     pub aside: bool,
-    /// How many jobs were asked for.
+    /// The number of jobs requested so far.
     pub(super) jobs: u64,
     pub(super) drawn: Drawn,
-    /// The name last asked for, and whether the lab is to open once it is there.
+    /// The name requested last, and whether the lab is to open once it is loaded.
     pub(super) asked: Option<(String, bool)>,
-    /// The session to go on with once its system is there.
+    /// The session to resume once its system is loaded.
     pub(super) resuming: Option<Saved>,
-    /// The session as it was when the lab was left for the list of systems.
+    /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
 
@@ -76,29 +77,29 @@ pub struct App {
 pub enum Page {
     /// The systems, and a preview of the selected one.
     Picker,
-    /// The panes.
+    /// The panes of the lab.
     Lab,
-    /// What follows from L or H.
+    /// The equations derived from L or H.
     Equations,
-    /// What the file says about itself.
+    /// The notes in the file.
     Notes,
     /// Every channel as a number.
     Numbers,
-    /// All that is on the screen as lines of plain text, which keep still.
+    /// Everything on the screen as lines of plain text, which do not change by themselves.
     Plain,
 }
 
-/// Something that lies over a page and takes its keys.
+/// Something that covers a page and takes its keys.
 #[derive(Clone, Debug)]
 pub enum Overlay {
-    /// The keys.
+    /// The key help.
     Help {
         /// How far the page below was scrolled.
         scroll: u16,
-        /// Whether the editor lay there.
+        /// Whether the editor was open below.
         editing: bool,
     },
-    /// A text that must be read: what is wrong with a file.
+    /// A message that must be read: what is wrong with a file.
     Message(LoadError),
     /// A pop-up list.
     Menu(Menu),
@@ -106,12 +107,12 @@ pub enum Overlay {
     Field(Field),
     /// The prompt for brackets.
     Prompt(Prompt),
-    /// The editor of the system's file, which lies on top of [`App::workbench`].
+    /// The editor of the system's file, which shows the top of [`App::workbench`].
     Workbench,
 }
 
 impl App {
-    /// The application at its start, and what is to be done first: load the system of a name, or the first preview.
+    /// Creates the application, and returns its first effects: loading the named system, or the first preview.
     pub fn new(catalog: &Catalog, open: Option<&str>) -> (Self, Vec<Effect>) {
         let mut app = Self {
             page: Page::Picker,
@@ -148,22 +149,22 @@ impl App {
         (app, effects.into_iter().collect())
     }
 
-    /// The newest snapshot of the loaded system.
+    /// Returns the newest snapshot of the loaded system.
     pub fn snapshot(&self) -> Option<&Snapshot> {
         self.lab.as_ref()?.snapshot.as_deref()
     }
 
-    /// The name of what is being loaded.
+    /// Returns the name of the system being loaded.
     pub fn loading(&self) -> Option<&str> {
         self.asked.as_ref().map(|(name, _)| name.as_str())
     }
 
-    /// Whether an action can do something with the loaded system; most always can.
+    /// Whether an action has an effect on the loaded system; most actions always do.
     pub fn offers(&self, action: Action) -> bool {
         self.lack(action).is_none()
     }
 
-    /// The theme to be shown: the one selected while they are chosen from, else the one chosen.
+    /// Returns the theme to show: the one selected while the user is choosing, or else the chosen one.
     pub fn theme_shown(&self) -> Option<&'static str> {
         let previewed = match &self.overlay {
             Some(Overlay::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
@@ -175,12 +176,12 @@ impl App {
         previewed.or(self.theme)
     }
 
-    /// Whether text is being typed, so that a paste means something.
+    /// Whether text is being typed, so that a paste is meaningful.
     pub fn is_typing(&self) -> bool {
         self.places().contains(&Place::Typing)
     }
 
-    /// Where keys hold now, the innermost place first.
+    /// Returns the active places, innermost first.
     pub fn places(&self) -> &'static [Place] {
         match &self.overlay {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => {
@@ -198,7 +199,7 @@ impl App {
         }
     }
 
-    /// Where keys hold on the page, or in the editor, under the help that lies over it.
+    /// Returns the active places of the page or the editor under the help.
     pub fn places_below(&self) -> &'static [Place] {
         match self.overlay {
             Some(Overlay::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
@@ -226,7 +227,7 @@ impl App {
     }
 }
 
-/// The chain of places that begins with these two.
+/// Returns the chain of places that starts with these two.
 fn chain(innermost: [Place; 2]) -> &'static [Place] {
     CHAINS.into_iter().find(|chain| chain.starts_with(&innermost)).unwrap_or_default()
 }

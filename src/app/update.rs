@@ -1,6 +1,6 @@
-//! Events, one by one.
+//! Event handling, one event at a time.
 //!
-//! In: an event. Out: the changed state and the effects. Never here: what the single actions do.
+//! In: an event. Out: the changed state and the effects. Never here: what the individual actions do.
 
 use std::sync::Arc;
 
@@ -13,15 +13,15 @@ use super::keymap::{self, Place};
 use super::{App, Effect, Event, Lab, LoadError, Loaded, Notification, Overlay, Page};
 use crate::experiment::Snapshot;
 
-/// The most that is taken of one paste, in bytes.
+/// The maximum size of one paste, in bytes.
 pub const LONGEST_PASTE: usize = 256 * 1024;
 
-/// Told where the editor has no room for all of a paste.
+/// Shown if the editor has no room for all of a paste.
 const LONG_TEXT: &str = "The pasted text was too long; as much of its beginning was taken as a \
                          paste (256 KiB) and a file (1 MiB) can hold.";
 
 impl App {
-    /// Takes an event in, and says what is to be done about it.
+    /// Handles an event, and returns the effects to perform.
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
         let mut effects = self.handle(event);
         self.look_after_jobs(&mut effects);
@@ -83,7 +83,7 @@ impl App {
         }
     }
 
-    /// Asks for a system, to be opened in the lab at once or only previewed.
+    /// Requests a system, to be opened in the lab or only previewed.
     pub(super) fn ask(&mut self, name: String, open: bool) -> Effect {
         self.asked = Some((name.clone(), open));
         Effect::Load(name)
@@ -97,7 +97,7 @@ impl App {
             self.expect(&effects);
             return effects;
         }
-        // Over a slow line Esc and the next key arrive together, and look like one key with Alt.
+        // Over a slow connection Esc and the next key may arrive together, and look like one key with Alt.
         if key.modifiers.contains(KeyModifiers::ALT) && !self.is_typing() {
             let mut effects = self.press(KeyCode::Esc.into());
             let modifiers = key.modifiers - KeyModifiers::ALT;
@@ -173,7 +173,7 @@ impl App {
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.lab = Some(Lab::new(loaded));
-        // What went wrong is not less so because something else is there.
+        // An error message stays valid when something else is loaded.
         self.notice.take_if(|notice| !notice.error);
         self.notifications.clear();
         self.meter.forget();
@@ -186,7 +186,7 @@ impl App {
         effects
     }
 
-    /// The system whose file is told to be wrong.
+    /// Returns the system whose file is reported to be wrong.
     pub fn failed_system(&self) -> Option<&str> {
         match &self.overlay {
             Some(Overlay::Message(failure)) => Some(&failure.name),
@@ -194,7 +194,7 @@ impl App {
         }
     }
 
-    /// Asks for that system anew: its file has changed.
+    /// Requests that system again, since its file has changed.
     pub fn again(&mut self) -> Vec<Effect> {
         let name = self.failed_system().map(str::to_owned);
         name.map(|name| self.ask(name, true)).into_iter().collect()
@@ -209,17 +209,17 @@ impl App {
         Vec::new()
     }
 
-    /// What was asked for is there, or is not: whether it was to be opened, if this is what was asked for last.
+    /// Handles the answer to a request. Returns whether it is to be opened, if it is the latest request.
     fn answered(&mut self, name: &str) -> Option<bool> {
         let (_, open) = self.asked.take_if(|(asked, _)| asked == name)?;
         Some(open)
     }
 
-    /// Shows a page from its beginning.
+    /// Shows a page, scrolled to its start.
     pub(super) fn go(&mut self, page: Page) {
         if page == Page::Picker {
             self.left = self.saved();
-            // what was reported of the motion that is left says nothing of another
+            // Notifications about the motion being left do not apply to another.
             self.notice = None;
             self.notifications.clear();
         }
@@ -230,13 +230,13 @@ impl App {
     }
 }
 
-/// The sentences of `now` that came after those of `before`; old ones may have gone at the front.
+/// Returns the sentences of `now` that came after those of `before`; old ones may have been dropped at the front.
 fn notifications<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
     let mut known = (0..=before.len().min(now.len())).rev();
     &now[known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0)..]
 }
 
-/// In the list of systems any letter that is no key begins a search.
+/// Whether a key starts a search; in the list of systems, any letter without a binding does.
 fn begins_search(key: KeyEvent) -> bool {
     let held = key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
     matches!(key.code, KeyCode::Char(c) if c.is_alphanumeric()) && !held

@@ -1,7 +1,7 @@
-//! The values a person turns: parameters and initial values, their ranges and steps.
+//! Adjustable values: parameters and initial values, their ranges and steps.
 //!
-//! In: a model and the newest snapshot. Out: what is known of one value, and the value one step further.
-//! Never here: the list on the screen, or the command that sets it.
+//! In: a model and the newest snapshot. Out: the description of a value, and the value one step further.
+//! Never here: the list on the screen, or the command that sets a value.
 
 use super::Lab;
 use crate::model::Scale;
@@ -17,23 +17,23 @@ pub enum ValueId {
     Initial(usize),
 }
 
-/// What is known of a value.
+/// The description of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ValueInfo {
-    /// As written: `theta0`.
+    /// The name as written: `theta0`.
     pub name: String,
-    /// As shown: `θ₀`.
+    /// The name as shown: `θ₀`.
     pub shown: String,
-    /// Its unit, empty where none is known.
+    /// The unit, empty if unknown.
     pub unit: String,
     /// What it means, in words.
     pub about: String,
-    /// The range of its bar, if it has one.
+    /// The range of its slider, if it has one.
     pub range: Option<(f64, f64, Scale)>,
 }
 
 impl Lab {
-    /// How many parameters, or how many initial values.
+    /// Returns the number of parameters, or of initial values.
     pub fn count(&self, kind: fn(usize) -> ValueId) -> usize {
         match kind(0) {
             ValueId::Parameter(_) => self.loaded.model.parameters.len(),
@@ -41,7 +41,7 @@ impl Lab {
         }
     }
 
-    /// What is known of a value; of one that does not exist, nothing.
+    /// Returns the description of a value, or `None` if the value does not exist.
     pub fn value_info(&self, target: ValueId) -> Option<ValueInfo> {
         let model = &self.loaded.model;
         match target {
@@ -90,7 +90,7 @@ impl Lab {
         }
     }
 
-    /// The value: what was asked for last, until the experiment shows it too.
+    /// Returns the value: the one requested last, until the experiment confirms it.
     pub fn value(&self, target: ValueId) -> Option<f64> {
         if let Some((_, wish)) = self.pending.iter().find(|(t, _)| *t == target) {
             return Some(*wish);
@@ -98,7 +98,7 @@ impl Lab {
         self.fact(target)
     }
 
-    /// The value as the experiment has it.
+    /// Returns the value that the experiment has.
     pub(super) fn fact(&self, target: ValueId) -> Option<f64> {
         let snapshot = self.snapshot.as_ref()?;
         match target {
@@ -107,7 +107,7 @@ impl Lab {
         }
     }
 
-    /// The value one fine or coarse step up (+1) or down (−1), within its range.
+    /// Returns the value one fine or coarse step up (+1) or down (−1), within its range.
     pub fn stepped(&self, target: ValueId, sign: i8, coarse: bool) -> Option<f64> {
         let value = self.value(target)?;
         let range = self.value_info(target)?.range;
@@ -116,7 +116,8 @@ impl Lab {
 }
 
 impl Lab {
-    /// A value as it would be set by hand: a whole number of fine steps within its range, whose ends are exact.
+    /// Rounds a value to what stepping could reach: a whole number of fine steps within its range, whose ends are
+    /// exact.
     pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
         match self.value_info(target).and_then(|value_info| value_info.range) {
             Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
@@ -130,8 +131,8 @@ impl Lab {
     }
 }
 
-/// A value moved by `sign · times` fine steps: about 200 of them make the range or, without one, the value's own size,
-/// which counts as no less than 1.
+/// Moves a value by `sign · times` fine steps. About 200 of them make up the range or, without one, the value's
+/// magnitude, which counts as at least 1.
 fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> f64 {
     match range {
         Some((min, max, Scale::Log)) if min > 0.0 && value > 0.0 => {
@@ -150,12 +151,12 @@ fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> 
     }
 }
 
-/// `moved` kept in the range; a value typed beyond it may come nearer, but never goes farther.
+/// Clamps `moved` to the range; a typed value beyond the range may come nearer to it, but never moves farther away.
 fn within(moved: f64, value: f64, min: f64, max: f64) -> f64 {
     moved.clamp(min.min(value), max.max(value))
 }
 
-/// The nearest of 1, 2, 5 times a power of ten, not above `length` by more than a half.
+/// Returns the nearest of 1, 2, 5 times a power of ten that exceeds `length` by at most a half.
 fn nice_step(length: f64) -> f64 {
     if !length.is_finite() || length <= 0.0 {
         return 1.0;
@@ -165,7 +166,7 @@ fn nice_step(length: f64) -> f64 {
     significant(digit.unwrap_or(1.0) * power, 3)
 }
 
-/// The value rounded to so many significant digits, so that steps leave no dust behind.
+/// Rounds a value to this many significant digits, so that repeated steps accumulate no rounding noise.
 fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }

@@ -62,6 +62,7 @@ pub(super) enum Status {
     /// Where an event or the user stopped it.
     Stopped,
     /// Where it could not go on.
+    #[serde(rename = "faulted")]
     Failed,
 }
 

@@ -1,5 +1,5 @@
-//! The text of one file, from the binary or from disk: read within limits, kept with the name it
-//! is reported under. Not here: what the text means.
+//! The text of one file, from the binary or from disk, read within limits and stored with the name
+//! used in reports. Never here: what the text means.
 
 use std::io;
 use std::path::Path;
@@ -7,27 +7,27 @@ use std::path::Path;
 use super::{Diagnostic, report};
 use crate::{file, printable};
 
-/// The most bytes a file may have.
+/// The largest size of a file, in bytes.
 pub const TEXT_LIMIT: usize = 1 << 20;
 
 /// A text with the name of its file.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// What reports call it: the path of a file, fit to be shown; `presets/…` for a shipped one.
+    /// The name used in reports: the escaped path of a file, or `presets/…` for a shipped one.
     pub path: String,
-    /// The text; what is not UTF-8 in it replaced by `�`.
+    /// The text, with invalid UTF-8 replaced by `�`.
     pub text: String,
-    /// What is wrong with it before a word of it is read.
+    /// A mistake that prevents the text from being read at all.
     unreadable: Option<Diagnostic>,
 }
 
 impl Document {
-    /// A text already at hand.
+    /// Creates a document from text in memory.
     pub fn new(path: impl Into<String>, text: impl Into<String>) -> Document {
         Document { path: path.into(), text: text.into(), unreadable: None }
     }
 
-    /// Bytes already at hand.
+    /// Creates a document from bytes in memory.
     pub fn from_bytes(path: impl Into<String>, bytes: &[u8]) -> Document {
         if bytes.len() > TEXT_LIMIT {
             let mut document = Document::new(path, "");
@@ -46,18 +46,18 @@ impl Document {
         document
     }
 
-    /// Reads a file or a pipe, no more of it than a preset may have.
+    /// Reads a file or a pipe, up to the largest size of a preset.
     ///
     /// # Errors
-    /// Those of opening and reading it; where it is neither.
+    /// Returns an error if it cannot be opened or read, or if it is neither a file nor a pipe.
     pub fn open(path: &Path) -> io::Result<Document> {
         Ok(Document::of_bytes_read(path, file::read(path, TEXT_LIMIT as u64)?))
     }
 
-    /// The same of a regular file alone: nothing is waited for.
+    /// Reads a regular file only, so it never has to wait.
     ///
     /// # Errors
-    /// Those of opening and reading it; where it is no regular file.
+    /// Returns an error if the file cannot be opened or read, or if it is not a regular file.
     pub fn open_regular(path: &Path) -> io::Result<Document> {
         Ok(Document::of_bytes_read(path, file::read_regular(path, TEXT_LIMIT as u64)?))
     }
@@ -72,12 +72,12 @@ impl Document {
         Document::from_bytes(shown, &bytes)
     }
 
-    /// What is wrong with its bytes, before a word of it is read.
+    /// A mistake in its bytes that prevents the text from being read at all.
     pub fn unreadable(&self) -> Option<&Diagnostic> {
         self.unreadable.as_ref()
     }
 
-    /// The line and the column of a byte of the text, both counted from 1, the column in
+    /// The line and the column of a byte of the text, both counted from 1; columns count
     /// characters.
     pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
         let before = self.text.get(..byte.min(self.text.len())).unwrap_or("");
@@ -86,13 +86,13 @@ impl Document {
         (line, column)
     }
 
-    /// Draws mistakes found in it, see [`report()`].
+    /// Formats mistakes found in the document, see [`report()`].
     pub fn report(&self, mistakes: &[Diagnostic], colour: bool) -> String {
         report(&self.text, &self.path, mistakes, colour)
     }
 }
 
-/// The refusal of a file beyond the limit.
+/// The error for a file beyond the size limit.
 pub fn too_long(bytes: u64) -> Diagnostic {
     let message = format!("the file has {bytes} bytes; a preset may have {TEXT_LIMIT} (1 MiB)");
     Diagnostic::error(0..0, message)

@@ -1,16 +1,16 @@
-//! A mistake in a file: where, what, and what would be right; and the list that collects them.
+//! A mistake in a file, with its place and a correction, and the list that collects mistakes.
 
 use std::collections::BTreeSet;
 
 /// A range of bytes in the text of a file.
 pub type SourceRange = std::ops::Range<usize>;
 
-/// How bad a mistake is.
+/// The severity of a mistake.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Severity {
     /// The file cannot be used.
     Error,
-    /// The file can be used; this is probably not what was meant.
+    /// The file can be used, but this is probably not what was meant.
     Warning,
 }
 
@@ -18,38 +18,38 @@ pub enum Severity {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
-    /// Where it stands, as bytes of the file.
+    /// The place, as bytes of the file.
     pub place: SourceRange,
     /// What is wrong, one clause without a full stop.
     pub message: String,
-    /// What would be right, where that can be said.
+    /// A correction, if one is known.
     pub help: Option<String>,
-    /// Another place that has to do with it, and what stands there.
+    /// A related place, and a description of what is there.
     pub also: Option<(SourceRange, String)>,
 }
 
 impl Diagnostic {
-    /// A mistake that makes the file unusable.
+    /// Creates a mistake that makes the file unusable.
     pub fn error(place: SourceRange, message: impl Into<String>) -> Diagnostic {
         let message = message.into();
         Diagnostic { severity: Severity::Error, place, message, help: None, also: None }
     }
 
-    /// Something allowed but probably not meant.
+    /// Creates a warning about something that is allowed but probably not meant.
     pub fn warning(place: SourceRange, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(place, message) }
     }
 
-    /// The same mistake with what would be right.
+    /// Adds a correction.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(help.into());
         self
     }
 
-    /// The same mistake with a second place to look at.
+    /// Adds a related place.
     #[must_use]
     pub fn with_also(mut self, place: SourceRange, what: impl Into<String>) -> Diagnostic {
         self.also = Some((place, what.into()));
@@ -57,28 +57,28 @@ impl Diagnostic {
     }
 }
 
-/// The most letters of a message: a name of a file may fill the file.
+/// The largest number of characters in a message: a name in a file may fill the whole file.
 const LONGEST: usize = 400;
 
-/// No more mistakes than these are kept: a file of a million would fill the memory.
+/// The largest number of mistakes stored: a file with a million of them would fill the memory.
 const MOST: usize = 100;
 
-/// The mistakes of one file, and what TOML's own mistakes may have swallowed: what only seems to
-/// be missing because of them is not complained of.
+/// The mistakes of one file. It also records what TOML syntax errors may have hidden, so that
+/// nothing is reported as missing because of them.
 #[derive(Default, Debug)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     left_out: usize,
-    /// Keys that TOML lost.
+    /// Keys lost in TOML syntax errors.
     lost_keys: BTreeSet<String>,
-    /// Values that TOML could not read; nothing more is said of them.
+    /// Values with TOML syntax errors; no further mistakes are reported in them.
     lost_values: Vec<SourceRange>,
     /// Whether any part of the file may be lost.
     lost_track: bool,
 }
 
 impl Diagnostics {
-    /// Takes note of a mistake.
+    /// Records a mistake.
     pub fn push(&mut self, mut mistake: Diagnostic) {
         shorten(&mut mistake.message);
         if let Some(help) = &mut mistake.help {
@@ -96,7 +96,7 @@ impl Diagnostics {
         }
     }
 
-    /// Drops a warning in favour of an error.
+    /// Drops a warning to make room for an error.
     fn make_room(&mut self) -> bool {
         let warning = self.list.iter().rposition(|m| m.severity == Severity::Warning);
         if let Some(at) = warning {
@@ -106,34 +106,34 @@ impl Diagnostics {
         warning.is_some()
     }
 
-    /// Takes note that something called `key` is not there, unless TOML's mistakes explain it.
+    /// Records that something called `key` is missing, unless a TOML syntax error explains it.
     pub fn missing(&mut self, key: &str, mistake: Diagnostic) {
         if !self.lost_keys.contains(key) {
             self.push(mistake);
         }
     }
 
-    /// A key that TOML lost on the way.
+    /// Records a key that a TOML syntax error has hidden.
     pub fn lose_key(&mut self, key: &str) {
         self.lost_keys.insert(key.to_owned());
     }
 
-    /// A value that TOML could not read.
+    /// Records a value that has a TOML syntax error.
     pub fn lose_value(&mut self, place: SourceRange) {
         self.lost_values.push(place);
     }
 
-    /// TOML lost its way: what it read of the rest may be anything.
+    /// Records that a TOML syntax error makes the rest of the file unreliable.
     pub fn lose_track(&mut self) {
         self.lost_track = true;
     }
 
-    /// Whether too little is left of the file to say more of it.
+    /// Returns whether the rest of the file is too unreliable for further checks.
     pub fn lost_track(&self) -> bool {
         self.lost_track
     }
 
-    /// All of them, in the order of their places.
+    /// All mistakes, in the order of their places.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         self.sort();
         if self.left_out > 0 {
@@ -144,13 +144,13 @@ impl Diagnostics {
         self.list
     }
 
-    /// All of them where none makes the file unusable, in the order of their places.
+    /// All mistakes in the order of their places, if none makes the file unusable.
     pub fn into_warnings(mut self) -> Vec<Diagnostic> {
         self.sort();
         self.list
     }
 
-    /// Whether there is a mistake that makes the file unusable.
+    /// Returns whether there is a mistake that makes the file unusable.
     pub fn any_error(&self) -> bool {
         self.list.iter().any(|m| m.severity == Severity::Error)
     }

@@ -1,7 +1,7 @@
-//! The nearest right word for a misspelt one.
+//! The nearest known word to a misspelt one.
 
-/// The candidate most like a misspelt word, if any is near enough to be meant: at most a third of
-/// the letters differ, and not all of them. Words of more than 64 letters are not compared.
+/// Returns the candidate closest to a misspelt word, if one is close enough: at most a third of the
+/// letters differ, and not all of them. Words of more than 64 letters are not compared.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
     let longer = |c: &str| word.chars().count().max(c.chars().count());

@@ -1,5 +1,5 @@
-//! Mistakes as a person reads them: file, line and column, the line itself, a caret under the
-//! place, the reason, and what would be right.
+//! Formatting of mistakes for the reader: file, line and column, the line itself, a caret under the
+//! place, the reason, and a correction.
 
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
 
@@ -7,17 +7,18 @@ use super::{Diagnostic, Severity};
 use crate::diagnostic::SourceRange;
 use crate::printable;
 
-/// A line longer than this is not shown: nobody could read it, and it takes long to draw.
+/// The longest line that is shown: a longer one is unreadable and slow to format.
 const LONGEST_LINE: usize = 4096;
 
-/// A sentence is cut here: what it quotes may be as long as a file.
+/// The length at which a sentence is cut: what it quotes may be as long as a file.
 const LONGEST_SENTENCE: usize = 420;
 
-/// A second place farther away than this is not shown.
+/// The largest distance at which a related place is shown.
 const FARTHEST: usize = 65_536;
 
-/// Draws mistakes found in `text`, the content of `path`, each followed by an empty line. Without
-/// colour the frame around the file's own lines is ASCII. What would steer a terminal is written out.
+/// Formats mistakes found in `text`, the content of `path`, each followed by an empty line. Without
+/// colour the frame around the file's own lines is ASCII. Characters that would control a terminal
+/// are escaped.
 pub fn report(text: &str, path: &str, mistakes: &[Diagnostic], colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let path = printable::line(path);
@@ -49,7 +50,7 @@ fn sentence(text: &str) -> String {
     printable::line(&printable::shortened(text, LONGEST_SENTENCE)).into_owned()
 }
 
-/// The lines in question, and no others: the cost of drawing is that of the text handed over.
+/// Only the lines in question, because the cost of formatting grows with the text passed on.
 fn snippet<'t>(
     text: &str,
     path: &'t str,
@@ -75,12 +76,12 @@ fn snippet<'t>(
     }
 }
 
-/// Lines of a file as they are shown, and where their characters went.
+/// Lines of a file as they are shown, with a map of the offsets that escapes have shifted.
 struct Window {
     shown: String,
-    /// Where it begins in the file.
+    /// The offset of the first line in the file.
     start: usize,
-    /// Of each character that is written out: where it ends in the file, and in what is shown.
+    /// For each escaped character, its end in the file and its end in the shown text.
     moved: Vec<(usize, usize)>,
 }
 
@@ -103,30 +104,30 @@ impl Window {
         window
     }
 
-    /// A place of the file among what is shown.
+    /// Converts a range of the file to a range of the shown text.
     fn within(&self, place: &SourceRange) -> SourceRange {
         let shown = |at: usize| {
             let before = self.moved.partition_point(|(end, _)| *end <= at);
             let (end, shown) = before.checked_sub(1).map_or((self.start, 0), |i| self.moved[i]);
             shown + (at - end)
         };
-        // within a character that is written out its beginning stands for it
+        // a place within an escaped character maps to the beginning of its escape
         shown(place.start)..shown(place.end)
     }
 }
 
-/// The column is that of the file, whatever stands before it in longer words.
+/// Corrects the column to that of the file, because escapes before the place may have shifted it.
 fn in_the_file(rendered: String, text: &str, path: &str, at: usize) -> String {
     let before = &text[line_start(text, at)..at];
     let shown = Window::of(before, 0..before.len()).shown;
-    let told = |line: &str| {
+    let origin_text = |line: &str| {
         let column = 1 + line.chars().count();
         format!("{path}:{}:{column}", line_number(text, at))
     };
-    if shown == before { rendered } else { rendered.replacen(&told(&shown), &told(before), 1) }
+    if shown == before { rendered } else { rendered.replacen(&origin_text(&shown), &origin_text(before), 1) }
 }
 
-/// Line and column alone.
+/// The origin that gives only line and column.
 fn origin<'t>(text: &str, path: &'t str, at: usize) -> Origin<'t> {
     let column = 1 + text[line_start(text, at)..at].chars().count();
     Origin::path(path).line(line_number(text, at)).char_column(column)
@@ -136,7 +137,7 @@ fn line_number(text: &str, at: usize) -> usize {
     1 + text[..at].matches('\n').count()
 }
 
-/// The part of a place on its first line, moved to whole characters of the text.
+/// The part of a place on its first line, extended to whole characters of the text.
 fn one_line(text: &str, place: &SourceRange) -> SourceRange {
     let mut start = place.start.min(text.len());
     while !text.is_char_boundary(start) {

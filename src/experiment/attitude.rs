@@ -1,26 +1,26 @@
-//! The gauge of an attitude: whether A is a rotation, and by what angle about what axis (Euler's
-//! theorem: tr A = 1 + 2 cos Φ). Source: *The Principles of Dynamics*, §§ 2.1.2–3.
+//! The gauge of an attitude: whether A is a rotation, and its angle and axis (Euler's theorem: tr A
+//! = 1 + 2 cos Φ). Source: *The Principles of Dynamics*, §§ 2.1.2–3.
 //!
-//! In: the nine entries. Out: a [`Gauge`]. Never here: where they come from.
+//! In: the nine entries of A. Out: a [`Gauge`]. Never here: how the entries are computed.
 
 use super::deviation::Deviation;
 use super::{Gauge, Reference};
 use crate::num::math;
 use crate::system::{ChannelKind, System};
 
-/// What a gauge of an attitude remembers.
+/// The state of the gauge of an attitude.
 #[derive(Clone, Debug)]
 pub(super) struct Attitude {
-    /// The channel of the first entry; the others follow it by rows.
+    /// The channel of the first entry; the others follow in row-major order.
     first: usize,
     deviation: Deviation,
 }
 
 impl Attitude {
-    /// What its gauge is called.
+    /// The gauge's name.
     pub(super) const NAME: &'static str = "attitude";
 
-    /// The gauge, where the system has an attitude.
+    /// Returns the gauge, or `None` if the system has no attitude.
     pub(super) fn of(system: &System) -> Option<Attitude> {
         let mut kinds = system.channels().iter().map(|c| c.kind);
         let first = kinds.position(|kind| kind == ChannelKind::Attitude(0))?;
@@ -39,12 +39,12 @@ impl Attitude {
         self.deviation.sample(time, missing(&self.matrix(values)));
     }
 
-    /// How far it is from a rotation.
+    /// The deviation from a rotation.
     pub(super) fn now(&self, values: &[f64]) -> f64 {
         missing(&self.matrix(values))
     }
 
-    /// Goes on from what was known of it.
+    /// Continues from a saved reference.
     pub(super) fn restore(&mut self, known: &Reference) {
         self.deviation.restore(known);
     }
@@ -63,7 +63,7 @@ impl Attitude {
     }
 }
 
-/// The greatest entry of A Aᵀ − 1, or |det A − 1| where that is more.
+/// The greatest entry of A Aᵀ − 1 in absolute value, or |det A − 1| if that is greater.
 fn missing(a: &[[f64; 3]; 3]) -> f64 {
     let mut most = (determinant(a) - 1.0).abs();
     for i in 0..3 {
@@ -80,8 +80,8 @@ fn determinant(a: &[[f64; 3]; 3]) -> f64 {
     a[0][0] * minor(1, 2) - a[0][1] * minor(0, 2) + a[0][2] * minor(0, 1)
 }
 
-/// The angle in [0, π] and the axis of the rotation that turned the body: A, which takes components
-/// along space axes to those along body axes, is its inverse.
+/// The angle in [0, π] and the axis of the body's rotation. A maps space components to body
+/// components, so the rotation is its inverse.
 fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
     let odd = [a[1][2] - a[2][1], a[2][0] - a[0][2], a[0][1] - a[1][0]];
     let size = odd.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -93,7 +93,7 @@ fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
     if trace > 0.0 {
         return (angle, [0.0; 3]);
     }
-    // half a turn: A + 1 = 2 n nᵀ
+    // the angle is π: A + 1 = 2 n nᵀ
     let longest = (0..3).max_by(|&i, &j| a[i][i].total_cmp(&a[j][j])).unwrap_or(0);
     let column = [0, 1, 2].map(|i| a[i][longest] + f64::from(u8::from(i == longest)));
     let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -104,7 +104,7 @@ fn turn(a: &[[f64; 3]; 3]) -> (f64, [f64; 3]) {
 mod tests {
     use super::*;
 
-    /// Turned by an angle about z, as A takes components from space to body.
+    /// A rotation by an angle about z, as a matrix from space to body components.
     fn about_z(angle: f64) -> [[f64; 3]; 3] {
         let (s, c) = math::sin_cos(angle);
         [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]

@@ -1,11 +1,11 @@
-//! A moment of a motion, by names: what it takes to go on from there elsewhere, in another session or in a system
-//! that was rebuilt from a changed file.
+//! A checkpoint of a motion, stored by name: all that is needed to resume it elsewhere, in another session or in a
+//! system rebuilt from a changed file.
 //!
-//! In: a model and a [`Snapshot`] of its motion. Out: plain data to be kept, and an experiment that has taken it up.
+//! In: a model and a [`Snapshot`] of its motion. Out: plain data for saving, and an experiment that resumes from it.
 //! Never here: files; what the screen shows of it.
 //!
-//! What the file says itself is not part of a moment: only what was changed since. So a value changed in the file wins
-//! over the one that was there before, and a value turned by hand is kept.
+//! A checkpoint holds only what differs from the file. A value that has since changed in the file therefore replaces
+//! the old one, and a value set by the user is preserved.
 
 use std::fmt;
 
@@ -18,54 +18,54 @@ use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
 
-/// A motion that is on its constraints to this part of their terms may be taken up as it is.
+/// A state is restored unchanged if its constraint residuals are within this fraction of the constraints' terms.
 const KEPT_WITHIN: f64 = 1e-9;
 
-/// A moment of a motion.
+/// A checkpoint of a motion.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// The parameters that differ from the file's.
     #[serde(default)]
     pub parameters: Vec<Changed>,
-    /// The initial values that take the place of the file's: `theta`, `theta'`, `p_theta`.
+    /// The initial values that override the file's: `theta`, `theta'`, `p_theta`.
     #[serde(default)]
     pub initial: Vec<Named>,
-    /// The method, if another than the file's was chosen.
+    /// The method, if it is not the file's.
     pub method: Option<String>,
-    /// The step, if it was typed.
+    /// The step, if the user set it.
     pub step: Option<f64>,
-    /// The tolerance, if it was typed.
+    /// The tolerance, if the user set it.
     pub tolerance: Option<f64>,
-    /// Simulated seconds per second, if other than the file's; infinite means flat out.
+    /// Simulated seconds per second, if not the file's; infinite for as fast as possible.
     pub speed: Option<f64>,
-    /// Whether time ran.
+    /// Whether time was running.
     pub running: bool,
-    /// Where the motion was; `None` where it had not begun.
+    /// The state of the motion, or `None` if it had not begun.
     pub present: Option<MotionState>,
-    /// What was recorded before. No file has it: it is far longer than all else, and made anew where it is wanted.
+    /// The recorded past. It is never saved, because it is far longer than the rest and can be recomputed.
     #[serde(skip)]
     pub past: Option<Past>,
 }
 
-/// Rows recorded of a motion, and the names of their channels.
+/// Recorded rows of a motion and the names of their channels.
 #[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
     trail: Trail,
 }
 
-/// A parameter that was changed.
+/// A changed parameter.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Changed {
-    /// Its name.
+    /// The parameter's name.
     pub name: String,
     /// Its value.
     pub value: f64,
-    /// The file's value at that time.
+    /// The file's value when the checkpoint was made.
     pub of_file: f64,
 }
 
-/// A number and its name.
+/// A named number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Named {
     /// The name.
@@ -74,33 +74,33 @@ pub struct Named {
     pub value: f64,
 }
 
-/// Where a motion was.
+/// The state of a motion.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct MotionState {
-    /// When.
+    /// The time.
     pub time: f64,
-    /// What rounding cut off the time.
+    /// The rounding error carried with the time.
     pub time_carry: f64,
-    /// What the second part of `state` is: `velocity`, `momentum` or `variables`.
+    /// The meaning of the second half of `state`: `velocity`, `momentum` or `variables`.
     pub form: Form,
     /// The names of the coordinates, in the order of the state.
     pub coordinates: Vec<String>,
-    /// Every number of the state, and what rounding cut off it.
+    /// Each number of the state with its carried rounding error.
     pub state: Vec<[f64; 2]>,
-    /// Coordinates, velocities and momenta as they were seen.
+    /// The values of coordinates, velocities and momenta.
     pub seen: Vec<Named>,
-    /// The constraints that were let go.
+    /// The released constraints.
     pub released: Vec<String>,
-    /// The event that had ended the motion.
+    /// The event that ended the motion, if any.
     pub ended: Option<String>,
-    /// The steps taken since the last restart.
+    /// The number of steps since the last restart.
     pub steps: u64,
-    /// What the gauges measured from.
+    /// The references of the gauges.
     pub references: Vec<Reference>,
 }
 
 impl Checkpoint {
-    /// The moment that a snapshot shows of the motion of a model's system.
+    /// Makes a checkpoint from a snapshot of a model's system.
     pub fn of(model: &Model, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let setup = &snapshot.setup;
         let of_file = Setup::of(model);
@@ -124,7 +124,7 @@ impl Checkpoint {
         }
     }
 
-    /// The same with what a snapshot of that system has recorded.
+    /// Adds the trail that a snapshot of the same system has recorded.
     #[must_use]
     pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
@@ -132,7 +132,7 @@ impl Checkpoint {
     }
 }
 
-/// A past is long; commands that carry it are reported in a line.
+/// A past is long, and commands that carry one are logged on one line.
 impl fmt::Debug for Past {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Past of {} rows", self.trail.len())
@@ -140,9 +140,10 @@ impl fmt::Debug for Past {
 }
 
 impl Past {
-    /// Makes one of its rows before a time a row of these channels; what one of them was not recorded of is not a number.
+    /// Converts this past's rows before `time` to rows of the given channels. A channel that was not recorded becomes
+    /// NaN.
     fn row(&self, channels: &[Channel], time: f64) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
-        // where several have a name, the first is the first, and so on
+        // channels that share a name are matched in order
         let place = |(at, channel): (usize, &Channel)| {
             let earlier = channels[..at].iter().filter(|other| other.name == channel.name).count();
             let mut places = (0..self.names.len()).filter(|&i| self.names[i] == channel.name);
@@ -203,7 +204,7 @@ impl MotionState {
         }
     }
 
-    /// Whether its numbers are those of a state of this system.
+    /// Whether the stored state has the shape of this system's state.
     fn fits(&self, model: &Model, system: &System) -> bool {
         let names = model.coordinates.iter().map(|c| &c.name);
         let poisson = self.form == Form::Variables;
@@ -213,7 +214,7 @@ impl MotionState {
     }
 }
 
-/// Every coordinate, velocity and momentum that has a number, by name.
+/// The finite coordinates, velocities and momenta, by name.
 fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
     let moves = |kind| {
         matches!(
@@ -228,7 +229,7 @@ fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
         .collect()
 }
 
-/// An initial value by its name in expressions.
+/// Names an initial value as expressions do.
 fn named(model: &Model, given: InitialOverride) -> Option<Named> {
     let (index, value) = match given {
         InitialOverride::Position(i, x)
@@ -244,7 +245,7 @@ fn named(model: &Model, given: InitialOverride) -> Option<Named> {
     Some(Named { name, value })
 }
 
-/// The initial value of a name, if the model has it.
+/// Finds the initial value of a name, if the model has it.
 fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
     let place = |name: &str| model.coordinates.iter().position(|c| c.name == name);
     let (name, value) = (named.name.as_str(), named.value);
@@ -262,7 +263,8 @@ fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
 }
 
 impl Experiment {
-    /// Goes on from a moment of this system or of one of similar names. What has no place here is reported in a notice.
+    /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
+    /// reported in a notice.
     pub fn restore(&mut self, moment: &Checkpoint) {
         self.taken_up = true;
         let mut lost = self.take_setup(moment);
@@ -287,7 +289,7 @@ impl Experiment {
         }
     }
 
-    /// Puts what was recorded before the present, where the coordinates are the same.
+    /// Prepends the recorded past, if the coordinates are the same.
     fn recall(&mut self, past: Option<&Past>, present: &MotionState) {
         let own = self.model.coordinates.iter();
         let same = own.len() == present.coordinates.len()
@@ -298,7 +300,7 @@ impl Experiment {
         }
     }
 
-    /// Takes what was changed; returns the names that there are no longer.
+    /// Applies the changed settings and returns the names that no longer exist.
     fn take_setup(&mut self, moment: &Checkpoint) -> Vec<String> {
         let mut lost = Vec::new();
         let Setup { start, end, .. } = self.setup;
@@ -325,7 +327,7 @@ impl Experiment {
         };
         let wanted = moment.method.as_ref().unwrap_or(&setup.method).clone();
         let changed = wanted != self.setup.method || settings != self.setup.settings;
-        // a method that is refused leaves the one that runs, with its settings
+        // a method that is refused leaves the current one and its settings in place
         self.setup =
             Setup { method: self.setup.method.clone(), settings: self.setup.settings, ..setup };
         if changed {
@@ -334,7 +336,7 @@ impl Experiment {
         lost
     }
 
-    /// Puts the present where it was: to the last bit where the system has the same state, else as far as names agree.
+    /// Restores the state: bit by bit if the system has the same state, otherwise as far as the names match.
     fn take_present(&mut self, present: &MotionState) -> Result<(), MotionError> {
         let exact = present.fits(&self.model, self.system()) && self.take_exactly(present);
         if !exact {
@@ -355,7 +357,7 @@ impl Experiment {
         Ok(())
     }
 
-    /// Takes up the state as it is; `false` where it is none that this system can be in.
+    /// Restores the exact state. Returns `false` if this system cannot be in that state.
     fn take_exactly(&mut self, present: &MotionState) -> bool {
         let released: Vec<usize> =
             present.released.iter().filter_map(|name| self.constraint(name)).collect();
@@ -371,7 +373,7 @@ impl Experiment {
         self.model.constraints.iter().position(|c| c.name == name)
     }
 
-    /// The state with the same coordinates and velocities (for a Hamiltonian: momenta), where there are such.
+    /// The state with the same coordinates and velocities (momenta for a Hamiltonian), if there is one.
     fn state_of(&self, present: &MotionState) -> Result<State, MotionError> {
         let poisson = self.model.is_poisson();
         let fits = |given: &InitialOverride| match given {

@@ -1,53 +1,52 @@
-//! What can be asked of an experiment: plain data that can be logged and replayed.
+//! The commands of an experiment: plain data that can be logged and replayed.
 
 use super::Checkpoint;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
-/// One request.
+/// A command.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Command {
-    /// Let time run.
+    /// Lets time run.
     Play,
-    /// Hold it.
+    /// Pauses time.
     Pause,
-    /// Advance by this many single steps (of the view's frame time, 1/60 s of simulated time at
-    /// the current speed) while paused.
+    /// Advances by this many single steps while paused. A single step is one frame, 1/60 s of wall
+    /// time, at the current speed.
     Step(u32),
-    /// Simulated seconds per second of the wall clock; infinite means flat out.
+    /// Sets the simulated seconds per second of wall time; infinite for as fast as possible.
     Speed(f64),
-    /// Sets a parameter; q and p are kept, and the gauges take the new values as their reference.
+    /// Sets a parameter. q and p are preserved, and the gauges take the new values as their
+    /// reference.
     Parameter {
-        /// Its place among the parameters.
+        /// Its index among the parameters.
         index: usize,
-        /// Its new value.
         value: f64,
     },
-    /// Sets an initial value and starts again from the initial values.
+    /// Sets an initial value and restarts.
     Initial {
-        /// Its place: coordinates first, then velocities (Lagrangian) or momenta (Hamiltonian).
+        /// Its index: coordinates first, then velocities (Lagrangian) or momenta (Hamiltonian).
         index: usize,
-        /// Its new value.
         value: f64,
     },
-    /// Begins the motion anew with these in place of the file's initial values, and with no others.
+    /// Restarts with exactly these overrides of the file's initial values.
     Start(Vec<InitialOverride>),
-    /// Strikes the motion now with the impulse of this index.
+    /// Applies the impulse of this index now.
     ApplyImpulse(usize),
-    /// Back to the initial values; parameters stay.
+    /// Restarts from the initial values; parameters are preserved.
     Reset,
-    /// Back to all values of the file.
+    /// Restores all values of the file.
     FullReset,
-    /// Chooses a method by the name in the table of methods.
+    /// Selects a method by its name in the table of methods.
     Method(String),
-    /// The step of a method of fixed step.
+    /// Sets the step of a fixed-step method.
     StepSize(f64),
-    /// The tolerance of an adaptive method.
+    /// Sets the tolerance of an adaptive method.
     Tolerance(f64),
-    /// The step and the tolerance of the method, each as asked for or left to the method.
+    /// Sets the step and the tolerance; `None` leaves the choice to the method.
     Settings(Settings),
-    /// Takes the present values as the gauges' reference.
+    /// Takes the current values as the gauges' reference.
     Reference,
-    /// Takes up a motion that was left elsewhere.
+    /// Resumes from a checkpoint.
     TakeUp(Box<Checkpoint>),
 }

@@ -1,6 +1,7 @@
-//! An experiment under way: its motion, what is recorded and gauged on the way.
+//! A running experiment: its motion, and what is recorded and monitored along the way.
 //!
-//! In: a system and a setup. Out: an [`Experiment`] that goes on as far as it is asked to. Never here: commands (`execute`).
+//! In: a system and a setup. Out: an [`Experiment`] that advances as far as requested. Never here: commands
+//! (`execute`).
 
 use std::sync::Arc;
 
@@ -22,9 +23,9 @@ use crate::system::{self, State, System};
 /// A system in motion, with its gauges and its recorded past.
 pub struct Experiment {
     pub(super) model: Arc<Model>,
-    /// What a restart would begin with.
+    /// The setup that a restart begins with.
     pub(super) setup: Setup,
-    /// The same as numbers: coordinates, then velocities or momenta.
+    /// The initial values as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
     pub(super) motion: ObservedMotion,
     pub(super) recorder: Recorder,
@@ -33,35 +34,35 @@ pub struct Experiment {
     pub(super) fault: Option<Failure>,
     epoch: u64,
     pub(super) notices: Vec<String>,
-    /// What happened since the last restart.
+    /// The events and impulses since the last restart.
     occurrences: EventLog,
-    /// The names of those that were reported of.
+    /// The names of occurrences that have been reported.
     told: Vec<String>,
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
-    /// Whether a motion left elsewhere was taken up.
+    /// Whether the motion was resumed from a checkpoint.
     pub(super) taken_up: bool,
 }
 
-/// How far an experiment came.
+/// How far an advance came.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Progress {
-    /// To the time asked for.
+    /// It reached the requested time.
     Arrived,
-    /// Not so far: the steps allowed were taken.
+    /// It used up its steps before the requested time.
     Underway,
-    /// Not so far: a fault stands in the way.
+    /// It failed before the requested time.
     Stuck,
-    /// Not so far: an event has ended the motion.
+    /// An event ended the motion before the requested time.
     Ended,
 }
 
 impl Experiment {
-    /// An experiment at its initial values, running. What is wrong with the initial values is a
-    /// fault of the experiment, not of this call.
+    /// Creates an experiment at its initial values, with time running. Invalid initial values put the experiment into
+    /// a failed state; they are not an error of this call.
     ///
     /// # Errors
-    /// Where the method is unknown or does not fit the system.
+    /// Returns an error if the method is unknown or does not suit the system.
     pub fn new(
         model: &Arc<Model>,
         equations: &Arc<Equations>,
@@ -90,37 +91,37 @@ impl Experiment {
         Ok(experiment)
     }
 
-    /// The token that stops what it computes, also in the middle of a step.
+    /// The token that cancels its computations, even within a step.
     pub fn cancel(&self) -> &Cancel {
         self.motion.system().cancel()
     }
 
-    /// Gives all snapshots this epoch.
+    /// Sets the epoch of all further snapshots.
     pub fn set_epoch(&mut self, epoch: u64) {
         self.epoch = epoch;
     }
 
-    /// The model it runs.
+    /// The model.
     pub fn model(&self) -> &Arc<Model> {
         &self.model
     }
 
-    /// The compiled system it runs.
+    /// The compiled system.
     pub fn system(&self) -> &System {
         self.motion.system()
     }
 
-    /// The present time.
+    /// The current time.
     pub fn time(&self) -> f64 {
         self.motion.time()
     }
 
-    /// Simulated seconds per second of the wall clock; infinite means flat out.
+    /// Simulated seconds per second of wall time; infinite for as fast as possible.
     pub fn speed(&self) -> f64 {
         self.setup.speed
     }
 
-    /// Whether time runs, is held, or cannot go on.
+    /// Whether time is running, paused or unable to continue.
     pub fn status(&self) -> Status {
         match (&self.fault, self.running) {
             (Some(fault), _) => Status::Failed(fault.clone()),
@@ -130,14 +131,13 @@ impl Experiment {
         }
     }
 
-    /// Every channel's present value, in the order of the system's channels.
+    /// The current value of every channel, in the order of the system's channels.
     pub fn values(&self) -> &[f64] {
         self.motion.values()
     }
 
-    /// Carries the motion on to `time`, recording and gauging on the way; after `budget` steps and
-    /// rows it stops short. It does so also while paused: whether time runs is for the caller to
-    /// look at.
+    /// Advances the motion to `time`, recording and monitoring along the way, and stops early after `budget` steps
+    /// and rows. It advances even while paused; the caller decides whether time runs.
     pub fn advance(&mut self, time: f64, mut budget: u64) -> Progress {
         if self.fault.is_some() {
             return Progress::Stuck;
@@ -166,17 +166,17 @@ impl Experiment {
         progress
     }
 
-    /// What happened since the last restart, in time.
+    /// The events and impulses since the last restart, in order of time.
     pub fn occurrences(&self) -> &EventLog {
         &self.occurrences
     }
 
-    /// From now on what happens is counted only, and not kept: for who does not list it.
+    /// Only counts occurrences from now on, without storing them.
     pub fn only_count_occurrences(&mut self) {
         self.occurrences.only_count();
     }
 
-    /// A sentence on the singular configurations of the constraints that the motion has passed.
+    /// A sentence about the singular configurations of the constraints that the motion has passed.
     pub fn singular_passages(&self) -> Option<String> {
         let (count, first) = self.motion.singular_passages();
         let time = short(first?);
@@ -187,7 +187,7 @@ impl Experiment {
         ))
     }
 
-    /// A sentence where the method's fixed step lies beyond what is stable.
+    /// A sentence for a fixed step beyond the method's stability limit.
     pub fn unstable(&self) -> Option<String> {
         let found = self.motion.unstable()?;
         Some(format!(
@@ -199,7 +199,7 @@ impl Experiment {
         ))
     }
 
-    /// What can be seen of it now.
+    /// Takes a snapshot of the current state.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             epoch: self.epoch,
@@ -225,9 +225,9 @@ impl Experiment {
     }
 }
 
-/// How it moves.
+/// The motion.
 impl Experiment {
-    /// Begins anew at the initial values.
+    /// Restarts from the initial values.
     pub(super) fn restart(&mut self) {
         self.fault = None;
         self.ended = None;
@@ -253,7 +253,7 @@ impl Experiment {
         self.motion.whole().initial(*start, parameters, given)
     }
 
-    /// Keeps the initial values to be shown: those of the state they lead to, where they do.
+    /// Stores the initial values for display, taken from the resulting state if there is one.
     pub(super) fn show_initial(&mut self, state: Option<&State>) {
         let system = self.system();
         self.initial = match state {
@@ -262,9 +262,9 @@ impl Experiment {
         };
     }
 
-    /// Moves the present on, or meets a fault.
+    /// Advances the motion, or fails.
     fn reach(&mut self, time: f64, budget: &mut u64) -> Progress {
-        // a motion that is a polynomial would be over in one step; any other is not cut short
+        // otherwise a polynomial motion would be over in one step; no other motion is limited by this
         let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
         let limit = self.setup.end.unwrap_or(self.time() + ahead).max(time);
         let reached = loop {
@@ -291,7 +291,7 @@ impl Experiment {
             Ok(Reached::Underway) => Progress::Underway,
             Ok(Reached::Ended) => Progress::Ended,
             Err(fault) => {
-                // what was computed before the fault is still shown, as far as it can be
+                // show what was computed before the fault, as far as possible
                 let _ = self.motion.reach_end();
                 self.fault = Some(fault.into());
                 Progress::Stuck
@@ -299,8 +299,8 @@ impl Experiment {
         }
     }
 
-    /// Takes note of what happened: rows of the trail before and after it, and gauges that go on
-    /// from what an impulse left. Returns a sentence on it.
+    /// Records an occurrence: rows of the trail before and after it, and gauges that continue from the state after an
+    /// impulse. Returns a sentence about it.
     pub(super) fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
         let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
         let sentence = match &occurrence.kind {
@@ -328,7 +328,7 @@ impl Experiment {
         Ok(sentence)
     }
 
-    /// Tells of what happens by itself: of what happens again and again only the first time.
+    /// Reports an automatic occurrence; a repeated one is reported only the first time.
     fn report_once(&mut self, name: String, sentence: String) {
         if !self.told.contains(&name) {
             self.told.push(name);
@@ -336,7 +336,7 @@ impl Experiment {
         }
     }
 
-    /// Records the present as the row that is due.
+    /// Records the current values as the row that is due.
     pub(super) fn record(&mut self) {
         self.recorder.record(self.motion.time(), self.motion.values());
         self.recorder.set_spacing(self.spacing());
@@ -344,9 +344,8 @@ impl Experiment {
         self.gauge(|gauges, now| gauges.sample(now, dense));
     }
 
-    /// The time to the next row: so short that the curve through the rows is smooth, which a step
-    /// of the method tells; not shorter than the setup's; and not so long that the trail lags
-    /// behind at the present speed.
+    /// The time to the next row. It is short enough for a smooth curve, as estimated from the method's step, but not
+    /// shorter than the setup's spacing, and not so long that the trail lags behind at the current speed.
     fn spacing(&self) -> f64 {
         let least = self.setup.spacing;
         let per_step = match self.motion.method().stepping {
@@ -358,18 +357,18 @@ impl Experiment {
         if smooth <= least {
             return least;
         }
-        // in powers of two, so that it does not change with every step
+        // a power of two, so that it does not change with every step
         (least * math::exp2(math::log2(smooth / least).floor())).min(most)
     }
 
-    /// Has the gauges look at the present.
+    /// Passes the current values to the gauges.
     pub(super) fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
         self.motion.look_at_terms();
         let constants = self.constants();
         look(&mut self.gauges, &self.motion.present(&constants));
     }
 
-    /// The parameters, and what follows from a body.
+    /// The parameters, and the constants that follow from a body.
     fn constants(&self) -> Valuation {
         let parameters = &self.setup.parameters;
         let body = self.motion.system().body_values(parameters);
@@ -390,14 +389,14 @@ impl Experiment {
     }
 }
 
-/// How many of the closest rows a step may reach ahead.
+/// The number of the shortest row intervals that a step may cover.
 const HORIZON: f64 = 4096.0;
 
-/// How many times as long as the last one a step may be.
+/// The greatest ratio of a step to the previous one.
 const GROWTH: f64 = 8.0;
 
-/// A step of high order covers about a sixth of an oscillation.
+/// A step of a high-order method covers about a sixth of an oscillation.
 const ROWS_PER_LONG_STEP: f64 = 32.0;
 
-/// The longest time between two rows, in seconds of the wall clock: a frame.
+/// The longest time between two rows, in seconds of wall time: one frame.
 const LONGEST_LAG: f64 = 1.0 / 60.0;

@@ -1,7 +1,7 @@
-//! How far a motion is from keeping a condition it is kept on: zero but for rounding.
+//! The deviation of a motion from a condition imposed on it: zero up to rounding.
 //!
-//! In: deviations, measured by the size of what they are deviations of. Out: the numbers of a
-//! [`Gauge`]. Never here: what the condition is.
+//! In: deviations relative to the size of their terms. Out: the numbers of a [`Gauge`]. Never here:
+//! what the condition is.
 
 use super::{Gauge, Reference};
 use crate::analysis::{Growth, History, LOST, Stretch, Verdict};
@@ -9,7 +9,7 @@ use crate::analysis::{Growth, History, LOST, Stretch, Verdict};
 /// A deviation below this is rounding: a few units in the last place.
 const ROUNDING: f64 = 1e-14;
 
-/// What is remembered of one condition.
+/// The recorded deviation from one condition.
 #[derive(Clone, Debug)]
 pub(super) struct Deviation {
     since: f64,
@@ -18,29 +18,29 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// From this time on.
+    /// Starts at this time.
     pub(super) fn since(time: f64) -> Deviation {
         Deviation { since: time, farthest: 0.0, history: History::new() }
     }
 
-    /// Goes on from what was known of the same condition.
+    /// Continues from a saved reference of the same condition.
     pub(super) fn restore(&mut self, known: &Reference) {
         self.since = known.since;
         self.farthest = self.farthest.max(known.farthest.unwrap_or(known.max_drift));
     }
 
-    /// Takes note of a deviation.
+    /// Records a deviation.
     pub(super) fn look(&mut self, now: f64) {
         self.farthest = self.farthest.max(now);
     }
 
-    /// Takes note of a deviation at one of the evenly spaced times.
+    /// Records a deviation at one of the evenly spaced times.
     pub(super) fn sample(&mut self, time: f64, now: f64) {
         self.look(now);
         self.history.push(time, now);
     }
 
-    /// The gauge that shows it.
+    /// Returns the gauge that shows it.
     pub(super) fn gauge(&self, name: &str, shown: &str, reason: String, now: f64) -> Gauge {
         let verdict = match self.farthest {
             ..=ROUNDING => Verdict::Exact(Growth::Level),

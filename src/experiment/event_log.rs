@@ -1,4 +1,4 @@
-//! What has happened: every event and impulse, in time, sealed in shared chunks, so that a snapshot
+//! The log of events and impulses in order of time, sealed in shared chunks so that a snapshot
 //! copies only the open one.
 
 use std::collections::VecDeque;
@@ -6,49 +6,50 @@ use std::sync::Arc;
 
 use crate::integrate::{Occurrence, OccurrenceKind};
 
-/// Occurrences in a sealed chunk.
+/// The number of occurrences in a sealed chunk.
 const CHUNK: usize = 256;
 
-/// The most chunks kept; of more the oldest are forgotten: a million occurrences.
+/// The greatest number of chunks, a million occurrences; beyond it the oldest are dropped.
 const CHUNKS: usize = 4096;
 
-/// The most bytes kept, of occurrences with many numbers, such as the jumps of sixty coordinates.
+/// The greatest size in bytes, for occurrences with many numbers such as the jumps of sixty
+/// coordinates.
 const BYTES: usize = 128 << 20;
 
-/// Occurrences, the oldest first, and how often each has come.
+/// Occurrences, the oldest first, and the count of each.
 #[derive(Clone, Debug, Default)]
 pub struct EventLog {
     sealed: VecDeque<Arc<Vec<Occurrence>>>,
     open: Arc<Vec<Occurrence>>,
     tallies: Arc<Vec<EventCount>>,
-    /// How much the sealed ones take.
+    /// The size of the sealed chunks in bytes.
     bytes: usize,
     only_counts: bool,
 }
 
-/// How often something has happened, and when last.
+/// How often something has happened, and when it last did.
 #[derive(Clone, PartialEq, Debug)]
 pub struct EventCount {
-    /// The event's or the impulse's name.
+    /// The name of the event or impulse.
     pub name: String,
-    /// How often, those counted in that are forgotten.
+    /// The count, including dropped occurrences.
     pub count: u64,
-    /// When last.
+    /// The time of the last occurrence.
     pub last: f64,
 }
 
 impl EventLog {
-    /// Forgets all that has happened.
+    /// Clears the log.
     pub(super) fn clear(&mut self) {
         *self = EventLog { only_counts: self.only_counts, ..EventLog::default() };
     }
 
-    /// From now on occurrences are counted only, and none is kept.
+    /// Only counts occurrences from now on, without storing them.
     pub(super) fn only_count(&mut self) {
         self.only_counts = true;
     }
 
-    /// Adds what has happened now.
+    /// Adds an occurrence.
     pub(super) fn push(&mut self, occurrence: Occurrence) {
         let tallies = Arc::make_mut(&mut self.tallies);
         match tallies.iter_mut().find(|tally| tally.name == occurrence.name) {
@@ -74,22 +75,22 @@ impl EventLog {
         }
     }
 
-    /// Those that are kept, the oldest first.
+    /// The stored occurrences, the oldest first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Occurrence> {
         self.sealed.iter().chain(std::iter::once(&self.open)).flat_map(|chunk| chunk.iter())
     }
 
-    /// How often each has come, in the order of the first time.
+    /// The count of each occurrence, in the order of first appearance.
     pub fn tallies(&self) -> &[EventCount] {
         &self.tallies
     }
 
-    /// How many there were in all.
+    /// The total number of occurrences.
     pub fn count(&self) -> u64 {
         self.tallies.iter().map(|tally| tally.count).sum()
     }
 
-    /// How many of them are kept no longer, the oldest.
+    /// The number of occurrences that were dropped.
     pub fn forgotten(&self) -> u64 {
         self.count() - (self.sealed.len() * CHUNK + self.open.len()) as u64
     }
@@ -100,7 +101,7 @@ impl EventLog {
     }
 }
 
-/// What a chunk takes, in bytes.
+/// The size of a chunk in bytes.
 fn size(chunk: &[Occurrence]) -> usize {
     let numbers = |occurrence: &Occurrence| match &occurrence.kind {
         OccurrenceKind::Impulse { jump, reaction } => jump.len() + reaction.len(),

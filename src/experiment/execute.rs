@@ -1,7 +1,7 @@
-//! What each command does to an experiment, and what the user is reported of it.
+//! What each command does to an experiment, and what is reported to the user.
 //!
-//! A parameter changed by a jump keeps q and p, not q̇ (L jumps, ∂L/∂q̇ does not): *The Principles
-//! of Dynamics*, § 1.3.3 with no impulse.
+//! A parameter that jumps preserves q and p, not q̇ (L jumps, ∂L/∂q̇ does not): *The Principles of
+//! Dynamics*, § 1.3.3 with no impulse.
 
 use super::gauges::Gauges;
 use super::setup::{choose_method, with_override};
@@ -10,17 +10,17 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::num::short;
 use crate::system::{self, ChannelKind, State};
 
-/// How many notices are kept.
+/// The greatest number of stored notices.
 const NOTICES: usize = 16;
 
 /// A frame on the screen, in seconds.
 const FRAME: f64 = 1.0 / 60.0;
 
-/// The most integrator steps for one single step of the user's.
+/// The most integrator steps for one single step by the user.
 const SINGLE_STEP_BUDGET: u64 = 20_000;
 
 impl Experiment {
-    /// Does what a command asks. What cannot be done is reported in a notice.
+    /// Executes a command. A command that cannot be executed is reported in a notice.
     pub fn execute(&mut self, command: Command) {
         match command {
             Command::Play => self.running = true,
@@ -53,7 +53,7 @@ impl Experiment {
         }
     }
 
-    /// Keeps a notice for the user.
+    /// Adds a notice for the user.
     pub fn tell(&mut self, notice: String) {
         if self.notices.len() == NOTICES {
             self.notices.remove(0);
@@ -104,7 +104,7 @@ impl Experiment {
         }
     }
 
-    /// Tells of a jump; a parameter that is turned on and on tells of it once.
+    /// Reports a jump in energy; a parameter that is changed repeatedly is reported once.
     fn report_jump(&mut self, lead: &str, jump: f64) {
         if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
             self.notices.pop();
@@ -156,7 +156,7 @@ impl Experiment {
         self.change_method(self.motion.method(), settings);
     }
 
-    /// Takes the method of a name, or tells why not.
+    /// Selects a method by name, or reports why it cannot be used.
     pub(super) fn take_method(&mut self, name: &str, settings: Settings) {
         match choose_method(self.system(), name) {
             Ok(method) => self.change_method(method, settings),
@@ -164,8 +164,8 @@ impl Experiment {
         }
     }
 
-    /// Goes on from the present state by another method. What drifted so far is not its doing, so
-    /// the gauges measure from here.
+    /// Continues from the current state with another method. The gauges take a new reference,
+    /// because earlier drift is not due to the new method.
     fn change_method(&mut self, method: &'static Method, settings: Settings) {
         if let Err(refusal) = self.motion.change_method(method, settings) {
             return self.tell(MethodNotFound::from(refusal).to_string());
@@ -179,7 +179,7 @@ impl Experiment {
         self.gauge(Gauges::refer);
     }
 
-    /// Goes on from a state, if there is one to go on from.
+    /// Continues from a state, or fails if there is none.
     fn go_on(&mut self, state: Result<State, system::MotionError>) {
         let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
         self.fault = begun.err().map(super::Failure::from);

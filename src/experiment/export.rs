@@ -1,6 +1,6 @@
-//! The present as a file: the text of a system with every value that was changed, which begins where the motion is.
+//! The current state as a file: the text of a system with every changed value, beginning where the motion is now.
 //!
-//! In: a document, its system, a [`Snapshot`]. Out: a text that reads without a mistake. Never here: writing it.
+//! In: a document, its system, a [`Snapshot`]. Out: a text without errors. Never here: writing the file.
 
 use super::{Checkpoint, Prepared, Snapshot};
 use crate::claims::false_claims;
@@ -10,20 +10,20 @@ use crate::num::math;
 use crate::preset::{Beginning, Rewrite};
 use crate::system::{ChannelKind, System};
 
-/// What was made of the present.
+/// The exported file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Export {
     /// The text.
     pub text: String,
-    /// What of the present it could not say, in sentences.
+    /// Sentences about what the file cannot express.
     pub missing: Vec<String>,
 }
 
 impl Export {
-    /// The file of a document's system as a snapshot shows it.
+    /// Exports a document's system as a snapshot shows it.
     ///
     /// # Errors
-    /// A sentence, where no file says what the present is.
+    /// Returns a sentence if no file can express the current state.
     pub fn of(
         document: &Document,
         (model, system): (&Model, &System),
@@ -68,11 +68,11 @@ impl Export {
         Ok(Export { text, missing })
     }
 
-    /// The same without what the file expects of the motion and the new motion does not do. It is integrated for that,
-    /// as far as the expectations reach.
+    /// Removes the expectations that the new motion does not fulfil. The motion is integrated for that, as far as the
+    /// expectations reach.
     ///
     /// # Errors
-    /// A sentence, where no such file can be opened.
+    /// Returns a sentence if the resulting file cannot be opened.
     pub fn with_what_holds(self, document: &Document) -> Result<Export, String> {
         let Export { text, mut missing } = self;
         let (text, left_out) = with_what_holds(document, text, &wrong_in_motion)?;
@@ -83,14 +83,13 @@ impl Export {
     }
 }
 
-/// Told where not all expectations were kept.
+/// The note for a file from which expectations were removed.
 const LEFT_OUT: &str = "What the file expects of the motion and no longer holds is left out.";
 
-/// What is wrong with a text, and a report where it cannot even be opened.
+/// The errors of a text, and a report if it cannot be opened at all.
 type Wrong = (Vec<Diagnostic>, Option<String>);
 
-/// The text without those of its expectations that are wrong: they were expected of other values. Whether there were
-/// any.
+/// Removes the expectations that fail because they were made for other values. Also returns whether there were any.
 fn with_what_holds(
     document: &Document,
     words: String,
@@ -103,7 +102,7 @@ fn with_what_holds(
         let places: Vec<_> = mistakes.iter().map(|mistake| mistake.place.clone()).collect();
         let fewer = Rewrite::without_expectations(&text, &places).map_err(|why| why.to_string())?;
         match (fewer, report) {
-            // each turn leaves one out at least
+            // each pass removes at least one
             (Some(fewer), _) => (text, left_out) = (fewer, true),
             (None, Some(report)) => return Err(report),
             (None, None) => return Ok((text, left_out)),
@@ -111,7 +110,7 @@ fn with_what_holds(
     }
 }
 
-/// What is wrong with a text as it stands there.
+/// The errors of a text, without its motion.
 fn wrong_as_written(document: &Document) -> Wrong {
     match Prepared::of(document) {
         Err(unready) => (unready.mistakes, Some(unready.report)),
@@ -119,7 +118,7 @@ fn wrong_as_written(document: &Document) -> Wrong {
     }
 }
 
-/// The same and what its motion does not do.
+/// The errors of a text, including the expectations that its motion does not fulfil.
 fn wrong_in_motion(document: &Document) -> Wrong {
     match Prepared::of(document) {
         Err(unready) => (unready.mistakes, Some(unready.report)),
@@ -130,7 +129,7 @@ fn wrong_in_motion(document: &Document) -> Wrong {
     }
 }
 
-/// Where every coordinate or variable begins, by the values of channels.
+/// The start of every coordinate or variable, from the values of channels.
 fn beginnings(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<Beginning> {
     let of = |(i, c): (usize, &crate::model::Coordinate)| {
         let rate = if model.is_poisson() {
@@ -145,7 +144,7 @@ fn beginnings(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<
     model.coordinates.iter().enumerate().filter_map(of).collect()
 }
 
-/// Whether the attitude of a body is carried along beside the motion.
+/// Whether the attitude of a body is integrated along with the motion.
 fn is_integrated(model: &Model) -> bool {
     let source = model.attitude.as_ref().map(|attitude| &attitude.source);
     matches!(source, Some(AttitudeSource::Rate { .. }))
@@ -156,8 +155,8 @@ fn value(system: &System, snapshot: &Snapshot, kind: ChannelKind) -> Option<f64>
     snapshot.values.get(place).copied().filter(|value| value.is_finite())
 }
 
-/// Euler's angles φ, θ, ψ of the attitude, whose third column is (sin ψ sin θ, cos ψ sin θ, cos θ) and whose third row
-/// is (sin θ sin φ, −sin θ cos φ, cos θ): Goldstein, *Classical Mechanics*, (4-46).
+/// Euler's angles φ, θ, ψ of the attitude. Its third column is (sin ψ sin θ, cos ψ sin θ, cos θ) and its third row
+/// (sin θ sin φ, −sin θ cos φ, cos θ): Goldstein, *Classical Mechanics*, (4-46).
 fn attitude(system: &System, snapshot: &Snapshot) -> Option<[f64; 3]> {
     let entry = |i: usize, j: usize| value(system, snapshot, ChannelKind::Attitude(3 * i + j));
     let sine = math::hypot(entry(2, 0)?, entry(2, 1)?);

@@ -1,8 +1,8 @@
-//! The gauges of one motion: which quantities should be constant and why, what they were at the
-//! reference, and how far they have drifted since.
+//! The gauges of one motion: which quantities should be constant and why, their reference values, and how far they
+//! have drifted since.
 //!
-//! In: what follows from the law of motion; the values of the channels at some times, the terms of what is conserved
-//! after every step. Out: [`Gauge`]s. Never here: how the values were computed.
+//! In: the consequences of the law of motion; the values of the channels at some times; the terms of the conserved
+//! quantities after every step. Out: [`Gauge`]s. Never here: how the values are computed.
 
 mod invariant_monitor;
 
@@ -20,10 +20,11 @@ use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
 use invariant_monitor::{InvariantMonitor, LEDGER, Subject};
 
-/// Errors are measured at every so many samples.
+/// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
 
-/// How many times as far as what is proved a supposed invariant leaves its value, where it is not the method's doing.
+/// A supposed invariant is contradicted if its drift exceeds that of the proved ones by this factor; a smaller drift
+/// may be due to the method.
 const CONTRADICTED: f64 = 100.0;
 
 /// All gauges of one system.
@@ -33,7 +34,7 @@ pub(super) struct Gauges {
     monitors: Vec<InvariantMonitor>,
     residuals: Vec<Residual>,
     attitude: Option<Attitude>,
-    /// For each symbol an expression of the state may hold: its channel.
+    /// The channel of each symbol that a state expression may contain.
     places: Vec<(Symbol, usize)>,
     reference_time: f64,
     reference_steps: u64,
@@ -41,8 +42,8 @@ pub(super) struct Gauges {
 }
 
 impl Gauges {
-    /// The gauges of what `equations` finds conserved in `model`; where the energy is not, the
-    /// energy with the law of its change, and the energy ledger, which is constant by that law.
+    /// Creates the gauges for what `equations` finds conserved in `model`. If the energy is not conserved, they
+    /// include the energy with its law of change, and the energy ledger, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
         let equations = &Arc::new(with_energy_opened(equations));
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
@@ -96,7 +97,7 @@ impl Gauges {
                 })
             }));
         }
-        // the energy first, whatever else there is
+        // the energy comes first
         monitors.sort_by_key(|monitor| monitor.channel != find(ChannelKind::Energy).unwrap_or(0));
         let mut places = Vec::new();
         for (i, c) in equations.coordinates.iter().enumerate() {
@@ -129,7 +130,7 @@ impl Gauges {
         }
     }
 
-    /// Takes the present values as the reference.
+    /// Takes the current values as the reference.
     pub(super) fn refer(&mut self, now: &Present<'_>) {
         self.reference_time = now.time;
         self.reference_steps = now.steps;
@@ -143,7 +144,7 @@ impl Gauges {
         self.sample(now, true);
     }
 
-    /// Measures from where other gauges of the same names measured from, where these show the same values as those did.
+    /// Continues from the references of gauges with the same names, where both show the same value.
     pub(super) fn restore(&mut self, references: &[Reference], now: &Present<'_>) {
         let known = |name: &str, value: f64| {
             let same = |r: &&Reference| r.name == name && r.value.to_bits() == value.to_bits();
@@ -168,17 +169,17 @@ impl Gauges {
         }
     }
 
-    /// An impulse has led from some values to others: the references jump with them, so that drift is
-    /// told from what the impulse gave. The energy ledger knows that by its own law.
+    /// Shifts the references by the jump of an impulse, so that the jump does not count as drift. The energy ledger
+    /// accounts for impulses by its own law.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
     }
 
-    /// Takes note of the values at one of the evenly spaced times. Where these lie farther apart than the steps, they
-    /// may always meet a motion at the same phase, and the histories are made of other looks.
+    /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may
+    /// always meet the motion at the same phase, so the histories are built from other samples.
     pub(super) fn sample(&mut self, now: &Present<'_>, dense: bool) {
         self.samples += 1;
-        // errors change slowly, and cost more than all else
+        // errors change slowly, and are the most expensive part
         if self.samples.is_power_of_two() || self.samples.is_multiple_of(MEASURED) {
             self.measure(now);
         }
@@ -195,7 +196,7 @@ impl Gauges {
         }
     }
 
-    /// Takes note of the values at any other time.
+    /// Records the values at any other time.
     pub(super) fn look(&mut self, now: &Present<'_>) {
         let floor = self.floor(now.steps);
         for monitor in &mut self.monitors {
@@ -209,7 +210,7 @@ impl Gauges {
         }
     }
 
-    /// Takes note of the values at a time at which the motion is not met on purpose.
+    /// Records the values at an intermediate time.
     pub(super) fn look_on_the_way(
         &mut self,
         time: f64,
@@ -223,18 +224,18 @@ impl Gauges {
         }
     }
 
-    /// Takes note of the terms at the end of a step, or within.
+    /// Records the terms at the end of a step or within it.
     pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
         let floor = self.floor(steps);
         self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
     }
 
-    /// What rounding may have done to a value of size 1 since the reference.
+    /// The rounding error that a value of size 1 may have gathered since the reference.
     fn floor(&self, steps: u64) -> f64 {
         rounding_floor(steps.saturating_sub(self.reference_steps))
     }
 
-    /// What they show.
+    /// The gauges as shown.
     pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
         let show =
@@ -262,15 +263,15 @@ impl Gauges {
         };
         for monitor in &mut self.monitors {
             let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
-            // where its terms cannot be told apart, the value itself is the measure
+            // if the error of the terms is not finite, the value itself is the measure
             let value = now.values[monitor.channel].abs();
             monitor.measure(if error.is_finite() { error.max(value) } else { value });
         }
     }
 }
 
-/// An invariant that has no proof and leaves its value far more than what has one is none: the run says so. Where it does
-/// not, it may be the method that does not keep it.
+/// Marks an unproved invariant as contradicted if it drifts far more than the proved ones. Otherwise its drift is
+/// attributed to the method.
 fn contradict(gauges: &mut [Gauge]) {
     let proved = gauges.iter().filter(|gauge| gauge.proved).map(|gauge| gauge.max_drift);
     let proved = proved.fold(0.0, f64::max);
@@ -283,8 +284,8 @@ fn contradict(gauges: &mut [Gauge]) {
     }
 }
 
-/// The same with the energy opened in what is conserved: the error of an invariant is that of the terms of the energy in
-/// it, which may nearly cancel.
+/// The equations with the energy expanded in the conserved quantities. The error of an invariant is that of the
+/// energy's terms in it, which may nearly cancel.
 fn with_energy_opened(equations: &Equations) -> Equations {
     let mut equations = equations.clone();
     let energy = HashMap::from([(equations.symbols.energy, equations.energy)]);
@@ -295,7 +296,7 @@ fn with_energy_opened(equations: &Equations) -> Equations {
     equations
 }
 
-/// The Casimirs that forces change: which, its name, itself and the law of its change.
+/// The Casimirs that forces change: the index, the name, the expression and its rate of change.
 fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (String, Expr, String))> {
     let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics else { return Vec::new() };
     let mut equations = equations.clone();
@@ -311,19 +312,19 @@ fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (Strin
     changing
 }
 
-/// What the gauges look at.
+/// The current values that the gauges read.
 pub(super) struct Present<'a> {
     pub(super) time: f64,
     pub(super) steps: u64,
-    /// Every channel's value.
+    /// The value of every channel.
     pub(super) values: &'a [f64],
-    /// How far the motion is from keeping each constraint: in position and in velocity.
+    /// The residual of each constraint, in position and in velocity.
     pub(super) residuals: &'a [[f64; 2]],
     pub(super) action: f64,
-    /// The terms of what is conserved.
+    /// The terms of the conserved quantities.
     pub(super) terms: &'a TermWatch,
     pub(super) system: &'a System,
-    /// The parameters, and what follows from a body.
+    /// The parameters, and the constants that follow from a body.
     pub(super) constants: &'a Valuation,
 }
 
@@ -352,7 +353,7 @@ mod tests {
         }
     }
 
-    /// A hundred times what the method does to a proved invariant is not the method's doing.
+    /// A drift a hundred times that of a proved invariant is not due to the method.
     #[test]
     fn what_is_supposed_is_contradicted_where_the_method_is_not_to_blame() {
         for (supposed, proved, contradicted) in

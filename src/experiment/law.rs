@@ -1,4 +1,4 @@
-//! Why the energy is not conserved, in words and in a formula.
+//! Why the energy is not conserved, in words and as a formula.
 //!
 //! dh/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, *The Principles of Dynamics*, §§ 1.3.1, 1.3.2, 1.4.2.
 
@@ -6,14 +6,14 @@ use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::{Mechanics, Model};
 
-/// A formula longer than this is given by its general form.
+/// A longer formula is replaced by its general form.
 pub(super) const LONGEST: usize = 48;
 
 /// Why the energy changes.
 pub(super) struct EnergyLaw {
-    /// In words: `friction`, `explicit time`.
+    /// The cause in words: `friction`, `explicit time`.
     pub(super) cause: String,
-    /// In a formula: `dE/dt = −c θ̇²`.
+    /// The rate as a formula: `dE/dt = −c θ̇²`.
     pub(super) rate: String,
 }
 

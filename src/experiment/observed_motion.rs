@@ -1,7 +1,7 @@
-//! A motion and what is seen of it: the present, and every channel's value there.
+//! A motion and its observed values: the current state and the value of every channel there.
 //!
-//! In: a state, parameters, times. Out: the state and every channel's value at the present. Never
-//! here: rows, gauges, commands.
+//! In: a state, parameters, times. Out: the current state and the value of every channel. Never here: rows, gauges,
+//! commands.
 
 use super::gauges::{Gauges, Present};
 use crate::integrate::{
@@ -10,25 +10,25 @@ use crate::integrate::{
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System, TermWatch};
 
-/// A motion under way, observed.
+/// A motion in progress, with its observer.
 pub(super) struct ObservedMotion {
     inner: integrate::Propagator,
     observer: Observer,
     values: Vec<f64>,
     residuals: Vec<[f64; 2]>,
-    /// Of the motion, when the observer was made.
+    /// The motion's count of constraint changes when the observer was made.
     holdings: u64,
     watch: Watch,
 }
 
-/// What looks at the motion after every step.
+/// Samples the motion after every step.
 struct Watch {
     terms: TermWatch,
-    /// When the channels are to be looked at next.
+    /// When the channels are to be sampled next.
     next: f64,
-    /// A number of (0, 1) that never comes back: the times of looks meet no period.
+    /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
-    /// A state on the way, and its channels.
+    /// An intermediate state and its channels.
     state: State,
     values: Vec<f64>,
 }
@@ -44,14 +44,14 @@ impl Watch {
         }
     }
 
-    /// The next of the numbers whose multiples of the golden section's are as evenly spread as can be (Weyl's sequence).
+    /// The next number of Weyl's sequence: the multiples of the golden ratio are spread as evenly as possible.
     fn turn(&mut self) -> f64 {
         self.golden = (self.golden + GOLDEN).fract();
         self.golden
     }
 }
 
-/// The golden section.
+/// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl ObservedMotion {
@@ -72,8 +72,7 @@ impl ObservedMotion {
         })
     }
 
-    /// Takes another method or other settings; the motion has then to [go on](Motion::go_on) from
-    /// its state.
+    /// Changes the method or its settings; the motion must then [continue](Motion::go_on) from its state.
     pub(super) fn change_method(
         &mut self,
         method: &'static Method,
@@ -90,7 +89,7 @@ impl ObservedMotion {
         self.look()
     }
 
-    /// Takes up a motion that began at `start` and was left at this state.
+    /// Resumes a motion that began at `start` from this state.
     pub(super) fn restore(
         &mut self,
         state: &State,
@@ -104,12 +103,12 @@ impl ObservedMotion {
         self.look()
     }
 
-    /// How far the present is from keeping each constraint.
+    /// The residual of each constraint in the current state.
     pub(super) fn residuals(&self) -> &[[f64; 2]] {
         &self.residuals
     }
 
-    /// Goes on from a state at the present time.
+    /// Continues from a state at the current time.
     pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.inner.go_on(state, parameters)?;
         self.observer.set_parameters(parameters);
@@ -117,9 +116,9 @@ impl ObservedMotion {
         self.look()
     }
 
-    /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
-    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed. The gauges look at every
-    /// step; rows are `spacing` apart.
+    /// Advances to `time`, or to the first occurrence before it, in at most `budget` steps, which are subtracted from
+    /// it. No step reaches beyond `limit`, unless the method's step is fixed. The gauges sample every step; rows are
+    /// `spacing` apart.
     pub(super) fn reach(
         &mut self,
         time: f64,
@@ -144,9 +143,9 @@ impl ObservedMotion {
         }
     }
 
-    /// Has the gauges look at the last step: at its end, and where rows may lie farther apart than steps also within, if
-    /// the method tells the states there as well as those at the ends. What cannot be looked at is passed over: it is
-    /// met again where it is asked for.
+    /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps
+    /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its fault
+    /// appears again when it is requested.
     fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64) {
         let (begin, end) = self.inner.undisturbed();
         let whole = end == self.inner.computed().time;
@@ -156,7 +155,7 @@ impl ObservedMotion {
         if due {
             self.watch.next = end + spacing * (0.5 + self.watch.turn());
         }
-        // the state of a series is known within a step as at its end
+        // the state of a series is as accurate within a step as at its end
         if sparse && self.inner.method().order.is_none() {
             let time = begin + self.watch.turn() * (end - begin);
             let Watch { terms, state, values, .. } = &mut self.watch;
@@ -179,7 +178,7 @@ impl ObservedMotion {
         }
     }
 
-    /// Strikes the present.
+    /// Applies an impulse now.
     pub(super) fn strike(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let occurrence = self.inner.apply_impulse_now(impulse)?;
         self.take_in(&occurrence)?;
@@ -193,13 +192,13 @@ impl ObservedMotion {
         self.look()
     }
 
-    /// Looks with the constraints that are held now.
+    /// Makes an observer with the currently active constraints.
     fn take_observer(&mut self) {
         let parameters = self.observer.parameters().to_vec();
         self.observer = self.inner.system().observer(&parameters);
     }
 
-    /// Moves the present to the end of what was computed before a fault.
+    /// Advances to the end of what was computed before a fault.
     pub(super) fn reach_end(&mut self) -> Result<(), MotionError> {
         self.inner.reach_computed()?;
         self.look()
@@ -215,7 +214,7 @@ impl ObservedMotion {
         outcome.map_err(|fault| self.inner.explained(fault))
     }
 
-    /// Every channel's value just before the last impulse.
+    /// The value of every channel just before the last impulse.
     pub(super) fn values_before(&mut self) -> Result<Vec<f64>, MotionError> {
         let mut values = vec![f64::NAN; self.values.len()];
         self.observer.observe(self.inner.before(), &mut values)?;
@@ -223,7 +222,7 @@ impl ObservedMotion {
     }
 }
 
-/// What can be asked of it.
+/// Queries.
 impl ObservedMotion {
     /// The system with all its constraints.
     pub(super) fn whole(&self) -> &System {
@@ -242,22 +241,22 @@ impl ObservedMotion {
         self.inner.settings()
     }
 
-    /// Where its fixed step was found to lie beyond what is stable, if it was.
+    /// Where the fixed step was found to be beyond the stability limit, if it was.
     pub(super) fn unstable(&self) -> Option<Unstable> {
         self.inner.unstable()
     }
 
-    /// The present time.
+    /// The current time.
     pub(super) fn time(&self) -> f64 {
         self.state().time
     }
 
-    /// The present state.
+    /// The current state.
     pub(super) fn state(&self) -> &State {
         self.inner.state()
     }
 
-    /// Every channel's present value.
+    /// The current value of every channel.
     pub(super) fn values(&self) -> &[f64] {
         &self.values
     }
@@ -270,23 +269,23 @@ impl ObservedMotion {
         self.inner.set_steps(steps);
     }
 
-    /// Forgets what was, until it [begins](Motion::begin); the clock shows `time`.
+    /// Discards the motion until it [begins](Motion::begin) again; its time is `time`.
     pub(super) fn forget(&mut self, time: f64) {
         self.values.fill(f64::NAN);
         self.inner.forget(time);
     }
 
-    /// Whether there is a present.
+    /// Whether the motion has begun.
     pub(super) fn has_begun(&self) -> bool {
         !self.state().values.is_empty()
     }
 
-    /// Looks at the terms of what is conserved at the present.
+    /// Evaluates the terms of the conserved quantities in the current state.
     pub(super) fn look_at_terms(&mut self) {
         self.watch.terms.look(self.inner.state());
     }
 
-    /// What the gauges look at, once the terms were [looked at](Motion::look_at_terms).
+    /// The values that the gauges read, once the terms have been [evaluated](Motion::look_at_terms).
     pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> Present<'a> {
         let action = self.state().values.get(self.system().driven_len());
         Present {

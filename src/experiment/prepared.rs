@@ -1,7 +1,7 @@
-//! The stages a system is opened by, one after the other or in one go: from a document to an experiment that is ready to
-//! begin.
+//! The stages from a document to an experiment that is ready to begin, one by one or all at once.
 //!
-//! In: a [`Document`], or what a stage made of it. Out: what the next ones make. Never here: the stages themselves.
+//! In: a [`Document`], or the result of a stage. Out: the results of the next stages. Never here: the stages
+//! themselves.
 
 use std::fmt::Display;
 use std::sync::Arc;
@@ -14,50 +14,50 @@ use crate::mechanics::{self, Equations, NoClosedForm};
 use crate::model::{Channel, Model};
 use crate::system::{CompileError, System};
 
-/// A system as far as its equations.
+/// A model with its derived equations.
 #[derive(Clone, Debug)]
 pub struct Derived {
-    /// What the file says.
+    /// The model of the file.
     pub model: Model,
-    /// What follows from it.
+    /// The derived equations.
     pub equations: Equations,
 }
 
 impl Derived {
-    /// Derives what follows from a model.
+    /// Derives the equations of a model.
     ///
     /// # Errors
-    /// Where that grows beyond what can be worked with.
+    /// Returns an error if the expressions grow beyond the limits.
     pub fn of(model: Model) -> Result<Derived, NoClosedForm> {
         let equations = mechanics::derive(&model)?;
         Ok(Derived { model, equations })
     }
 
-    /// What is false in its brackets and Casimirs: with such a mistake it has no motion.
+    /// The errors in its brackets and Casimirs. With any of them the system has no motion.
     pub fn flaws(&self) -> Vec<Diagnostic> {
         flaws(&self.model, &self.equations)
     }
 
-    /// The same as a program, which tells these expressions too.
+    /// Compiles the system, with these expressions as further columns.
     ///
     /// # Errors
-    /// Where an expression has no value in a motion.
+    /// Returns an error if an expression cannot be evaluated during a motion.
     pub fn compile(&self, columns: &[Channel]) -> Result<System, CompileError> {
         System::compile(&self.model, &self.equations, columns)
     }
 }
 
-/// A system on all its stages.
+/// A system at all its stages.
 pub struct Prepared {
     /// The file's text.
     pub document: Arc<Document>,
-    /// What the file says.
+    /// The model of the file.
     pub model: Arc<Model>,
-    /// What follows from it.
+    /// The derived equations.
     pub equations: Arc<Equations>,
-    /// The same as a program.
+    /// The compiled system.
     pub system: Arc<System>,
-    /// The system in motion.
+    /// The experiment.
     pub experiment: Experiment,
 }
 
@@ -65,14 +65,14 @@ pub struct Prepared {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{report}")]
 pub struct PrepareError {
-    /// For the user, in one or many lines.
+    /// A report for the user, in one or more lines.
     pub report: String,
-    /// Each mistake in its place; what has none stands at the beginning.
+    /// Each mistake with its range; one without a range has the beginning of the file.
     pub mistakes: Vec<Diagnostic>,
 }
 
 impl PrepareError {
-    /// Somebody asked that it stop.
+    /// The error of a cancelled preparation.
     fn stopped(document: &Document) -> PrepareError {
         let told = "stopped before it was ready";
         let report = format!("{}: {told}", document.path);
@@ -84,18 +84,19 @@ impl Prepared {
     /// Reads, derives, compiles and sets up.
     ///
     /// # Errors
-    /// Every mistake of the file in its place, or why there are no equations or no method for it.
+    /// Returns every mistake of the file with its range, or the reason why there are no equations or no suitable
+    /// method.
     pub fn of(document: &Document) -> Result<Prepared, PrepareError> {
         Prepared::with(document, &Cancel::new())
     }
 
-    /// The same, with a token by which the stages, and later the motion, can be stopped.
+    /// Like [`Prepared::of`], with a token that cancels the stages and later the motion.
     ///
     /// # Errors
-    /// Those of [`Prepared::of`]; that it was stopped, where it was.
+    /// Returns the errors of [`Prepared::of`], or an error if it was cancelled.
     pub fn with(document: &Document, cancel: &Cancel) -> Result<Prepared, PrepareError> {
         let made = Prepared::made_of(document, cancel);
-        // what was refused or made of half an expression says nothing of the file
+        // the errors of a cancelled stage say nothing about the file
         if cancel.is_cancelled() { Err(PrepareError::stopped(document)) } else { made }
     }
 

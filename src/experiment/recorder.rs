@@ -1,9 +1,8 @@
-//! Records a motion in bounded memory: the newest rows as they come, older ones thinned to every
-//! second, fourth and eighth, the oldest forgotten. And the bounds of every channel, of all rows
-//! ever recorded.
+//! Records a motion in bounded memory: the newest rows in full, older ones thinned to every second, fourth and
+//! eighth, and the oldest dropped. It also keeps the bounds of every channel over all rows ever recorded.
 //!
-//! In: rows at even times. Out: a [`Trail`], cheap to clone. Never here: when a row is due for
-//! drawing, or what its numbers mean.
+//! In: rows at even times. Out: a [`Trail`], cheap to clone. Never here: when a row is due for drawing, or what its
+//! numbers mean.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -11,26 +10,26 @@ use std::sync::Arc;
 use super::Trail;
 use super::trail::THINNINGS;
 
-/// Rows in a sealed chunk.
+/// The number of rows in a sealed chunk.
 const CHUNK: usize = 128;
 
-/// How many chunks are kept of each thinning; the first are the newest rows, all of them.
+/// The greatest number of chunks at each thinning; the first are the newest rows, not thinned.
 const CHUNKS: [usize; THINNINGS] = [64, 32, 32, 32];
 
-/// The most numbers kept, for systems of very many channels: 48 MB.
+/// The greatest number of stored values (48 MB), for systems with very many channels.
 const NUMBERS: usize = 6_000_000;
 
 /// Records rows.
 #[derive(Clone, Debug)]
 pub(super) struct Recorder {
     width: usize,
-    /// The time from which the present spacing counts.
+    /// The time from which the current spacing counts.
     origin: f64,
     spacing: f64,
     count: u64,
-    /// When the last row fell that was due.
+    /// The time of the last row that was due.
     last: Option<f64>,
-    /// `sealed[k]` holds every 2ᵏ-th row, the oldest chunk first.
+    /// `sealed[k]` contains every 2ᵏ-th row, the oldest chunk first.
     sealed: [VecDeque<Arc<Vec<f64>>>; CHUNKS.len()],
     limits: [usize; CHUNKS.len()],
     open: Arc<Vec<f64>>,
@@ -38,7 +37,7 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of rows of that many channels, one each `spacing` of time.
+    /// Creates a recorder of rows of that many channels, one per `spacing` of time.
     pub(super) fn new(channels: usize, spacing: f64) -> Recorder {
         let width = channels + 1;
         let most = NUMBERS / (width * CHUNK);
@@ -56,7 +55,7 @@ impl Recorder {
         }
     }
 
-    /// Forgets everything; the next row is due at `origin`.
+    /// Clears the recorder; the next row is due at `origin`.
     pub(super) fn restart(&mut self, origin: f64) {
         *self = Recorder { origin, ..Recorder::new(self.width - 1, self.spacing) };
     }
@@ -66,7 +65,7 @@ impl Recorder {
         self.spacing
     }
 
-    /// Changes the time between two rows, from the last one on.
+    /// Changes the time between two rows, counted from the last one.
     pub(super) fn set_spacing(&mut self, spacing: f64) {
         if spacing != self.spacing {
             let last = self.count.saturating_sub(1) as f64;
@@ -76,8 +75,8 @@ impl Recorder {
         }
     }
 
-    /// When the next row is due. Counted, not summed, so that rounding does not gather.
-    /// It is later than the last one also where the clock's digits are coarser than the spacing.
+    /// When the next row is due. The time is counted, not summed, so that rounding errors do not accumulate. It is
+    /// always later than the last row, even if the spacing is below the resolution of the time.
     pub(super) fn due(&self) -> f64 {
         let due = self.origin + self.count as f64 * self.spacing;
         self.last.map_or(due, |last| due.max(last.next_up()))
@@ -90,10 +89,10 @@ impl Recorder {
         self.insert(time, values);
     }
 
-    /// Records a row at a time of its own, before the next one is due.
+    /// Records an extra row before the next one is due.
     pub(super) fn insert(&mut self, time: f64, values: &[f64]) {
         self.widen(values);
-        // copies the open chunk where a snapshot still holds it
+        // copies the open chunk if a snapshot still shares it
         let open = Arc::make_mut(&mut self.open);
         open.push(time);
         open.extend_from_slice(values);
@@ -104,8 +103,8 @@ impl Recorder {
         }
     }
 
-    /// Puts an earlier trail before all that is recorded, thinned as it is and no further. `row` makes a row of this
-    /// recorder's channels of one of the trail's, and drops those that do not belong. The times that are due stay.
+    /// Prepends an earlier trail with its thinning. `row` converts a row of the trail to this recorder's channels, or
+    /// drops it. The times of due rows do not change.
     pub(super) fn precede(&mut self, earlier: &Trail, row: impl Fn(&[f64]) -> Option<Vec<f64>>) {
         let later = self.trail();
         self.sealed = Default::default();
@@ -132,7 +131,7 @@ impl Recorder {
         later.rows().for_each(|row| self.insert(row[0], &row[1..]));
     }
 
-    /// Widens the bounds to hold these values.
+    /// Widens the bounds to include these values.
     pub(super) fn widen(&mut self, values: &[f64]) {
         for ((least, greatest), &value) in self.bounds.iter_mut().zip(values) {
             if value.is_finite() {
@@ -142,14 +141,14 @@ impl Recorder {
         }
     }
 
-    /// What is recorded.
+    /// The recorded trail.
     pub(super) fn trail(&self) -> Trail {
         let sealed = self.sealed.iter().rev().flatten().cloned().collect();
         let thinned = std::array::from_fn(|level| self.sealed[level].len());
         Trail { sealed, thinned, open: Arc::clone(&self.open), width: self.width }
     }
 
-    /// The least and greatest value of every channel; (0, 0) where none was finite.
+    /// The least and greatest value of every channel; (0, 0) if none was finite.
     pub(super) fn bounds(&self) -> Arc<[(f64, f64)]> {
         let seen = |&(least, greatest): &(f64, f64)| {
             if least <= greatest { (least, greatest) } else { (0.0, 0.0) }
@@ -157,7 +156,7 @@ impl Recorder {
         self.bounds.iter().map(seen).collect()
     }
 
-    /// Makes one chunk of two wherever a thinning holds too many.
+    /// Merges two chunks wherever a thinning has too many.
     fn thin(&mut self) {
         for level in 0..CHUNKS.len() {
             if self.sealed[level].len() <= self.limits[level] {
@@ -179,7 +178,7 @@ impl Recorder {
 mod tests {
     use super::*;
 
-    /// A recorder that was given `count` rows of one channel, its value the row's number.
+    /// A recorder with `count` rows of one channel, whose value is the row's number.
     fn filled(count: u64) -> Recorder {
         let mut recorder = Recorder::new(1, 0.5);
         recorder.restart(10.0);
@@ -260,7 +259,7 @@ mod tests {
         }
         assert_eq!(numbers(&again), numbers(&first));
         assert_eq!(again.bounds()[0], (numbers(&first)[0], 119_999.0));
-        // what does not belong is dropped, and what is recorded later comes behind
+        // excluded rows are dropped, and later rows are appended
         let mut cut = filled(0);
         cut.insert(1e9, &[7.0]);
         cut.precede(&trail, |row| (row[1] < 1e5).then(|| row.to_vec()));

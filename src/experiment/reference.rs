@@ -1,32 +1,32 @@
-//! What a gauge measures from.
+//! The saved reference of a gauge.
 //!
 //! In: a gauge's name and numbers. Out: a [`Reference`]. Never here: gauges.
 
 use serde::{Deserialize, Serialize};
 
-/// What a gauge measured from.
+/// The saved reference of a gauge.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Reference {
     /// The gauge's name.
     pub name: String,
-    /// What it showed.
+    /// The value it showed.
     pub value: f64,
-    /// What it measured from, and when that was taken.
+    /// The reference value.
     pub from: f64,
-    /// When that was taken.
+    /// When the reference was taken.
     pub since: f64,
     /// The greatest drift.
     pub max_drift: f64,
-    /// What its value was then, before any impulse; as `from` where it is not reported.
+    /// The value when the reference was taken, before any impulse; defaults to `from`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<f64>,
-    /// What drift is relative to.
+    /// The scale of the drift.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
-    /// The greatest distance, which is the greatest drift times that.
+    /// The greatest distance from the reference; `max_drift` times `scale` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub farthest: Option<f64>,
-    /// Since when the drift is more than it may be.
+    /// Since when the drift has exceeded the limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<f64>,
 }

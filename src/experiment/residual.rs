@@ -1,7 +1,7 @@
-//! The gauge of one constraint: how far the motion is from keeping it, and by what force it is kept.
+//! The gauge of one constraint: its residual and its force.
 //!
-//! In: residuals measured by the size of their terms, and the multiplier's value. Out: a [`Gauge`].
-//! Never here: how a constraint is kept.
+//! In: residuals relative to the size of their terms, and the multiplier's value. Out: a [`Gauge`].
+//! Never here: how a constraint is enforced.
 
 use super::deviation::Deviation;
 use super::{Gauge, Reference};
@@ -11,17 +11,17 @@ use crate::model::Model;
 use crate::num::significant;
 use crate::system::{ChannelKind, System};
 
-/// A row longer than this is given by its general form.
+/// A longer row is replaced by its general form.
 const LONGEST: usize = 24;
 
-/// What a gauge of a constraint remembers.
+/// The state of the gauge of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Residual {
     index: usize,
     name: String,
     /// The channel of its multiplier.
     multiplier: usize,
-    /// λ as shown, its unit, and what the force is.
+    /// λ as shown, its unit, and the meaning of the force.
     symbol: String,
     unit: String,
     force: String,
@@ -29,7 +29,7 @@ pub(super) struct Residual {
 }
 
 impl Residual {
-    /// One gauge for each constraint.
+    /// Creates one gauge for each constraint.
     pub(super) fn all(model: &Model, equations: &Equations, system: &System) -> Vec<Residual> {
         let gauge = |index: usize| {
             let kind = ChannelKind::Multiplier(index);
@@ -64,12 +64,12 @@ impl Residual {
         &self.name
     }
 
-    /// Goes on from what was known of it.
+    /// Continues from a saved reference.
     pub(super) fn restore(&mut self, known: &Reference) {
         self.deviation.restore(known);
     }
 
-    /// The larger of what is missing in position and in velocity.
+    /// The larger of the residuals in position and in velocity.
     pub(super) fn now(&self, residuals: &[[f64; 2]]) -> f64 {
         residuals.get(self.index).map_or(0.0, |r| r[0].max(r[1]))
     }
@@ -86,7 +86,7 @@ impl Residual {
     }
 }
 
-/// What the force of a constraint is: in the file's words, else λ times the row.
+/// The force of a constraint: in the file's words, or λ times the row.
 fn force(model: &Model, equations: &Equations, index: usize) -> String {
     let about = &model.constraints[index].about;
     if !about.is_empty() {
@@ -107,7 +107,7 @@ fn force(model: &Model, equations: &Equations, index: usize) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Four significant digits.
+/// A number with four significant digits.
 fn short(x: f64) -> String {
     significant(x, 4, 0.0..f64::INFINITY)
 }

@@ -1,4 +1,4 @@
-//! How an experiment begins: values, method, and the spacing of what it records.
+//! How an experiment begins: values, method, and the spacing of its recorded rows.
 
 use crate::diagnostic::nearest;
 use crate::integrate::{METHODS, Method, MethodError, Settings};
@@ -6,12 +6,12 @@ use crate::model::Model;
 use crate::printable;
 use crate::system::{Form, InitialOverride, System};
 
-/// Everything an experiment is reported at its beginning.
+/// The setup of an experiment.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Setup {
     /// The parameters, in the model's order.
     pub parameters: Vec<f64>,
-    /// Initial values that take the place of the file's.
+    /// The overrides of the file's initial values.
     pub overrides: Vec<InitialOverride>,
     /// The method's name in the table of methods, or `auto`.
     pub method: String,
@@ -19,20 +19,20 @@ pub struct Setup {
     pub settings: Settings,
     /// The time of the initial values.
     pub start: f64,
-    /// No step is to reach beyond this time; `None` where the motion has no end.
+    /// The time that no step may pass; `None` for a motion without an end.
     pub end: Option<f64>,
-    /// The least time between two recorded rows, and between two looks at the gauges. It becomes
-    /// longer where steps are long and time runs fast.
+    /// The least time between two recorded rows, and between two samples of the gauges. The spacing grows if steps
+    /// are long and time runs fast.
     pub spacing: f64,
-    /// Simulated seconds per second of the wall clock.
+    /// Simulated seconds per second of wall time.
     pub speed: f64,
 }
 
-/// Rows per second of the wall clock, at the speed the file proposes: two a frame.
+/// Rows per second of wall time at the file's speed: two per frame.
 const ROWS_PER_SECOND: f64 = 120.0;
 
 impl Setup {
-    /// As the file proposes.
+    /// The setup that the file proposes.
     pub fn of(model: &Model) -> Setup {
         let run = &model.run;
         Setup {
@@ -48,8 +48,8 @@ impl Setup {
     }
 }
 
-/// What is given in place of the file's initial values once the one of an index (coordinates first, then velocities or
-/// momenta) is given too.
+/// The overrides after the initial value of an index is set. The index counts coordinates first, then velocities or
+/// momenta.
 pub fn with_override(
     system: &System,
     before: &[InitialOverride],
@@ -69,18 +69,18 @@ pub fn with_override(
     before.iter().filter(|g| !same(g)).copied().chain([overrides]).collect()
 }
 
-/// Why a method cannot be had.
+/// Why a method cannot be used.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum MethodNotFound {
-    /// There is none of that name.
+    /// There is no method of that name.
     #[error("there is no method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The most similar name there is.
+        /// The most similar name.
         near: Option<&'static str>,
     },
-    /// It does not fit the system.
+    /// The method does not suit the system.
     #[error(transparent)]
     Refused(#[from] MethodError),
 }
@@ -89,7 +89,8 @@ fn help(near: Option<&str>) -> String {
     near.map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }
 
-/// The method of a name, if it fits the system; for `auto` the first in the table that does.
+/// Finds the method of a name and checks that it suits the system; `auto` selects the first suitable one in the
+/// table.
 pub fn choose_method(system: &System, name: &str) -> Result<&'static Method, MethodNotFound> {
     if name == "auto" {
         let fits = |method: &&Method| (method.fits)(system).is_ok();

@@ -1,4 +1,4 @@
-//! What can be seen of an experiment at one moment. Cheap to clone: everything long is shared.
+//! The observable state of an experiment at one instant. It is cheap to clone because everything long is shared.
 
 use std::sync::Arc;
 
@@ -9,45 +9,44 @@ use crate::system::{Form, State};
 /// The state of an experiment as the screen and the reports see it.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Counts rebuilt systems; two snapshots of one epoch speak of the same system.
+    /// A count of rebuilt systems; two snapshots of one epoch belong to the same system.
     pub epoch: u64,
-    /// Simulated time.
+    /// The simulated time.
     pub time: f64,
-    /// Running, paused or faulted.
+    /// Whether time is running, paused, ended or failed.
     pub status: Status,
-    /// Simulated seconds per second asked for; infinite means flat out.
+    /// The requested simulated seconds per second; infinite for as fast as possible.
     pub speed: f64,
-    /// Parameters, in the model's order.
+    /// The parameters, in the model's order.
     pub parameters: Arc<[f64]>,
-    /// Initial values: coordinates, then velocities or momenta.
+    /// The initial values: coordinates, then velocities or momenta.
     pub initial: Arc<[f64]>,
-    /// What a restart would begin with: all that was asked for.
+    /// The setup that a restart begins with.
     pub setup: Arc<Setup>,
-    /// Where the motion is, to the last bit; without numbers where it has not begun.
+    /// The exact state; it is empty if the motion has not begun.
     pub state: Arc<State>,
-    /// The value of every channel now, in the order of the system's channels.
+    /// The current value of every channel, in the order of the system's channels.
     pub values: Arc<[f64]>,
-    /// The least and greatest value of every channel since the last restart, for axes that keep
-    /// still.
+    /// The least and greatest value of every channel since the last restart, for axes that do not move.
     pub bounds: Arc<[(f64, f64)]>,
     /// The recorded motion: every channel at past times.
     pub trail: Trail,
-    /// One gauge for each invariant watched.
+    /// One gauge for each monitored invariant.
     pub gauges: Arc<[Gauge]>,
     /// The method and its step.
     pub method: MethodFact,
-    /// What the user is reported in passing: "energy reference taken anew: …". The newest last.
+    /// The notices to the user, such as "energy reference taken anew: …", the newest last.
     pub notices: Arc<[String]>,
-    /// What happened since the last restart, in time.
+    /// The events and impulses since the last restart, in order of time.
     pub occurrences: EventLog,
-    /// The constraints that were let go, by index.
+    /// The indices of the released constraints.
     pub released: Vec<usize>,
-    /// Whether a motion left elsewhere was taken up.
+    /// Whether the motion was resumed from a checkpoint.
     pub taken_up: bool,
 }
 
 impl Snapshot {
-    /// A snapshot that shows nothing.
+    /// An empty snapshot.
     pub fn empty(epoch: u64) -> Snapshot {
         Snapshot {
             epoch,
@@ -74,66 +73,65 @@ impl Snapshot {
 /// Whether time runs.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Status {
-    /// Time runs.
+    /// Time is running.
     Running,
-    /// Held by the user.
+    /// Paused by the user.
     Paused,
     /// Ended by the event of this name.
     Ended(String),
-    /// It cannot go on.
+    /// The motion cannot continue.
     Failed(Failure),
 }
 
-/// Why a motion cannot go on.
+/// Why a motion cannot continue.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Failure {
-    /// When.
+    /// The time of the failure.
     pub time: f64,
     /// What happened, where, and what may help, in a sentence or two.
     pub message: String,
 }
 
-/// An invariant under watch.
+/// A monitored invariant.
 #[derive(Clone, Debug)]
 pub struct Gauge {
     /// `energy`, `p_phi`, an observable's name, `energy ledger`.
     pub name: String,
-    /// As shown: `E`, `p_φ`.
+    /// The name as shown: `E`, `p_φ`.
     pub shown: String,
-    /// Where it comes from: `cyclic φ`, `∂L/∂t = 0`, `declared`.
+    /// Why it is conserved: `cyclic φ`, `∂L/∂t = 0`, `declared`.
     pub reason: String,
-    /// Whether it follows from the law of motion, without a number being looked at.
+    /// Whether it follows from the law of motion, independently of any numbers.
     pub proved: bool,
-    /// Its value now.
+    /// The current value.
     pub value: f64,
-    /// Its value when the reference was taken.
+    /// The value when the reference was taken.
     pub initial: f64,
-    /// What its drift is relative to, see `drift`.
+    /// The scale of the drift, see `drift`.
     pub scale: f64,
     /// The greatest distance from the reference since it was taken.
     pub farthest: f64,
-    /// The value that drift is measured from: the initial one, and what impulses have added to it.
+    /// The value that drift is measured from: the initial one plus the jumps of impulses.
     pub reference: f64,
-    /// When that was taken.
+    /// When the reference was taken.
     pub reference_time: f64,
-    /// |value − reference| over what moves: what the terms of the quantity have more than at rest, and by how much the
-    /// rest of them has changed; on the mean. What rounding explains is relative to the
-    /// terms themselves.
+    /// |value − reference| over the mean moving part of the quantity: the excess of its terms over those at rest, and
+    /// the change of the rest. A distance that rounding explains is relative to the terms themselves.
     pub drift: f64,
-    /// The greatest drift since the reference, over all steps; each over what moved until then on the mean, or at that
-    /// time where that was more.
+    /// The greatest drift since the reference, over all steps. Each distance is relative to the mean moving part up
+    /// to that time, or to the moving part at that time if it was greater.
     pub max_drift: f64,
-    /// Since when it is more than a millionth, if the physics keeps the quantity.
+    /// Since when the drift has exceeded a millionth, if the physics conserves the quantity.
     pub left: Option<f64>,
-    /// Drift at past times (evenly thinned), the oldest first: the small history.
+    /// The drift at past times (evenly thinned), the oldest first, for the sparkline.
     pub history: Arc<[f32]>,
-    /// What to think of it.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
 impl Gauge {
-    /// Of those that the law of motion keeps the one that has left its value by the most, if any has by more than a
-    /// millionth of what moves: the motion computed is not the one of that law.
+    /// The gauge with the greatest drift among those conserved by the law of motion, if any drift exceeds a
+    /// millionth. In that case the computed motion does not follow the law.
     pub fn departed(gauges: &[Gauge]) -> Option<&Gauge> {
         let departed = gauges.iter().filter(|gauge| gauge.proved && gauge.left.is_some());
         departed.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))
@@ -145,9 +143,9 @@ impl Gauge {
 pub struct MethodFact {
     /// Its name in the table of methods.
     pub name: &'static str,
-    /// The step last taken.
+    /// The last step.
     pub step: f64,
-    /// Steps taken since the last reset.
+    /// The steps taken since the last reset.
     pub steps: u64,
     /// The tolerance of an adaptive method.
     pub tolerance: Option<f64>,

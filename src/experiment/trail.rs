@@ -1,12 +1,11 @@
-//! The recorded motion: rows of channel values, sealed in shared chunks, so that a snapshot copies
-//! only the open one.
+//! The recorded motion: rows of channel values, sealed in shared chunks so that a snapshot copies only the open one.
 
 use std::sync::Arc;
 
-/// How often rows are thinned at most, and once more for those that are not.
+/// The number of thinning levels, including the rows that are not thinned.
 pub(super) const THINNINGS: usize = 4;
 
-/// Two are equal where their rows are, bit by bit.
+/// Two trails are equal if their rows are equal bit by bit.
 impl PartialEq for Trail {
     fn eq(&self, other: &Self) -> bool {
         let bits = |trail: &Self| -> Vec<u64> {
@@ -16,24 +15,24 @@ impl PartialEq for Trail {
     }
 }
 
-/// Recorded rows, the oldest first. Each row is the time followed by every channel's value.
+/// Recorded rows, the oldest first. Each row is the time followed by the value of every channel.
 #[derive(Clone, Debug, Default)]
 pub struct Trail {
     pub(super) sealed: Vec<Arc<Vec<f64>>>,
-    /// How many of the sealed chunks are thinned so often; those of the last, the most thinned, come first.
+    /// The number of sealed chunks at each thinning level; the most thinned chunks, at the last level, come first.
     pub(super) thinned: [usize; THINNINGS],
     pub(super) open: Arc<Vec<f64>>,
     pub(super) width: usize,
 }
 
 impl Trail {
-    /// A trail of given rows, each `width` numbers: time, then the channels.
+    /// Creates a trail from rows of `width` numbers each: the time, then the channels.
     pub fn from_rows(width: usize, rows: &[Vec<f64>]) -> Trail {
         let open = rows.iter().flat_map(|row| row.iter().copied().take(width)).collect();
         Trail { open: Arc::new(open), width, ..Trail::default() }
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn len(&self) -> usize {
         if self.width == 0 {
             return 0;

@@ -1,7 +1,8 @@
-//! `phase`: one quantity against another, with its fading trail and, for one degree of freedom, the level curves of the
-//! energy behind it.
+//! `phase`: one quantity against another with a fading trail and, for one degree of freedom, the level curves of the
+//! energy.
 //!
-//! The level curves are its job: they are surveyed anew only where a parameter changed or the motion left the window.
+//! The level curves are its job. They are recomputed only if a parameter has changed or the motion has left the
+//! window.
 
 use std::sync::Arc;
 
@@ -22,9 +23,9 @@ const NOW: Level = 4;
 /// The row.
 pub(super) struct Phase;
 
-/// A landscape and what it was surveyed for.
+/// A landscape and the conditions it was computed for.
 struct Survey {
-    /// Nothing where there is no energy to be seen.
+    /// `None` if the plot does not show the energy.
     landscape: Option<Arc<Landscape>>,
     parameters: Vec<f64>,
     motion: [[f64; 2]; 2],
@@ -111,7 +112,7 @@ impl Instrument for Phase {
         })
     }
 
-    /// A point stands for initial values where both axes are of the state, and not of one value.
+    /// A point represents initial values if both axes belong to the state and are not the same.
     fn start(
         &self,
         plot: &Plot,
@@ -140,7 +141,8 @@ impl Instrument for Phase {
         {
             return Need::Held;
         }
-        // With more degrees of freedom the plane is a shadow of phase space; with explicit time its curves would move.
+        // With more degrees of freedom the plane is only a projection of phase space; with explicit time its curves
+        // would move.
         if system.degrees() != 1 || equations.pool.depends(equations.energy, model.symbols.time) {
             return Need::Nothing;
         }
@@ -191,8 +193,8 @@ fn plane(system: &System, plot: &Plot) -> Option<(Form, [usize; 2])> {
 }
 
 impl Survey {
-    /// Whether the parameters are the same and the motion neither left the window nor shrank to a small part of it.
-    /// A periodic coordinate wraps, and its window stays.
+    /// Whether the parameters are the same and the motion neither left the window nor shrank to a small part of it. A
+    /// periodic coordinate wraps, so its window stays.
     fn still_holds(&self, parameters: &[f64], motion: [[f64; 2]; 2]) -> bool {
         let Some(landscape) = &self.landscape else {
             return self.parameters == parameters && self.motion == motion;

@@ -1,51 +1,51 @@
-//! A picture as data: axes, and what is drawn on them, one layer over the other.
+//! A picture as data: axes and the layers drawn on them.
 //!
-//! In: channels and numbers. Out: [`Picture`]s, which `view` draws in the characters and colours of a terminal. Never here:
-//! cells, colours, or how a curve becomes dots.
+//! In: channels and numbers. Out: [`Picture`]s, which `view` draws in the characters and colours of a terminal. Never
+//! here: cells, colours, or how a curve becomes dots.
 
 use std::sync::Arc;
 
 use super::CameraPose;
 use crate::analysis::Landscape;
 
-/// What the line above a picture says.
+/// The line above a picture.
 #[derive(Clone, Debug, Default)]
 pub struct Heading {
-    /// What the picture is called where the file gives it no title.
+    /// The title, used if the file gives none.
     pub title: String,
-    /// Whether that is the file's own title, which gives way to nothing.
+    /// Whether the title is the file's own, which is never replaced.
     pub given: bool,
-    /// What follows it, as far as there is room.
+    /// The entries after it, as far as there is room.
     pub entries: Vec<Entry>,
 }
 
 /// An entry of a heading.
 #[derive(Clone, Debug)]
 pub enum Entry {
-    /// A channel and its present value.
+    /// A channel and its current value.
     Channel(usize),
-    /// A curve of the picture, counted from the first, with its channel and the present value.
+    /// A curve of the picture by its index, with its channel and the current value.
     Curve(usize, usize),
-    /// A number by its name.
+    /// A named number.
     Number(String, f64),
-    /// Words.
+    /// Text.
     Words(String),
-    /// The names of what happened lately, whose marks are in the picture.
+    /// The names of recent occurrences, whose marks are in the picture.
     Happenings,
 }
 
-/// The range across.
+/// The horizontal axis.
 #[derive(Clone, Debug)]
 pub enum Across {
     /// The picture has no axes.
     Nothing,
     /// A channel, over all of its motion or a range.
     Channel(usize, Option<[f64; 2]>),
-    /// Time, which runs along with the motion.
+    /// Time, which moves along with the motion.
     Time,
 }
 
-/// The axis upwards.
+/// The vertical axis.
 #[derive(Clone, Debug)]
 pub enum Upwards {
     /// A channel, over all of its motion or a range.
@@ -56,18 +56,18 @@ pub enum Upwards {
     Around(usize, [f64; 2]),
 }
 
-/// What a pane shows.
+/// The contents of a pane.
 #[derive(Clone, Debug)]
 pub enum Picture {
     /// Shapes through a camera.
     Scene(CameraPose),
     /// Curves and points on axes.
     Axes {
-        /// The axis upwards.
+        /// The vertical axis.
         upwards: Upwards,
-        /// What is drawn. The level of each says what lies over what.
+        /// The layers; the level of each gives the drawing order.
         layers: Vec<(Level, Layer)>,
-        /// The axis and channels along which what happened is marked; time where there is no channel across.
+        /// The level and channels at which occurrences are marked; `None` for the horizontal channel means time.
         occurrences: Option<(Level, [Option<usize>; 2])>,
     },
 }
@@ -75,58 +75,58 @@ pub enum Picture {
 /// A greater level lies over a lesser one.
 pub type Level = u8;
 
-/// Something drawn on axes.
+/// A layer drawn on axes.
 #[derive(Clone, Debug)]
 pub enum Layer {
-    /// Level curves and separatrices; the separatrices and saddles one level higher.
+    /// Level curves and separatrices; the separatrices and saddles are one level higher.
     Landscape(Arc<Landscape>),
-    /// Where two channels have been, fading with age.
+    /// The past of two channels, fading with age.
     Trail([usize; 2]),
-    /// A channel against time, drawn as the curve of this number.
+    /// A channel against time, drawn as the curve of this index.
     Curve {
-        /// Its number.
+        /// The index of the curve.
         index: usize,
         /// The channel.
         channel: usize,
     },
     /// A line through points.
     Line(Vec<[f64; 2]>, Stroke),
-    /// One sign at a point.
+    /// A marker at a point.
     Point([f64; 2], Sign, Ink),
 }
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Clone, Copy, Debug)]
 pub struct Stroke {
-    /// In which colour.
+    /// The colour.
     pub ink: Ink,
-    /// The share of its dots that is drawn, where not all of them are.
+    /// The fraction of its dots that is drawn; `None` for all of them.
     pub covering: Option<f64>,
 }
 
-/// A colour by what it is for.
+/// A colour by its purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
-    /// Plain.
+    /// The plain colour of text.
     Plain,
-    /// What matters most.
+    /// The most important part.
     Accent,
-    /// What is to be noticed.
+    /// A warning.
     Warn,
-    /// A level, faint.
+    /// A faint level curve.
     Level,
-    /// What parts kinds of motion.
+    /// A separatrix.
     Separatrix,
-    /// That of the curve of a number.
+    /// The colour of the curve of this index.
     Curve(usize),
 }
 
-/// A sign on a plot.
+/// A marker on a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Where the motion is now.
+    /// The current state.
     Disc,
-    /// A place beside it.
+    /// A point near the current state.
     Ring,
 }
 

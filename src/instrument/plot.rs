@@ -1,14 +1,15 @@
-//! The contents of a pane: a kind, the quantities chosen for it, and how it is looked at.
+//! The contents of a pane: a kind, the quantities chosen for it, and its camera or window.
 //!
-//! In: views of a file, choices, moves. Out: [`Plot`]s, and what is kept of them in a session. Never here: what a single kind
-//! shows.
+//! In: views of a file, choices, moves. Out: [`Plot`]s, and what a session saves of them. Never here: what a single
+//! kind shows.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, is_view_of, named};
+use super::table::is_view_of;
+use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, named};
 use crate::model::Model;
 use crate::system::Channel;
 
@@ -18,47 +19,47 @@ pub type Columns = Vec<Vec<usize>>;
 /// The contents of a pane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What kind it is.
+    /// The kind.
     pub kind: &'static dyn Instrument,
-    /// What is chosen for its axes.
+    /// The channels chosen for its axes.
     pub columns: Columns,
-    /// The view of the file it shows, where nothing is chosen.
+    /// The view of the file that it shows, if nothing is chosen.
     pub view: Option<usize>,
-    /// How it is looked at.
+    /// The camera or the window.
     pub sight: Sight,
 }
 
-/// A plot by the names of what it shows, as a session keeps it.
+/// A plot as saved in a session, with quantities by name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SavedPlot {
     /// The kind's name.
     pub kind: String,
-    /// The view of the file, by its place.
+    /// The index of the view of the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<usize>,
-    /// Where it is seen from, if through a camera.
+    /// The camera, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eye: Option<CameraPose>,
-    /// The window on its axes, if it has some.
+    /// The window on its axes, if it has axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[serde(rename = "lens")]
     pub viewport: Option<Viewport>,
-    /// What is chosen for each axis, by its key.
+    /// The quantities chosen for each axis, by the axis's key.
     #[serde(flatten)]
     pub axes: BTreeMap<String, Chosen>,
 }
 
-/// What is chosen for an axis.
+/// The quantities chosen for an axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Chosen {
-    /// For one that takes one quantity.
+    /// For an axis that takes one quantity.
     One(Quantity),
-    /// For one that takes several.
+    /// For an axis that takes several.
     Several(Vec<Quantity>),
 }
 
-/// A channel by its name, and by its place where it has none.
+/// A channel by its name, or by its index if it has none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quantity {
     name: String,
@@ -66,7 +67,7 @@ pub struct Quantity {
 }
 
 impl Plot {
-    /// A plot of a kind as it is first seen.
+    /// Creates a plot with the initial camera or window.
     pub fn new(
         kind: &'static dyn Instrument,
         (columns, view): (Columns, Option<usize>),
@@ -80,7 +81,7 @@ impl Plot {
         Self { kind, columns, view, sight }
     }
 
-    /// What the screen opens with: the file's views, then what every system has, so that a large screen is used.
+    /// The plots that the lab opens with: the file's views, then those that every system has, to fill a large screen.
     pub fn opening(physics: Physics<'_>) -> Vec<Self> {
         let mut plots: Vec<Self> = Vec::new();
         let views = 0..physics.model.views.len();
@@ -97,7 +98,7 @@ impl Plot {
         plots
     }
 
-    /// What a view of the file shows; nothing where one of its quantities is no channel.
+    /// The plot of a view of the file, or `None` if one of its quantities is not a channel.
     pub fn of_view(physics: Physics<'_>, index: usize) -> Option<Self> {
         let view = physics.model.views.get(index)?;
         let kind = named(&view.kind)?;
@@ -118,7 +119,7 @@ impl Plot {
         self.columns.get(axis)?.first().copied()
     }
 
-    /// What it is called without a picture.
+    /// The name of the plot without a picture.
     pub fn words(&self, physics: Physics<'_>) -> String {
         self.title(physics).map_or_else(|| self.kind.words(self, physics), str::to_owned)
     }
@@ -134,7 +135,7 @@ impl Plot {
         titled.filter(|(index, _)| same(*index)).map(|(_, view)| view.title.as_str()).next()
     }
 
-    /// Whether both show the same, however they are looked at.
+    /// Whether both plots show the same quantities, whatever their camera or window.
     pub fn shows_the_same(&self, other: &Self, model: &Model) -> bool {
         let seen = |plot: &Self| match plot.sight {
             Sight::Camera(eye) => Some((eye.frame, eye.own_shapes(model))),
@@ -146,12 +147,12 @@ impl Plot {
             && seen(self) == seen(other)
     }
 
-    /// Whether the other shows the same from another place: turned, moved, closer or with another cursor.
+    /// Whether the other differs at most in what changes smoothly: rotation, position, zoom or cursor.
     pub fn differs_smoothly(&self, other: &Self) -> bool {
         self.at_rest() == other.at_rest()
     }
 
-    /// The same seen from the place of the beginning.
+    /// The same plot with the smooth settings at their defaults.
     fn at_rest(&self) -> Self {
         let sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_rest()),
@@ -160,7 +161,7 @@ impl Plot {
         Self { sight, ..self.clone() }
     }
 
-    /// Turns the picture, or moves the window, by steps to the right and upwards.
+    /// Rotates the picture or moves the window by steps to the right and up.
     pub fn shift(&mut self, [right, up]: [f64; 2]) {
         match &mut self.sight {
             Sight::Camera(eye) => eye.turn(-right * PI / 24.0, up * PI / 24.0),
@@ -168,7 +169,7 @@ impl Plot {
         }
     }
 
-    /// Looks closer or from farther away: across, upwards, or both.
+    /// Zooms horizontally, vertically, or both.
     pub fn zoom(&mut self, factor: f64, axes: [bool; 2]) {
         let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
         match &mut self.sight {
@@ -180,7 +181,7 @@ impl Plot {
         }
     }
 
-    /// What the mouse holds goes with it, by parts of the width and of the height: the picture turns, the window moves.
+    /// Drags the picture by fractions of the width and height: a camera rotates, a window moves.
     pub fn drag(&mut self, by: [f64; 2]) {
         match &mut self.sight {
             Sight::Camera(eye) => eye.turn(-by[0] * PI, -by[1] * PI),
@@ -188,7 +189,7 @@ impl Plot {
         }
     }
 
-    /// Looks closer or from farther away, so that what is at a place (parts of the width and of the height) stays there.
+    /// Zooms about a fixed point, given in fractions of the width and height.
     pub fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
         let anchor = [self.kind.anchor(), 0.5];
         let before = self.viewport().map(|viewport| viewport.zoom);
@@ -201,7 +202,7 @@ impl Plot {
         }
     }
 
-    /// Where it is seen from, if through a camera.
+    /// The camera, if it has one.
     pub fn eye(&self) -> Option<CameraPose> {
         match self.sight {
             Sight::Camera(eye) => Some(eye),
@@ -209,7 +210,7 @@ impl Plot {
         }
     }
 
-    /// The window on its axes, if it has some.
+    /// The window on its axes, if it has axes.
     pub fn viewport(&self) -> Option<Viewport> {
         match self.sight {
             Sight::Camera(_) => None,
@@ -217,7 +218,7 @@ impl Plot {
         }
     }
 
-    /// The same, to be changed.
+    /// Mutable access to the window.
     pub fn viewport_mut(&mut self) -> Option<&mut Viewport> {
         match &mut self.sight {
             Sight::Camera(_) => None,
@@ -225,7 +226,7 @@ impl Plot {
         }
     }
 
-    /// The view as it was at first.
+    /// Restores the initial camera or window.
     pub fn home(&mut self, model: &Model) {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
@@ -235,7 +236,7 @@ impl Plot {
 }
 
 impl SavedPlot {
-    /// A plot as it is kept.
+    /// Converts a plot for saving.
     pub fn of(plot: &Plot, physics: Physics<'_>) -> Self {
         let quantity = |&place: &usize| {
             let channel = physics.system.channels().get(place);
@@ -259,7 +260,7 @@ impl SavedPlot {
         }
     }
 
-    /// The plot in a system, if that has all it shows.
+    /// The plot in a system, or `None` if the system lacks something that it shows.
     pub fn place(&self, physics: Physics<'_>) -> Option<Plot> {
         let (model, channels) = (physics.model, physics.system.channels());
         let kind = named(&self.kind)?;
@@ -288,7 +289,7 @@ impl SavedPlot {
             (false, _, Some(viewport)) => Sight::Axes(viewport),
             _ => return None,
         };
-        // of what nothing is chosen a view of the file is shown
+        // a kind without choices shows a view of the file
         let needs_view = kind.chosen().is_empty() && !kind.is_scene();
         let viewed = self.view.is_some_and(|view| is_view_of(model, view, kind));
         let view = self.view.filter(|_| needs_view);

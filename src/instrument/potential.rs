@@ -1,5 +1,5 @@
-//! `potential`: a potential along one coordinate, all else held at the present, with the energy as a line over it and
-//! where the motion is allowed.
+//! `potential`: a potential along one coordinate with everything else at its current value, the energy as a
+//! horizontal line, and the region where the motion is allowed.
 
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics, Picture,
@@ -17,10 +17,10 @@ const NOW: Level = 3;
 /// Points of the curve.
 const POINTS: usize = 240;
 
-/// Share of the dots drawn where the motion is allowed.
+/// Fraction of the dots drawn where the motion is allowed.
 const SHADE: f64 = 0.12;
 
-/// What is shown beyond the turning points, in parts of the way between them.
+/// The margin beyond the turning points, as a fraction of the distance between them.
 const BEYOND: f64 = 0.4;
 
 /// The row.
@@ -51,7 +51,7 @@ impl Along {
         })
     }
 
-    /// The value where the coordinate has another value, and velocities, momenta and all else those of the present.
+    /// The potential at another value of the coordinate, with everything else at its current value.
     pub fn at(&self, pool: &Pool, now: &Valuation, x: f64) -> f64 {
         let at = |symbol| if symbol == self.coordinate { x } else { now.at(symbol) };
         pool.evaluate(self.expression, &at)
@@ -153,7 +153,7 @@ fn range(present: &Present<'_>, channel: usize) -> [f64; 2] {
     }
     let (lo, hi) = present.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN));
     let reached = (hi - lo).max(0.1 * lo.abs().max(hi.abs())).max(f64::MIN_POSITIVE);
-    // What has kept its sign all the time, as a distance does, is not shown beyond zero.
+    // A coordinate that has never changed its sign, such as a distance, is not shown beyond zero.
     let low = lo - BEYOND * reached;
     let low = if lo > 0.0 { low.max(0.05 * lo) } else { low };
     [low, hi + BEYOND * reached]

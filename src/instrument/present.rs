@@ -1,6 +1,6 @@
-//! What instruments look at: a system, and where its motion is now.
+//! The input of instruments: a system and the current state of its motion.
 //!
-//! In: references to what others hold. Out: channels and values. Never here: how the motion came about.
+//! In: references to data owned elsewhere. Out: channels and values. Never here: how the motion is computed.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, System};
 
-/// A system: what its file says, what follows from it, and the program.
+/// A system: its model, its derived equations, and the compiled program.
 #[derive(Clone, Copy)]
 pub struct Physics<'a> {
-    /// What the file says.
+    /// The model of the file.
     pub model: &'a Arc<Model>,
-    /// What follows from it.
+    /// The derived equations.
     pub equations: &'a Arc<Equations>,
-    /// The program, with its channels.
+    /// The compiled system, with its channels.
     pub system: &'a Arc<System>,
 }
 
-/// A system in motion, as it is at one moment.
+/// A system in motion, at one instant.
 #[derive(Clone, Copy)]
 pub struct Present<'a> {
     /// The system.
@@ -30,7 +30,7 @@ pub struct Present<'a> {
     pub parameters: &'a [f64],
     /// The value of each channel.
     pub values: &'a [f64],
-    /// The least and greatest value of each channel since the beginning.
+    /// The least and greatest value of each channel since the start.
     pub bounds: &'a [(f64, f64)],
 }
 
@@ -46,12 +46,12 @@ impl<'a> Physics<'a> {
         all.filter_map(move |i| Some((i, self.channel(ChannelKind::Position(i))?)))
     }
 
-    /// A channel's name in mathematics.
+    /// A channel's name in mathematical notation.
     pub fn shown(self, channel: usize) -> &'a str {
         self.system.channels().get(channel).map_or("?", |channel| &channel.shown)
     }
 
-    /// The channels that can be told from the others by their names.
+    /// The channels that can be distinguished by their names.
     pub fn named(self) -> impl Iterator<Item = (usize, &'a Channel)> {
         let all = self.system.channels();
         let known = move |index: usize, name: &str| all[..index].iter().any(|c| c.name == name);
@@ -67,7 +67,7 @@ impl Present<'_> {
         self.values.get(channel).copied().unwrap_or(f64::NAN)
     }
 
-    /// What the symbols of the system are worth now.
+    /// The current values of the system's symbols.
     pub fn valuation(&self) -> Valuation {
         let Physics { model, equations, system } = self.physics;
         system.valuation((model, equations), self.time, self.parameters, self.values)

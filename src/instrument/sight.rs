@@ -1,6 +1,6 @@
-//! How a plot is looked at: through a camera, or through a window on its axes.
+//! How a plot is viewed: through a camera, or through a window on its axes.
 //!
-//! In: moves and magnifications. Out: [`CameraPose`]s and [`Viewport`]es. Never here: what is seen.
+//! In: moves and zoom factors. Out: [`CameraPose`]s and [`Viewport`]s. Never here: what is seen.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -9,58 +9,58 @@ use serde::{Deserialize, Serialize};
 use crate::expr::Expr;
 use crate::model::{Model, Shape};
 
-/// How a plot is looked at.
+/// How a plot is viewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sight {
-    /// From somewhere in space.
+    /// Through a camera in space.
     Camera(CameraPose),
-    /// On axes.
+    /// Through a window on axes.
     Axes(Viewport),
 }
 
-/// From which frame, and where the camera stands in it.
+/// The orientation, zoom and frame of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraPose {
-    /// Turn about the vertical axis, in radians.
+    /// The rotation about the vertical axis, in radians.
     pub yaw: f64,
-    /// Height above the horizon, in radians; π/2 looks straight down on the plane of x and y.
+    /// The elevation above the horizon, in radians; at π/2 the camera looks straight down on the plane of x and y.
     pub pitch: f64,
-    /// Magnification.
+    /// The zoom factor.
     pub zoom: f64,
-    /// The frame of the file it moves and turns with; none for the axes in which the shapes are written.
+    /// The frame of the file that the camera moves and turns with; `None` for the axes of the shapes.
     pub frame: Option<usize>,
-    /// The view of the file it shows, which may have a title and shapes of its own.
+    /// The view of the file that it shows, which may have its own title and shapes.
     pub view: Option<usize>,
 }
 
 /// The window on the axes of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Viewport {
-    /// Magnification across and upwards.
+    /// The horizontal and vertical zoom factors.
     pub zoom: [f64; 2],
-    /// How far the window is moved, in parts of its width and height.
+    /// The offset of the window, in fractions of its width and height.
     pub pan: [f64; 2],
-    /// Whether the axis upwards is logarithmic.
+    /// Whether the vertical axis is logarithmic.
     pub log: bool,
-    /// Whether a unit is as long across as upwards.
+    /// Whether a unit has the same length on both axes.
     #[serde(default)]
     pub equal: bool,
-    /// Where the cursor stands, in parts of the width from the left and of the height from below.
+    /// The cursor, in fractions of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
 }
 
 impl Viewport {
-    /// All of the motion.
+    /// The whole motion.
     pub const WHOLE: Self =
         Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, equal: false, cursor: None };
 
-    /// The same without what a hand moves smoothly.
+    /// The same window with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         let cursor = self.cursor.map(|_| [0.0; 2]);
         Self { log: self.log, equal: self.equal, cursor, ..Self::WHOLE }
     }
 
-    /// One step in a direction: of the cursor if there is one, else of the window.
+    /// Moves one step in a direction: the cursor if there is one, otherwise the window.
     pub(super) fn shift(&mut self, step: [f64; 2]) {
         match &mut self.cursor {
             Some(cursor) => *cursor = [0, 1].map(|k| (cursor[k] + step[k] / 40.0).clamp(0.0, 1.0)),
@@ -70,38 +70,38 @@ impl Viewport {
 }
 
 impl CameraPose {
-    /// On the shapes of the model, or on those of a view, from the frame the file gives it. Plane motion is seen face on,
-    /// motion in space from the side and from above.
+    /// A camera on the shapes of the model, or on those of a view in the view's frame. Plane motion is seen face on,
+    /// motion in space from the side and above.
     pub fn on(model: &Model, view: Option<usize>) -> Self {
         let frame = view.and_then(|view| model.views.get(view)?.frame);
         Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, frame, view }.at_first(model)
     }
 
-    /// The same picture from the place where the camera first stands.
+    /// The initial camera of the same picture.
     pub(super) fn at_first(self, model: &Model) -> Self {
         let plane = self.shapes(model).iter().all(is_plane);
         let (yaw, pitch) = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
         Self { yaw, pitch, zoom: 1.0, ..self }
     }
 
-    /// The same without what a hand moves smoothly.
+    /// The same camera with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, ..self }
     }
 
-    /// Turns the picture by these angles.
+    /// Rotates the picture by these angles.
     pub(super) fn turn(&mut self, yaw: f64, pitch: f64) {
         self.yaw = (self.yaw + yaw).rem_euclid(TAU);
         self.pitch = (self.pitch + pitch).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// The shapes seen: those of the view, or the model's.
+    /// The visible shapes: those of the view, or the model's.
     pub fn shapes(self, model: &Model) -> &[Shape] {
         self.own_shapes(model)
             .map_or(&model.space, |view| model.views[view].shapes.as_deref().unwrap_or_default())
     }
 
-    /// The view, if it has shapes of its own.
+    /// The view, if it has its own shapes.
     pub fn own_shapes(self, model: &Model) -> Option<usize> {
         self.view.filter(|&view| model.views.get(view).is_some_and(|view| view.shapes.is_some()))
     }

@@ -37,7 +37,7 @@ impl Instrument for Space {
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let (eye, model) = (plot.eye()?, present.physics.model);
         let view = eye.view.and_then(|view| model.views.get(view));
-        // A view's title speaks of the frame that the file gave it.
+        // A view's title applies only to the frame that the file gives it.
         let own = view.filter(|view| view.frame == eye.frame && !view.title.is_empty());
         let frame = eye.frame.and_then(|frame| model.frames.get(frame));
         let seen = |name: &str| Entry::Words(format!("seen from {name}"));

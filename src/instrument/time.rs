@@ -5,7 +5,7 @@ use super::{
     Picture, Plot, Present, Sign, Upwards,
 };
 
-/// The levels of the picture: no curve lies over the marks, and these not over where the motion is.
+/// The levels of the picture: the marks lie over the curves, and the current state over the marks.
 const CURVES: Level = 200;
 const MARK: Level = 201;
 const NOW: Level = 202;
@@ -22,7 +22,7 @@ impl Instrument for Time {
         &[Axis { several: true, ..Axis::UPWARDS }]
     }
 
-    /// The window ends at the present.
+    /// The window ends at the current time.
     fn anchor(&self) -> f64 {
         1.0
     }

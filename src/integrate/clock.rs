@@ -1,8 +1,8 @@
-//! What a clock of `f64` can tell apart.
+//! The resolution of a time in `f64`.
 //!
-//! In: a time. Out: the distance to the next one. Never here: steps.
+//! In: a time. Out: the distance to the next representable one. Never here: steps.
 
-/// The distance from a time to the next one that the clock can show.
+/// Returns the distance from a time to the next representable one.
 pub fn spacing(time: f64) -> f64 {
     let size = time.abs();
     size.next_up() - size

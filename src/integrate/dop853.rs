@@ -1,10 +1,10 @@
-//! Dormand and Prince's Runge–Kutta method of order 8 with error estimates of orders 5 and 3 and
-//! an interpolant of order 7.
+//! Dormand and Prince's Runge–Kutta method of order 8 with error estimates of orders 5 and 3 and an
+//! interpolant of order 7.
 //!
-//! Every number of the state is judged by its own size within the step, so units do not matter.
-//! Where a step fails, what rounding alone does to the rates is measured as well, and no more is
-//! asked of a number than its rounding allows: one that is zero by symmetry, up to rounding,
-//! would else stop the clock.
+//! The error of every number of the state is measured relative to its own size within the step, so
+//! units do not matter. If a step fails, the effect of rounding on the rates is measured as well,
+//! and no number is required to be more accurate than its rounding allows: one that is zero by
+//! symmetry, up to rounding, would otherwise shrink the step without end.
 //!
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, second
 //! edition, II.4 (step control), II.5 (method), II.6 (interpolant).
@@ -18,29 +18,31 @@ use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
 use crate::system::{MotionError, MotionErrorKind, Rates, State, System};
 
-/// The tolerance where none is asked for.
+/// The default tolerance.
 const TOLERANCE: f64 = 1e-13;
 
-/// The first step as a part of the motion's [pace](pace::of); the next ones grow from there.
+/// The first step as a part of the motion's [time scale](super::initial_step::of); the next ones
+/// grow from there.
 const FIRST: f64 = 0.05;
 
-/// How much of the step that would just do is taken.
+/// The safety factor of the optimal step.
 const SAFETY: f64 = 0.9;
 
-/// How many times what rounding does to a rate is allowed for.
+/// The multiple of the measured rounding of a rate that is tolerated.
 const ROUNDINGS: f64 = 4.0;
 
-/// What is left of it in the next step: one measurement may by chance see little.
+/// The part of that rounding that is kept for the next step, since one measurement may by chance be
+/// too small.
 const FORGETTING: f64 = 0.8;
 
-/// A step that has to be shorter than this part of the longest one so far leads nowhere: what
-/// moves in both cannot be reported by the same digits.
+/// A step shorter than this part of the longest one so far cannot continue: what moves in both
+/// cannot be represented with the same digits.
 const SHORTEST: f64 = 1e-15;
 
-/// How often a step is tried shorter where it led to a place without rates.
+/// The maximal number of shorter steps tried if one led to a place without rates.
 const TRIES: u32 = 30;
 
-/// How much shorter and longer than the last a step may be.
+/// The bounds of the ratio of a step to the last one.
 const SHORTER: f64 = 0.333;
 const LONGER: f64 = 6.0;
 
@@ -63,23 +65,24 @@ struct DormandPrince {
     system: System,
     rates: Rates,
     tolerance: f64,
-    /// The size of the step to be tried next.
+    /// The size of the next step to try.
     size: f64,
     before: State,
     state: State,
     next: State,
-    /// The slopes of all stages of the step under way; that of the result is the next one's first.
+    /// The slopes of all stages of the current step; that of the result is the first of the next
+    /// one.
     slopes: Vec<Vec<f64>>,
-    /// The slopes of the last step, those of the interpolant only once it is asked for.
+    /// The slopes of the last step; those of the interpolant are computed on demand.
     last: Vec<Vec<f64>>,
     has_interpolant: bool,
     numbers: Vec<f64>,
-    /// What rounding does to each rate, as it was measured where steps failed.
+    /// The effect of rounding on each rate, as measured where steps failed.
     noise: Vec<f64>,
     fresh: Vec<f64>,
-    /// How large each number is within the step under way.
+    /// The size of each number within the current step.
     sizes: Vec<f64>,
-    /// The state was moved since its slope was taken.
+    /// Whether the state was changed after its slope was computed.
     stale: bool,
     /// The longest step since the start.
     longest: f64,
@@ -114,7 +117,7 @@ impl DormandPrince {
         })
     }
 
-    /// Makes the stages of a step of this size and its result, in `next`.
+    /// Computes the stages of a step of this size, and its result in `next`.
     fn attempt(&mut self, step: f64) -> Result<(), MotionError> {
         for stage in 1..METHOD_STAGES {
             let (rates, numbers) = (&mut self.rates, &mut self.numbers);
@@ -128,7 +131,8 @@ impl DormandPrince {
         Ok(())
     }
 
-    /// How large each number is within the step attempted: not zero where it passes through zero.
+    /// Measures the size of each number within the attempted step, which is not zero where the
+    /// number passes zero.
     fn measure(&mut self, step: f64) {
         for (i, size) in self.sizes.iter_mut().enumerate() {
             let (begin, end) = (self.state.values[i], self.next.values[i]);
@@ -136,7 +140,7 @@ impl DormandPrince {
         }
     }
 
-    /// The error of the step attempted, measured by what is allowed.
+    /// The error of the attempted step relative to the tolerance.
     fn error(&self, step: f64) -> f64 {
         if !self.next.is_finite() {
             return f64::INFINITY;
@@ -159,7 +163,8 @@ impl DormandPrince {
         }
     }
 
-    /// Measures what rounding does to the rates where the step begins: its end may be anywhere.
+    /// Measures the effect of rounding on the rates at the beginning of the step, since its end may
+    /// be anywhere.
     fn estimate_roundoff(&mut self, step: f64) {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
@@ -172,8 +177,8 @@ impl DormandPrince {
         }
     }
 
-    /// A fault where a step of this size leads nowhere, or where somebody asked to stop. The way
-    /// to the limit (`last`) may be as short as it likes.
+    /// Returns an error if a step of this size cannot continue the motion, or on cancellation. A
+    /// step to the limit (`last`) may be arbitrarily short.
     fn may_try(&self, step: f64, last: bool) -> Result<(), MotionError> {
         let size = step.abs();
         let kind = if self.system.cancel().is_cancelled() {
@@ -189,7 +194,7 @@ impl DormandPrince {
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
-    /// The slopes that only the interpolant needs.
+    /// Computes the slopes that only the interpolant needs.
     fn complete(&mut self) -> Result<(), MotionError> {
         if !self.has_interpolant {
             let step = self.last_step();
@@ -222,7 +227,7 @@ fn evaluate(
     rates.evaluate(origin.time + STAGES[stage].at * step, numbers, &mut slopes[stage])
 }
 
-/// A sum of slopes of one number.
+/// A weighted sum of the slopes of one number.
 fn sum(terms: &[Term], slopes: &[Vec<f64>], i: usize) -> f64 {
     terms.iter().map(|&(stage, coefficient)| coefficient * slopes[stage][i]).sum()
 }
@@ -254,7 +259,7 @@ impl Stepper for DormandPrince {
         }
         let mut failures = 0;
         loop {
-            // a last step that is a little longer rather than one more that is tiny
+            // take a last step that is a little longer rather than another tiny one
             let last = 1.01 * self.size >= left.high.abs();
             let step = if last { left.high } else { self.size.copysign(left.high) };
             self.may_try(step, last)?;
@@ -282,7 +287,7 @@ impl Stepper for DormandPrince {
                 let slope = &mut self.slopes[METHOD_STAGES];
                 self.rates.evaluate(end.high, &self.next.values, slope)?;
                 self.longest = self.longest.max(step.abs());
-                // a step that was cut short says little of the next
+                // a step cut short is no measure of the next one
                 self.size =
                     if last { self.size.max(step.abs() * factor) } else { self.size * factor };
                 break;
@@ -299,7 +304,8 @@ impl Stepper for DormandPrince {
     }
 
     fn replace_state(&mut self, state: &State) {
-        // constraints move it by as much as the tolerance is, which may be more than rounding
+        // the projection onto constraints changes the state by as much as the tolerance, which may
+        // exceed rounding
         self.stale |= state.values != self.state.values;
         self.state.copy_from(state);
     }

@@ -1,12 +1,12 @@
-//! Where along a step the functions of the events cross zero, located beyond the last digit of time: what an impulse there
-//! does shows in the last digits after it.
+//! Locates zero crossings of the events' functions along a step, beyond the last digit of time,
+//! since the effect of an impulse there shows in the last digits after it.
 //!
 //! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
 //! here: what follows from it.
 //!
-//! Where the step is a power series in time, so is every function along it, as far as it is analytic: piece by piece the
-//! roots of these polynomials are found, all of them. Where there is no series, and across kinks and poles, the functions
-//! are sampled.
+//! If the step is a power series in time, so is every function along it wherever it is analytic,
+//! and all roots of these polynomials are found piece by piece. Without a series, and across kinks
+//! and poles, the functions are sampled.
 
 use super::Stepper;
 use super::clock::spacing;
@@ -19,46 +19,48 @@ use crate::model::Direction;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
 
-/// A stretch is not shorter than so many digits of the clock: at a pole there is no simple one, …
+/// The minimal length of an interval, in spacings of time: at a pole no function is simple on any
+/// interval, …
 const DIGITS: f64 = 16.0;
 
-/// … but so many of these in a row are no pole: a function changes faster than the clock can tell.
+/// … but so many minimal intervals in a row are no pole: a function changes too fast for the
+/// resolution of time.
 const MOST_SHORTEST: u32 = 64;
 
 /// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
 
-/// What a series leaves out is at most this part of its function.
+/// The truncation error of a series, as a part of its function.
 const CUT_OFF: f64 = 1e-13;
 
-/// How often a root is corrected by the value of the function there.
+/// The maximal number of corrections of a root by the value of the function there.
 const CORRECTIONS: u32 = 3;
 
-/// A correction by more than this part of a piece is none: the root is of a higher order.
+/// A correction larger than this part of a piece is rejected: the root is of a higher order.
 const SMALL: f64 = 1e-6;
 
-/// Where the functions of the events stand.
+/// The state of the search for events.
 #[derive(Clone, Debug)]
 pub(super) struct EventLocator {
     probe: Probe,
     directions: Vec<Direction>,
-    /// The side of zero each function was on last; zero where that is not known.
+    /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
     /// Whether an impulse has just changed the state.
     fresh: bool,
-    /// Up to here the functions were found to be simple.
+    /// The time up to which the functions were found to be simple.
     simple: Option<f64>,
-    /// How many stretches in a row were as short as may be.
+    /// The number of minimal intervals in a row.
     shortest: u32,
 }
 
-/// A piece of a step on which the functions are told by their series.
+/// A piece of a step on which the functions are represented by their series.
 struct Piece {
-    /// Its beginning.
+    /// The beginning.
     from: DoubleDouble,
     /// The unit of time of the series.
     unit: f64,
-    /// Its length in that unit.
+    /// The length in that unit.
     length: f64,
 }
 
@@ -84,12 +86,12 @@ impl EventLocator {
         self.simple = None;
     }
 
-    /// The motion goes on otherwise than it did.
+    /// Resets what depends on the motion ahead, when it changes.
     pub(super) fn turn(&mut self) {
         self.simple = None;
     }
 
-    /// Forgets where the functions stood.
+    /// Forgets the sides of the functions.
     pub(super) fn forget(&mut self) {
         self.sides.fill(0.0);
         self.fresh = false;
@@ -97,8 +99,8 @@ impl EventLocator {
         self.simple = None;
     }
 
-    /// An impulse has led from one state to another, by the event given or by none: functions that
-    /// jumped with it did not cross zero.
+    /// Records an impulse from one state to another, caused by the given event or by none.
+    /// Functions that jumped with it did not cross zero.
     pub(super) fn after_impulse(
         &mut self,
         before: &State,
@@ -118,8 +120,8 @@ impl EventLocator {
         Ok(())
     }
 
-    /// A constraint was let go at a state: functions that did not jump with it stand where `known`
-    /// has them.
+    /// Records the release of a constraint at a state. Functions that did not jump with it keep the
+    /// side given by `known`.
     pub(super) fn inherit(
         &mut self,
         mut known: EventLocator,
@@ -134,8 +136,8 @@ impl EventLocator {
         Ok(())
     }
 
-    /// The first crossing that counts between two times of the stepper's last step, as far as the functions can be
-    /// followed in one go; and the time up to which they were.
+    /// Returns the first crossing that counts between two times of the stepper's last step, as far
+    /// as the functions can be followed at once, and the time up to which they were followed.
     pub(super) fn scan(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -161,9 +163,9 @@ impl EventLocator {
         Ok((self.sampled(stepper, from, end)?, end))
     }
 
-    /// The piece that begins at a time within a step that is a power series and on which the functions are reported by
-    /// their own; at its end, if that is not the end asked for, there may be a kink. Also the time to which they are
-    /// told beyond that.
+    /// The piece that begins at a time within a power-series step and on which the functions are
+    /// represented by their own series. If it ends before the requested end, there may be a kink
+    /// there. Also returns how far beyond the piece the functions are represented.
     fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(Piece, f64)> {
         let series = stepper.series()?;
         let (origin, unit) = (series.time(), series.scale());
@@ -199,7 +201,7 @@ impl EventLocator {
             let coefficients = self.probe.event_functions().expanded(event);
             let mut polynomial = Polynomial { coefficients, length, soonest };
             if polynomial.begins_at_zero() {
-                // the series has no more digits than `f64`
+                // the series has only the digits of an `f64`
                 let exact = self.probe.exactly_at(stepper, event, piece.from)?;
                 polynomial.coefficients[0] = exact.high;
             }
@@ -209,7 +211,7 @@ impl EventLocator {
         Ok(first(&passed, &self.directions, &mut self.sides, to))
     }
 
-    /// The crossings of one function, in time, up to the first that counts.
+    /// The crossings of one function, in order of time, up to the first that counts.
     fn follow(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -244,7 +246,8 @@ impl EventLocator {
         }
         let counted = crossings.last().is_some_and(|last| last.counts(direction));
         if !counted && polynomial.ends_at_zero(side) {
-            // it crosses just where the piece ends, as one does that ends there for a row or an impulse
+            // it crosses at the very end of the piece, which may be the time of an output row or an
+            // impulse
             crossings.push(Crossing::at(DoubleDouble::written(to), -side));
         }
         let end = DoubleDouble::written(to);
@@ -254,7 +257,7 @@ impl EventLocator {
         Ok(crossings)
     }
 
-    /// A root to all digits of the function.
+    /// Refines a root to the full precision of the function.
     fn correct(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -279,8 +282,8 @@ impl EventLocator {
         Ok(piece.from + x * piece.unit)
     }
 
-    /// Where the stretch ends that begins at a time within the last step and on which the functions
-    /// are simple; `to` at the latest.
+    /// The end, at most `to`, of the interval that begins at a time within the last step and on
+    /// which the functions are simple.
     fn stretch(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -297,7 +300,8 @@ impl EventLocator {
         Ok(end.min(to))
     }
 
-    /// Notes how far the functions are reported after a time: too often not as far as the clock tells times apart.
+    /// Records how far the functions are represented after a time, and returns an error if that is
+    /// too often less than the spacing of time.
     fn note_length(&mut self, from: f64, length: f64) -> Result<(), MotionError> {
         let shortest = length < DIGITS * spacing(from);
         self.shortest = if shortest { self.shortest + 1 } else { 0 };
@@ -308,7 +312,7 @@ impl EventLocator {
         Ok(())
     }
 
-    /// The first crossing that counts on a stretch on which the functions are simple.
+    /// The first crossing that counts on an interval on which the functions are simple.
     fn sampled(
         &mut self,
         stepper: &mut dyn Stepper,

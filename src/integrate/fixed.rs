@@ -1,5 +1,5 @@
-//! What all methods of fixed step have in common: the clock, the direction, looks between steps,
-//! the step where none is asked for, and whether it is stable. A method itself is a [`Scheme`].
+//! The common part of all methods of fixed step: counting of time, direction, dense output, default
+//! step and stability. A method itself is a [`Scheme`].
 
 use super::initial_step;
 use super::method::{MethodError, Settings};
@@ -8,13 +8,13 @@ use super::stepper::Stepper;
 use crate::num::{DoubleDouble, math};
 use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
-/// The step where none is asked for, as a part of the motion's [pace](pace::of).
+/// The default step, as a part of the motion's [time scale](super::initial_step::of).
 const PART_OF_PACE: f64 = 1.0 / 10.0;
 
-/// The most steps that can be counted.
+/// The largest number of steps that can be counted.
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
-/// Stability is looked at after 1, 2, 4, … steps, and then whenever so many were taken.
+/// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_LOOK: f64 = 256.0;
 
 /// One step of a method.
@@ -25,18 +25,18 @@ pub(super) trait Scheme: Clone + Send {
     /// Sets the parameters and forgets the motion so far.
     fn begin(&mut self, parameters: &[f64]);
 
-    /// Moves the numbers of `state` by one step; its time is that of the beginning, and left
-    /// alone.
+    /// Moves the numbers of `state` by one step. The time of `state` is that of the beginning of
+    /// the step and is not changed.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
-    /// The motion begins at a state in the system's own form, which may say more than the
-    /// scheme's.
+    /// Begins the motion at a state in the system's native form, which may contain more information
+    /// than the scheme's form.
     fn begin_near(&mut self, _native: &State) {}
 
-    /// Goes on from what another one, which is at the same place, found last.
+    /// Continues from the last solution of another scheme, which is at the same state.
     fn go_on_from(&mut self, _other: &Self) {}
 
-    /// What it makes of modes; `None` where every step is stable.
+    /// How it amplifies modes; `None` if every step is stable.
     fn modes(&self) -> Option<Modes<'_>> {
         None
     }
@@ -45,21 +45,21 @@ pub(super) trait Scheme: Clone + Send {
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
 }
 
-/// A motion in steps that are all alike.
+/// A motion in equal steps.
 pub(super) struct FixedStep<S> {
     system: System,
     scheme: S,
-    /// Takes the shorter steps of looks between, so that what the scheme remembers of its last
-    /// step stays as it is.
+    /// Takes the shorter steps of dense output, so that `scheme` keeps what it remembers of its
+    /// last step.
     aside: S,
     parameters: Vec<f64>,
     asked: Option<f64>,
-    /// The step; negative where the motion runs backwards.
+    /// The step; negative if the motion runs backwards.
     step: DoubleDouble,
-    /// When the steps began, and how many there were: the time is counted, not summed.
+    /// The time at which counting began, and the steps since: time is counted, not summed.
     origin: DoubleDouble,
     count: f64,
-    /// How many steps there were since the start, and what was found on the way.
+    /// The number of steps since the start, and an instability found on the way.
     taken: f64,
     unstable: Option<Unstable>,
     before: State,
@@ -98,7 +98,7 @@ impl<S: Scheme> FixedStep<S> {
         })
     }
 
-    /// Counts on from the present time with another step.
+    /// Restarts the count at the current time with another step.
     fn count_from_here(&mut self, step: DoubleDouble) {
         self.step = step;
         self.origin = self.state.exact_time();
@@ -106,7 +106,7 @@ impl<S: Scheme> FixedStep<S> {
         self.scheme.begin(&self.parameters);
     }
 
-    /// Looks now and then whether the step is stable where the motion is, until it is not.
+    /// Checks occasionally whether the step is stable at the current state, until it is not.
     fn look(&mut self) {
         let n = self.taken;
         let due = if n < STEPS_PER_LOOK {
@@ -126,7 +126,8 @@ impl<S: Scheme> FixedStep<S> {
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
     }
 
-    /// A fault where somebody asked to stop, or where the way is longer than can be counted.
+    /// Returns an error on cancellation, or if there are more steps to the limit than can be
+    /// counted.
     fn may_step(&self, limit: f64) -> Result<(), MotionError> {
         let way = (limit - self.origin.high).abs() / self.step.high.abs();
         let kind = if self.system.cancel().is_cancelled() {
@@ -222,7 +223,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
     }
 }
 
-/// Adds `factor · rates` to the numbers of a state, with what rounding cuts off.
+/// Adds `factor · rates` to the numbers of a state, with compensated summation.
 pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
     for (i, &rate) in rates.iter().enumerate() {
         if rate != 0.0 {

@@ -1,17 +1,17 @@
-//! The collocation methods of Gauss, of order 4 and 6, in canonical form: symplectic for any H,
-//! and through p = ∂L/∂q̇ for any L.
+//! The collocation methods of Gauss, of order 4 and 6, in canonical form: symplectic for any H, and
+//! through p = ∂L/∂q̇ for any L.
 //!
-//! Y_i = y + h Σ_j a_ij f(t + c_i h, Y_j), solved by iterating, and y moves by h Σ_j b_j f(Y_j);
-//! the c are the zeros of Legendre's polynomial on [0, 1].
+//! Y_i = y + h Σ_j a_ij f(t + c_i h, Y_j) is solved by iteration, and y moves by h Σ_j b_j f(Y_j);
+//! the c are the zeros of the Legendre polynomial on [0, 1].
 //!
-//! - The iteration starts from the polynomial of the step before, carried on.
-//! - It ends where no number of any stage moves less from one pass to the next: what is left is
-//!   rounding. Fewer passes would leave an error that acts the same way at every step.
-//! - The last pass is made with all digits of the coefficients, and sums carry what rounding cuts
-//!   off, for the same reason: energy then wanders like a random walk.
+//! - The iteration starts from the extrapolated polynomial of the step before.
+//! - It ends when no number of any stage moves less from one pass to the next: the rest is
+//!   rounding. Fewer passes would leave an error of the same sign at every step.
+//! - The last pass uses all digits of the coefficients, and sums are compensated, for the same
+//!   reason: energy then performs a random walk.
 //!
-//! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VIII.6;
-//! E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
+//! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VIII.6; E.
+//! Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
 
 mod tableau;
 
@@ -22,14 +22,15 @@ use super::roundoff;
 use crate::num::DoubleDouble;
 use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
 
-/// How often the iteration may be repeated.
+/// The maximal number of passes.
 const PASSES: usize = 120;
 
-/// A number moves by rounding alone only where it moves by less than this part of its size …
+/// A number counts as moving by rounding alone only if it moves by less than this part of its size
+/// …
 const SMALL: f64 = 1e-9;
 
-/// … or, looked at whenever so many passes did not suffice, by so many times what rounding does
-/// to its rate.
+/// … or, checked after every so many passes, by less than this multiple of the rounding of its
+/// rate.
 const PATIENCE: usize = 12;
 const ROUNDINGS: f64 = 64.0;
 
@@ -71,7 +72,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     },
 };
 
-/// Whether the method keeps what it is chosen for.
+/// Checks that the method has the properties it is chosen for.
 fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     if system.constraints() > 0 {
         let reason = "the motion is held to constraints, and would no longer be symplectic";
@@ -88,10 +89,10 @@ struct Gauss {
     slopes: Vec<Vec<f64>>,
     contiguous: bool,
     stages: Vec<Vec<f64>>,
-    /// By how much each number moved in the last pass, and in the one before.
+    /// The movement of each number in the last pass, and in the one before.
     moves: Vec<[f64; 2]>,
     resting: Vec<bool>,
-    /// What rounding does to each rate, once it is asked for.
+    /// The effect of rounding on each rate, computed on demand.
     noise: Vec<f64>,
     sizes: Vec<f64>,
     scratch: Vec<Vec<f64>>,
@@ -115,8 +116,8 @@ impl Gauss {
         }
     }
 
-    /// The slopes to begin with: the last step's polynomial, carried on into this one; else the
-    /// slope at the beginning.
+    /// The initial slopes: the extrapolated polynomial of the last step, or else the slope at the
+    /// beginning.
     fn guess(&mut self, state: &State) -> Result<(), MotionError> {
         if !self.contiguous {
             for slope in &mut self.slopes {
@@ -133,7 +134,7 @@ impl Gauss {
         Ok(())
     }
 
-    /// The stages that belong to the slopes.
+    /// Computes the stages from the slopes.
     fn place(&mut self, step: f64, state: &State) {
         for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
             for (i, x) in stage.iter_mut().enumerate() {
@@ -144,7 +145,7 @@ impl Gauss {
         }
     }
 
-    /// The slopes that belong to the stages.
+    /// Computes the slopes from the stages.
     fn evaluate(&mut self, step: f64, time: f64) -> Result<(), MotionError> {
         for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
         {
@@ -153,7 +154,7 @@ impl Gauss {
         Ok(())
     }
 
-    /// One pass; whether all numbers have come to rest.
+    /// Performs one pass. Returns whether all numbers have converged.
     fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, MotionError> {
         self.evaluate(step, state.time)?;
         for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
@@ -168,7 +169,7 @@ impl Gauss {
                 let [before, last] = self.moves[s * n + i];
                 let small = SMALL * x.abs().max((step * self.slopes[s][i]).abs())
                     + ROUNDINGS * step.abs() * self.noise[i];
-                // two passes back, as positions and momenta may shrink in turn
+                // compares with two passes before, as positions and momenta may shrink alternately
                 let level = count >= 2 && moved >= before && moved <= small;
                 self.moves[s * n + i] = [last, moved];
                 self.resting[s * n + i] |= moved == 0.0 || level;
@@ -178,7 +179,7 @@ impl Gauss {
         Ok(rest)
     }
 
-    /// Measures what rounding does to the rates at the first stage.
+    /// Measures the effect of rounding on the rates at the first stage.
     fn estimate_roundoff(&mut self, step: f64, state: &State) {
         let (stage, slope) = (&self.stages[0], &self.slopes[0]);
         for (i, size) in self.sizes.iter_mut().enumerate() {
@@ -203,7 +204,7 @@ impl Gauss {
             match self.pass(count - 1, step, state) {
                 Ok(true) => return Ok(()),
                 Ok(false) => {}
-                // a stage that is far off may lie where there are no rates
+                // a distant stage may lie where there are no rates
                 Err(_) if count > 1 => break,
                 Err(fault) => return Err(fault),
             }
@@ -264,7 +265,7 @@ impl Scheme for Gauss {
     }
 }
 
-/// h Σ w f of one number, in all digits.
+/// h Σ w f of one number, in double-double.
 fn change(weights: &[DoubleDouble], slopes: &[Vec<f64>], i: usize, step: f64) -> DoubleDouble {
     let pairs = weights.iter().zip(slopes);
     pairs.fold(DoubleDouble::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step

@@ -1,7 +1,7 @@
-//! When impulses fall: at their listed times and at every multiple of their interval, each once.
+//! The times of impulses: at their listed times and at every multiple of their interval, each once.
 //!
-//! In: the schedule of every impulse, the present. Out: the next time, and which impulse is due. Never
-//! here: what an impulse does.
+//! In: the schedule of every impulse, the current time. Out: the next time, and which impulse is
+//! due. Never here: what an impulse does.
 
 use super::clock::spacing;
 use crate::num::DoubleDouble;
@@ -12,34 +12,34 @@ use crate::system::Schedule;
 pub(super) struct ImpulseSchedule {
     schedule: Vec<Schedule>,
     start: f64,
-    /// The last impulse that fell, and when.
+    /// The time and index of the last impulse applied.
     fallen: Option<(f64, usize)>,
 }
 
 impl ImpulseSchedule {
-    /// Takes another schedule; what has fallen stays so.
+    /// Replaces the schedule; impulses already applied are not repeated.
     pub(super) fn reschedule(&mut self, schedule: Vec<Schedule>) {
         self.schedule = schedule;
     }
 
-    /// Counts from here, with nothing fallen.
+    /// Counts from here, with no impulse applied.
     pub(super) fn begin(&mut self, start: f64) {
         self.start = start;
         self.fallen = None;
     }
 
-    /// All that falls at this time has fallen.
+    /// Marks all impulses at this time as applied.
     pub(super) fn pass(&mut self, now: f64) {
         self.fallen = Some((now, usize::MAX));
     }
 
-    /// Whether an impulse has not fallen at a time yet: of several at one time those further down
-    /// in the file are still to fall.
+    /// Whether an impulse at a time has not been applied yet. Impulses at the same time are applied
+    /// in the order of the file.
     fn is_open(&self, impulse: usize, time: f64) -> bool {
         time > self.start && self.fallen.is_none_or(|(at, last)| at != time || impulse > last)
     }
 
-    /// The first time from `now` on at which an impulse falls that has not.
+    /// The first time from `now` on of this impulse that has not been applied.
     fn next_of(&self, impulse: usize, now: f64) -> Option<f64> {
         let schedule = &self.schedule[impulse];
         let open = |time: &f64| *time >= now && self.is_open(impulse, *time);
@@ -54,24 +54,24 @@ impl ImpulseSchedule {
         listed.chain(periodic).min_by(f64::total_cmp)
     }
 
-    /// The first time from `now` on at which an impulse falls that has not.
+    /// The first time from `now` on of any impulse that has not been applied.
     pub(super) fn next(&self, now: f64) -> Option<f64> {
         let all = 0..self.schedule.len();
         all.filter_map(|i| self.next_of(i, now)).min_by(f64::total_cmp)
     }
 
-    /// Whether the clock cannot tell two impulses of an impulse apart.
+    /// Whether the interval of an impulse is below the resolution of time.
     pub(super) fn stands_still(&self, now: f64) -> bool {
         let mut intervals = self.schedule.iter().filter_map(|schedule| schedule.interval);
         intervals.any(|interval| interval.high < spacing(now))
     }
 
-    /// The impulse that falls now, if one does.
+    /// The impulse that is due now, if any.
     pub(super) fn due(&self, now: f64) -> Option<usize> {
         (0..self.schedule.len()).find(|&i| self.next_of(i, now) == Some(now))
     }
 
-    /// An impulse falls now: its time beyond the last digit.
+    /// Marks an impulse as applied now and returns its time beyond the last digit.
     pub(super) fn apply_scheduled(&mut self, impulse: usize, now: f64) -> DoubleDouble {
         self.fallen = Some((now, impulse));
         self.schedule[impulse].exactly(self.start, now)

@@ -1,36 +1,36 @@
-//! How fast a motion changes, in its own unit of time: the ground for a first or a fixed step.
+//! The time scale of a motion, from which a first or a fixed step is derived.
 //!
-//! A Taylor series of modest accuracy runs ahead for a while. How long its steps are depends on
-//! nothing but the motion: on no unit, and on no coordinate's size or zero.
+//! A Taylor series of modest accuracy runs ahead for a while. The length of its steps depends only
+//! on the motion, not on units or on the size or zero of any coordinate.
 
 use super::method::Settings;
 use super::taylor;
 use crate::system::{State, System};
 
-/// The accuracy of the series that runs ahead; its steps are then near an eighth of a period.
+/// The tolerance of the series that runs ahead; its steps are then near an eighth of a period.
 const TOLERANCE: f64 = 1e-9;
 
-/// How many steps it looks ahead.
+/// The number of steps it looks ahead.
 const AHEAD: usize = 48;
 
-/// How many of the most accurate ones.
+/// The number of the most accurate steps.
 const A_FEW: usize = 4;
 
-/// Steps shorter than this part of the longest one do not count: where a singularity lies ahead
-/// they become shorter without end, and say nothing of the way there.
+/// Steps shorter than this part of the longest one are ignored: near a singularity they shrink
+/// without end and are not representative.
 const SHORTEST: f64 = 1e-4;
 
-/// Beyond every time scale there is.
+/// Longer than every time scale.
 const FAR: f64 = 1e20;
 
-/// The pace where there is no telling: nothing changes, or only as a polynomial in time.
+/// The time scale if it is undetermined: nothing changes, or only as a polynomial in time.
 const UNKNOWN: f64 = 1.0;
 
-/// Where the steps of modest accuracy are shorter than this part of the most accurate ones, which
-/// carry more digits, it is rounding that shortens them: a number that is zero but for rounding.
+/// If the steps of modest accuracy are shorter than this part of the most accurate ones, which
+/// carry more digits, rounding has shortened them, by a number that is zero but for rounding.
 const BY_ROUNDING: f64 = 1e-3;
 
-/// A step length that three in four steps of the motion ahead exceed, or else 1.
+/// Returns a step length that three in four steps of the motion ahead exceed, or else 1.
 pub(super) fn of(system: &System, state: &State, parameters: &[f64]) -> f64 {
     let modest = ahead(system, state, parameters, (Some(TOLERANCE), AHEAD));
     let exact = ahead(system, state, parameters, (None, A_FEW));
@@ -41,7 +41,7 @@ pub(super) fn of(system: &System, state: &State, parameters: &[f64]) -> f64 {
     }
 }
 
-/// The same of the steps at one tolerance.
+/// The same for the steps at one tolerance.
 fn ahead(
     system: &System,
     state: &State,

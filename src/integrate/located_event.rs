@@ -1,6 +1,7 @@
-//! A place where the function of an event changes its sign.
+//! A point where the function of an event changes its sign.
 //!
-//! In: a time, a side. Out: whether it counts. Never here: how it is found, and what follows from it.
+//! In: a time, a side. Out: whether it counts. Never here: how it is found, and what follows from
+//! it.
 
 use super::probe::earlier;
 use crate::model::Direction;
@@ -9,11 +10,11 @@ use crate::num::DoubleDouble;
 /// A crossing of one function.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Crossing {
-    /// When.
+    /// The time.
     pub(super) exact: DoubleDouble,
-    /// The side it leads to.
+    /// The sign after the crossing.
     pub(super) side: f64,
-    /// Whether the function leads there by a pole, and not by zero.
+    /// Whether the function changes sign at a pole rather than at a zero.
     pub(super) pole: bool,
 }
 
@@ -21,7 +22,7 @@ pub(super) struct Crossing {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct LocatedEvent {
     pub(super) event: usize,
-    /// Of this the nearest `f64` is the time.
+    /// The exact time; the nearest `f64` is the time of the event.
     pub(super) exact: DoubleDouble,
 }
 
@@ -31,7 +32,7 @@ impl Crossing {
         Crossing { exact, side, pole: false }
     }
 
-    /// Whether it is one that an event of this direction waits for.
+    /// Whether it counts for an event of this direction.
     pub(super) fn counts(&self, direction: Direction) -> bool {
         let awaited = match direction {
             Direction::Rising => self.side > 0.0,
@@ -42,8 +43,8 @@ impl Crossing {
     }
 }
 
-/// The first crossing that counts of all functions, of which each list has those up to its own first; and the side on
-/// which each function is when it has passed, where that has changed.
+/// The first crossing that counts of all functions, where each list has the crossings up to its own
+/// first. Also updates the side of each function that has crossed by then.
 pub(super) fn first(
     passed: &[Vec<Crossing>],
     directions: &[Direction],

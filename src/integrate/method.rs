@@ -1,31 +1,31 @@
-//! What a method says of itself.
+//! The description of a method.
 //!
 //! In: what its file knows. Out: a row of the table. Never here: the table.
 
 use super::stepper::Stepper;
 use crate::system::System;
 
-/// A way to step through time.
+/// A method of integration in time.
 pub struct Method {
-    /// As chosen on the command line and in a file.
+    /// The name on the command line and in a file.
     pub name: &'static str,
-    /// Its name in full.
+    /// The full name.
     pub title: &'static str,
-    /// Its order; `None` where it follows the tolerance.
+    /// The order; `None` if it follows the tolerance.
     pub order: Option<u32>,
     /// How it chooses its steps.
     pub stepping: Stepping,
-    /// What it keeps.
+    /// What it preserves.
     pub preserves: Preserves,
     /// Whether steps end on kinks of the motion, rather than pass over them.
     pub locates_kinks: bool,
-    /// What a system must be for it, in words; empty where any will do.
+    /// What it requires of a system, in words; empty if it requires nothing.
     pub needs: &'static str,
     /// What it is good for, in a sentence or two, and its source.
     pub about: &'static str,
-    /// Whether it can be used for a system, and why not.
+    /// Checks whether it can be used for a system.
     pub fits: fn(&System) -> Result<(), MethodError>,
-    /// A stepper for a system.
+    /// Creates a stepper for a system.
     pub make: fn(&System, &Settings) -> StepperResult,
 }
 
@@ -37,11 +37,11 @@ pub type StepperResult = Result<Box<dyn Stepper>, MethodError>;
 pub enum Stepping {
     /// By a tolerance.
     Adaptive,
-    /// All alike.
+    /// All equal.
     Fixed,
 }
 
-/// What a method keeps of the exact motion's structure.
+/// Which structure of the exact motion a method preserves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Preserves {
     /// Nothing but its accuracy.
@@ -50,23 +50,23 @@ pub enum Preserves {
     Symplectic,
 }
 
-/// What a user may set.
+/// The settings of a method that a user may change.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Settings {
-    /// The step of a method of fixed step. Where there is none it is found anew at each start: a
-    /// tenth of the steps that a Taylor series of modest accuracy takes along the motion
-    /// ahead, which makes some hundred steps in a period of an oscillation.
+    /// The step of a method of fixed step. If it is `None`, it is determined again at each start: a
+    /// tenth of the steps that a Taylor series of modest accuracy takes along the motion ahead,
+    /// which is about a hundredth of the period of an oscillation.
     pub step: Option<f64>,
     /// The relative tolerance of an adaptive method.
     pub tolerance: Option<f64>,
 }
 
-/// Why a method cannot be used for a system: a sentence for the user.
+/// Why a method cannot be used for a system, as a sentence for the user.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{method} cannot be used here: {reason}")]
 pub struct MethodError {
     /// The method's name.
     pub method: &'static str,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }

@@ -17,7 +17,7 @@ pub const METHODS: &[Method] = &[
     rk4::METHOD,
 ];
 
-/// The method of a name; `auto` is the first.
+/// Returns the method of a name; `auto` is the first.
 pub fn method_named(name: &str) -> Option<&'static Method> {
     if name == "auto" {
         return METHODS.first();

@@ -1,40 +1,42 @@
-//! Crossings as roots of the functions' own power series, where the method's step is one.
+//! Crossings as roots of the functions' own power series, for steps that are power series.
 //!
-//! In: the coefficients of a function about the beginning of a piece of the step. Out: where it changes its sign there,
-//! every place of it; what touches zero does not. Never here: which crossing counts first, how long a piece is.
+//! In: the coefficients of a function about the beginning of a piece of the step. Out: every point
+//! of the piece where it changes its sign; points where it only touches zero do not count. Never
+//! here: which crossing counts first, how long a piece is.
 
 use super::roots::{sign_changes, value_and_slope};
 
-/// A value below this part of the terms of its polynomial has no sign that could be trusted.
+/// The sign of a value below this part of the terms of its polynomial is not trusted.
 const SIGNLESS: f64 = 1e-13;
 
-/// Two changes of sign between which a polynomial stays below this part of its terms are a touch.
+/// Two changes of sign between which a polynomial stays below this part of its terms count as a
+/// touch.
 const TOUCH: f64 = 1e-14;
 
 /// A function on a piece of a step, as a polynomial in the time after the beginning of the piece.
 pub(super) struct Polynomial {
     pub(super) coefficients: Vec<f64>,
-    /// How long the piece is.
+    /// The length of the piece.
     pub(super) length: f64,
-    /// What time cannot tell from the beginning.
+    /// The time that counts as equal to the beginning.
     pub(super) soonest: f64,
 }
 
-/// What a function does on a piece.
+/// The behaviour of a function on a piece.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Course {
-    /// The side it is on as the piece begins; zero for a function that is zero all over.
+    /// The sign at the beginning of the piece; zero for a function that vanishes identically.
     pub(super) side: f64,
-    /// Where it changes sides.
+    /// The sign changes, in order.
     pub(super) changes: Vec<Change>,
 }
 
-/// A change of sides.
+/// A change of sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Change {
     /// The time after the beginning of the piece.
     pub(super) x: f64,
-    /// The side it leads to.
+    /// The sign after it.
     pub(super) side: f64,
 }
 
@@ -49,7 +51,8 @@ impl Polynomial {
         self.coefficients[0].abs() <= SIGNLESS * self.size()
     }
 
-    /// Whether the value at the end may be rounding, while the function is on its way from a side through zero.
+    /// Whether the value at the end may be rounding, while the function leaves this side through
+    /// zero.
     pub(super) fn ends_at_zero(&self, side: f64) -> bool {
         let (value, slope) = value_and_slope(&self.coefficients, self.length);
         value.abs() <= SIGNLESS * self.size() && slope * side < 0.0
@@ -60,8 +63,9 @@ impl Polynomial {
         value_and_slope(&self.coefficients, x).1
     }
 
-    /// Follows the function; `known` is the side it was last known on, zero where it is not known. A value at the
-    /// beginning that may be rounding, of the function or of the time, says nothing, unless it agrees with what is known.
+    /// Follows the function; `known` is its last known sign, zero if unknown. A value at the
+    /// beginning that may be a rounding error, of the function or of the time, is ignored unless it
+    /// agrees with `known`.
     pub(super) fn follow(&self, known: f64) -> Course {
         let c = &self.coefficients[..];
         let doubtful = known == 0.0 || c[0] * known <= 0.0;
@@ -128,10 +132,10 @@ mod tests {
             assert_eq!((thrown.side, places(&thrown).len()), (1.0, 1), "{speed}");
             assert!((places(&thrown)[0] - speed).abs() < 1e-12 * speed);
         }
-        // what was known before is not doubted for the sake of rounding …
+        // a known sign is not doubted because of rounding …
         let passed = course(&[-1e-17, 1.0, 0.1], 1.0);
         assert_eq!(passed, Course { side: 1.0, changes: Vec::new() });
-        // … and a crossing that fell between two pieces is seen
+        // … and a crossing between two pieces is detected
         assert_eq!(course(&[1e-17, -1.0, 0.1], 1.0).changes.len(), 1);
         assert_eq!(course(&[-1e-17, -1.0, 0.1], 1.0).side, -1.0);
         // the time of a crossing has been rounded to one just before it

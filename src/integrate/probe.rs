@@ -1,16 +1,17 @@
-//! The functions of the events looked at inside a step.
+//! Evaluates the events' functions inside a step.
 //!
-//! In: a stepper that has taken a step, a time within it. Out: values. Never here: where they are zero.
+//! In: a stepper that has taken a step, a time within it. Out: values. Never here: where they are
+//! zero.
 
 use super::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, State};
 
-/// What looks at the functions of one motion.
+/// Evaluates the functions of one motion.
 #[derive(Clone, Debug)]
 pub(super) struct Probe {
     event_functions: EventFunctions,
-    /// When the last impulse fell: the motion after it is not to be asked about earlier times.
+    /// The time of the last impulse: the motion after it must not be evaluated at earlier times.
     begun: Option<DoubleDouble>,
     values: Vec<f64>,
     state: State,
@@ -25,12 +26,12 @@ impl Probe {
         &mut self.event_functions
     }
 
-    /// The motion begins anew at a time, or with nothing behind it.
+    /// Starts at the time of an impulse, or without one.
     pub(super) fn begin(&mut self, begun: Option<DoubleDouble>) {
         self.begun = begun;
     }
 
-    /// A time, though not before the last impulse.
+    /// Returns the later of a time and that of the last impulse.
     pub(super) fn not_before(&self, time: DoubleDouble) -> DoubleDouble {
         self.begun.filter(|&begun| earlier(time, begun)).unwrap_or(time)
     }
@@ -52,7 +53,7 @@ impl Probe {
         Ok(&self.values)
     }
 
-    /// One value at a time within the last step, in all digits.
+    /// One value at a time within the last step, in double-double.
     pub(super) fn exactly(
         &mut self,
         stepper: &mut dyn Stepper,
@@ -74,8 +75,8 @@ impl Probe {
         self.event_functions.exactly(event, &self.state)
     }
 
-    /// How far after a time within the last step the functions are simple; `near` is a length of time not far from the
-    /// motion's own.
+    /// The time after one within the last step over which the functions are simple; `near` is a
+    /// time comparable to the time scale of the motion.
     pub(super) fn resolved(
         &mut self,
         stepper: &mut dyn Stepper,

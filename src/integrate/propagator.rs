@@ -1,8 +1,8 @@
-//! A motion with all that happens to it: steps, constraints that are kept, impulses at their times,
-//! events where they are found.
+//! A motion with all its occurrences: steps, constraints, impulses at their times, events where
+//! they are located.
 //!
-//! In: a system, a method, a state. Out: states at the times asked for, and [`Occurrence`]s. Never
-//! here: rows, gauges, what can be seen of a state.
+//! In: a system, a method, a state. Out: states at the requested times, and [`Occurrence`]s. Never
+//! here: rows, gauges, observables of a state.
 
 mod constraint_watch;
 mod occurrence;
@@ -22,21 +22,21 @@ pub use occurrence::{Occurrence, OccurrenceKind};
 /// How far a motion came.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Reached {
-    /// To the time asked for.
+    /// To the requested time.
     There,
-    /// Not so far: the steps allowed were taken.
+    /// Less far: the step budget was used up.
     Underway,
-    /// To something that happened on the way; the state is the one after it.
+    /// To an occurrence on the way; the state is the one after it.
     Happened(Occurrence),
-    /// Not so far: an event has ended the motion.
+    /// Less far: an event has ended the motion.
     Ended,
 }
 
-/// A motion under way.
+/// A motion in progress.
 pub struct Propagator {
-    /// As compiled, with all its constraints.
+    /// The system as compiled, with all its constraints.
     whole: System,
-    /// With those that still hold.
+    /// The system with the active constraints.
     system: System,
     method: &'static Method,
     settings: Settings,
@@ -46,35 +46,35 @@ pub struct Propagator {
     impulse_schedule: ImpulseSchedule,
     parameters: Vec<f64>,
     start: f64,
-    /// The present.
+    /// The current state.
     state: State,
     /// The state before the last impulse.
     before: State,
-    /// Where the motion last went on from, in the system's own form: velocities that momenta alone
-    /// do not tell are looked for near it.
+    /// The state at which the motion last started or continued, in the system's native form.
+    /// Velocities that momenta alone do not determine are searched for near it.
     near: State,
-    /// Up to here the last step holds no event that is not known.
+    /// The time up to which the last step contains no unknown event.
     clear: f64,
-    /// How many steps in a row did not move the clock.
+    /// The number of steps in a row that did not advance the time.
     stalled: u32,
-    /// What happens there.
+    /// The event at that time.
     waiting: Option<LocatedEvent>,
-    /// Of each event.
+    /// The accumulation detector of each event.
     accumulation: Vec<AccumulationDetector>,
     watch: Watch,
-    /// Where velocities are one of several that belong to the momenta: what tells their branch.
+    /// The branch of the velocities, if several belong to the momenta.
     branch: Option<Branch>,
-    /// How often other constraints were held of those that repeat each other.
+    /// The number of changes of the enforced constraints among redundant ones.
     holdings: u64,
     ended: bool,
     steps: u64,
 }
 
 impl Propagator {
-    /// A motion that has yet to [begin](Motion::begin).
+    /// Creates a motion that must then [begin](Propagator::begin).
     ///
     /// # Errors
-    /// Where the method does not fit the system.
+    /// Returns an error if the method does not fit the system.
     pub fn new(
         system: &System,
         method: &'static Method,
@@ -111,7 +111,7 @@ impl Propagator {
         Ok(motion)
     }
 
-    /// Takes what depends on which constraints hold anew.
+    /// Updates everything that depends on the enforced constraints.
     fn take_system(&mut self) {
         self.projector = self.system.projector(&self.parameters);
         let event_functions = self.system.event_functions(&self.parameters);
@@ -121,10 +121,10 @@ impl Propagator {
         self.impulse_schedule.reschedule(self.system.schedule(&self.parameters));
     }
 
-    /// Begins anew at a state: with all constraints, and no event behind it.
+    /// Begins again at a state, with all constraints and no earlier events.
     ///
     /// # Errors
-    /// Where the motion cannot begin there.
+    /// Returns an error if the motion cannot begin there.
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.system.check_intervals(parameters, state.time)?;
         self.start = state.time;
@@ -134,7 +134,7 @@ impl Propagator {
         self.accumulation.fill(AccumulationDetector::NONE);
         self.parameters = parameters.to_vec();
         self.system = self.whole.hold_all(state, parameters);
-        // a step asked for was taken before, so the method still fits
+        // a step was requested before, so the method still fits
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
         }
@@ -143,11 +143,11 @@ impl Propagator {
         self.system.check_energy(&self.own()?, parameters)
     }
 
-    /// Goes on from another state at the present time, or with other parameters: constraints that
-    /// were let go stay so.
+    /// Continues from another state at the current time, or with other parameters. Released
+    /// constraints stay released.
     ///
     /// # Errors
-    /// Where the motion cannot go on from there.
+    /// Returns an error if the motion cannot continue from there.
     pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         if parameters != self.parameters {
             self.system.check_intervals(parameters, state.time)?;
@@ -164,12 +164,12 @@ impl Propagator {
         self.resume(state)
     }
 
-    /// Takes up a motion that began at `start` and was left at this state, with these constraints
-    /// let go and all that happens at its time behind it. The state stays as it is, to the last
-    /// bit, if it has the form that the method works in.
+    /// Restores a motion that began at `start` and was left at this state, with these constraints
+    /// released and all occurrences at its time in the past. The state is kept to the last bit if
+    /// it has the form that the method works in.
     ///
     /// # Errors
-    /// Where the motion cannot go on from there.
+    /// Returns an error if the motion cannot continue from there.
     pub fn restore(
         &mut self,
         state: &State,
@@ -189,10 +189,10 @@ impl Propagator {
         self.stepper.start(state, &self.parameters)
     }
 
-    /// Takes another method or other settings, and goes on from the present state by it.
+    /// Changes the method or its settings, and continues from the current state.
     ///
     /// # Errors
-    /// Where the method does not fit the system; all stays as it was.
+    /// Returns an error if the method does not fit the system. The motion is then unchanged.
     pub fn change_method(
         &mut self,
         method: &'static Method,
@@ -221,7 +221,8 @@ impl Propagator {
         self.stepper.start(&self.state, &self.parameters)
     }
 
-    /// A fault where a step has led to velocities on another branch: p = ∂L/∂q̇ turns back between.
+    /// Returns an error if a step has led to velocities on another branch, across a fold of p =
+    /// ∂L/∂q̇.
     fn check_branch(&mut self) -> Result<(), MotionError> {
         let Some(branch) = &mut self.branch else { return Ok(()) };
         if branch.holds(self.stepper.state()) {
@@ -232,7 +233,7 @@ impl Propagator {
         Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
     }
 
-    /// Where constraints repeat each other, those are held that depend on each other least.
+    /// Enforces those of redundant constraints that are most independent.
     fn hold_anew(&mut self) -> Result<(), MotionError> {
         let state = self.stepper.state();
         let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
@@ -241,12 +242,12 @@ impl Propagator {
         self.take_holding(system, &state)
     }
 
-    /// Moves the present on to `time`, in at most `budget` steps (which are taken off it), or to
-    /// what happens before. No step reaches beyond `limit`, unless the method's step is fixed. What
-    /// happens at `time` itself has happened when it is reached.
+    /// Advances the current state to `time`, in at most `budget` steps (which are subtracted from
+    /// it), or to an occurrence before. No step goes beyond `limit`, unless the method's step is
+    /// fixed. Occurrences at `time` itself are included.
     ///
     /// # Errors
-    /// Where the motion cannot go on.
+    /// Returns an error if the motion cannot continue.
     pub fn reach(
         &mut self,
         time: f64,
@@ -264,7 +265,7 @@ impl Propagator {
             if self.clear <= time {
                 let due = self.impulse_schedule.due(self.clear);
                 if self.waiting.is_some() || due.is_some() {
-                    // what happens may happen without end
+                    // there may be infinitely many occurrences
                     if *budget == 0 {
                         return Ok(Reached::Underway);
                     }
@@ -326,8 +327,8 @@ impl Propagator {
         Ok(())
     }
 
-    /// Looks for events in what was computed beyond `clear`, up to the next impulse, as far as the
-    /// functions can be followed in one go.
+    /// Searches for events in what was computed beyond `clear`, up to the next impulse, as far as
+    /// the functions can be followed at once.
     fn scan(&mut self) -> Result<(), MotionError> {
         let end = self.stepper.time();
         let mut end =
@@ -339,7 +340,7 @@ impl Propagator {
         Ok(())
     }
 
-    /// The present becomes the state at a time within the last step.
+    /// Sets the current state to that at a time within the last step.
     fn look(&mut self, time: f64) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if time == end || begin == end {
@@ -353,8 +354,8 @@ impl Propagator {
         Ok(())
     }
 
-    /// The present becomes the state at a time of something that happens, known beyond the last
-    /// digit of an `f64`.
+    /// Sets the current state to that at the time of an occurrence, known beyond the last digit of
+    /// an `f64`.
     fn look_exactly(&mut self, time: DoubleDouble) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if begin == end {
@@ -368,7 +369,7 @@ impl Propagator {
         Ok(())
     }
 
-    /// The present in the system's own form.
+    /// The current state in the system's native form.
     fn own(&self) -> Result<State, MotionError> {
         self.to_own(&self.state)
     }
@@ -382,29 +383,30 @@ impl Propagator {
     }
 }
 
-/// A step on a kink may only choose a side, or find that the motion is at rest; so many in a row lead nowhere.
+/// A step on a kink may only choose a side, or find that the motion sticks; so many of them in a
+/// row make no progress.
 const MOST_STALLED: u32 = 128;
 
-/// The clock has no digits left for what is to come.
+/// The error for a time without enough digits for what follows.
 fn stands_still(time: f64) -> MotionError {
     let kind = MotionErrorKind::ClockStands(super::clock::spacing(time));
     MotionError { time, kind, place: Vec::new() }
 }
 
-/// What can be asked of it.
+/// Accessors.
 impl Propagator {
     /// The system with all its constraints.
     pub fn whole(&self) -> &System {
         &self.whole
     }
 
-    /// The system, without the constraints that were let go.
+    /// The system without the released constraints.
     pub fn system(&self) -> &System {
         &self.system
     }
 
-    /// How often the [system](Motion::system) has come to hold others of constraints that repeat
-    /// each other: who looks at its states looks anew then.
+    /// The number of times the [system](Propagator::system) has changed which of its redundant
+    /// constraints it enforces. Observers of its states must be created again when it changes.
     pub fn holdings(&self) -> u64 {
         self.holdings
     }
@@ -419,7 +421,7 @@ impl Propagator {
         self.settings
     }
 
-    /// The present state.
+    /// The current state.
     pub fn state(&self) -> &State {
         &self.state
     }
@@ -429,50 +431,51 @@ impl Propagator {
         &self.before
     }
 
-    /// The state at the end of the last step; the present may lie before it.
+    /// The state at the end of the last step; the current state may lie before it.
     pub fn computed(&self) -> &State {
         self.stepper.state()
     }
 
-    /// The part of the last step in which nothing happens.
+    /// The part of the last step that is free of occurrences.
     pub fn undisturbed(&self) -> (f64, f64) {
         let (begin, end) = self.stepper.interval();
         (begin, end.min(self.clear))
     }
 
-    /// The state at a time within the last step, as the method tells it: not put back on constraints.
+    /// Writes the state at a time within the last step into `out`, as the method gives it, that is
+    /// not projected onto the constraints.
     ///
     /// # Errors
-    /// Where it cannot be reported.
+    /// Returns an error if the state cannot be evaluated.
     pub fn inside(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         self.stepper.at(time, out)
     }
 
-    /// Moves the present to the end of what was computed.
+    /// Advances the current state to the end of the last step.
     ///
     /// # Errors
-    /// Where it cannot be reported.
+    /// Returns an error if the state cannot be evaluated.
     pub fn reach_computed(&mut self) -> Result<(), MotionError> {
         self.look(self.clear)
     }
 
-    /// The steps taken.
+    /// The number of steps taken.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// The step last taken.
+    /// The size of the last step.
     pub fn step_size(&self) -> f64 {
         self.stepper.step_size()
     }
 
-    /// Where the method's fixed step was found to lie beyond its stability, if it was.
+    /// The instability of the method's fixed step, if one was found.
     pub fn unstable(&self) -> Option<Unstable> {
         self.stepper.unstable()
     }
 
-    /// How far the present is from keeping each constraint: position and velocity, measured by the
-    /// size of their terms.
+    /// The residuals of each constraint at the current state, position and velocity, relative to
+    /// the size of their terms.
     pub fn residuals(&mut self) -> Vec<[f64; 2]> {
         match (&mut self.projector, self.state.form) {
             (Some(projector), Form::Velocity) => projector.residuals(&self.state),
@@ -480,12 +483,12 @@ impl Propagator {
         }
     }
 
-    /// Counts on from so many steps.
+    /// Sets the number of steps taken.
     pub fn set_steps(&mut self, steps: u64) {
         self.steps = steps;
     }
 
-    /// Forgets the count of steps; the clock shows `time`.
+    /// Resets the number of steps and the history of the motion at `time`.
     pub fn forget(&mut self, time: f64) {
         self.steps = 0;
         self.state = State::new(time, self.system.form(), Vec::new());

@@ -29,8 +29,8 @@ pub(super) const METHOD: Method = Method {
     },
 };
 
-/// For each stage: at which part of the step it stands, reached by the rates of the stage before,
-/// and its weight in sixths.
+/// For each stage: its time as a part of the step, reached by the rates of the stage before, and
+/// its weight in sixths.
 const STAGES: [(f64, f64); 4] = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
 
 #[derive(Clone)]
@@ -38,7 +38,7 @@ struct RungeKutta {
     rates: Rates,
     numbers: Vec<f64>,
     slope: Vec<f64>,
-    /// Six times the mean slope, then that.
+    /// Six times the mean slope, and then the mean slope.
     sum: Vec<f64>,
 }
 

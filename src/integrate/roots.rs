@@ -1,31 +1,32 @@
-//! The roots of a polynomial in an interval, found for certain: intervals are halved until
-//! Descartes' rule of signs, applied to Bernstein coefficients, leaves one root or none
-//! (G. E. Collins, A. G. Akritas, Proc. SYMSAC '76, 272; J. M. Lane, R. F. Riesenfeld, BIT 21
-//! (1981) 112), and a bracketed Newton iteration finishes.
+//! The roots of a polynomial in an interval, with guaranteed isolation: intervals are halved until
+//! Descartes' rule of signs, applied to Bernstein coefficients, leaves one root or none (G. E.
+//! Collins, A. G. Akritas, Proc. SYMSAC '76, 272; J. M. Lane, R. F. Riesenfeld, BIT 21 (1981) 112),
+//! and a bracketed Newton iteration refines it.
 
-/// The most coefficients a polynomial may have.
+/// The maximal number of coefficients of a polynomial.
 const CAPACITY: usize = 64;
 
 /// Roots closer together than `end / 2^DEPTH` count as a touch, not as two crossings.
 const DEPTH: u32 = 48;
 
-/// The first place in `(0, end]` where a polynomial that is positive just after 0 becomes
+/// Returns the first point in `(0, end]` where a polynomial that is positive just after 0 becomes
 /// negative. `coefficients[k]` belongs to `x^k`; there are at most 64.
 pub fn first_crossing(coefficients: &[f64], end: f64) -> Option<f64> {
     sign_changes(coefficients, end).find(|change| !change.rises).map(|change| change.x)
 }
 
-/// A place where a polynomial changes its sign.
+/// A point where a polynomial changes its sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SignChange {
-    /// Where.
+    /// The point.
     pub(super) x: f64,
-    /// Whether it is positive behind that place.
+    /// Whether the polynomial is positive after it.
     pub(super) rises: bool,
 }
 
-/// The places in `(0, end]` where a polynomial changes its sign, in order. `coefficients[k]`
-/// belongs to `x^k`; there are at most 64. A place where it touches zero is none.
+/// Returns the points in `(0, end]` where a polynomial changes its sign, in order.
+/// `coefficients[k]` belongs to `x^k`; there are at most 64. Points where it only touches zero are
+/// not included.
 pub(super) fn sign_changes(coefficients: &[f64], end: f64) -> impl Iterator<Item = SignChange> {
     let n = coefficients.len().min(CAPACITY);
     let mut bernstein = [0.0; CAPACITY];
@@ -60,12 +61,12 @@ struct Bracket {
     rises: bool,
 }
 
-/// The parts in which a polynomial changes its sign, one after the other.
+/// An iterator over the parts in which a polynomial changes its sign.
 struct Brackets {
     n: usize,
-    /// What has not been looked at, the first part last.
+    /// The parts still to be examined, the first one last.
     waiting: Vec<Piece>,
-    /// The sign at the end of what has been looked at; zero before it is known.
+    /// The sign at the end of the examined parts; zero before it is known.
     sign: f64,
 }
 
@@ -77,7 +78,7 @@ impl Iterator for Brackets {
             let Signs { changes, first, last } = signs(&piece.bernstein[..self.n]);
             let (from, to) = (piece.from, piece.from + piece.width);
             if first != 0.0 && self.sign * first < 0.0 {
-                // just between two pieces; this one is still to be looked at
+                // between two pieces; this one is still to be examined
                 self.waiting.push(piece);
                 self.sign = first;
                 return Some(Bracket { from, to: from, rises: first > 0.0 });
@@ -107,7 +108,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// Both halves, by de Casteljau's scheme.
+    /// Returns both halves, by de Casteljau's algorithm.
     fn halves(&self, n: usize) -> (Piece, Piece) {
         let mut right = self.bernstein;
         let mut left = [0.0; CAPACITY];
@@ -117,7 +118,7 @@ impl Piece {
                 right[j] = 0.5 * (right[j] + right[j + 1]);
             }
         }
-        // what is left in `right` is the other half, from its end to its beginning
+        // `right` now contains the other half, from its end to its beginning
         let (width, depth) = (0.5 * self.width, self.depth + 1);
         let middle = self.from + width;
         (
@@ -127,7 +128,7 @@ impl Piece {
     }
 }
 
-/// From powers to Bernstein's basis: `b_i = Σ_{k≤i} C(i,k)/C(n,k) a_k`.
+/// Converts from powers to Bernstein's basis: `b_i = Σ_{k≤i} C(i,k)/C(n,k) a_k`.
 fn to_bernstein(a: &mut [f64]) {
     let n = a.len() - 1;
     let mut binomial = 1.0;
@@ -144,11 +145,11 @@ fn to_bernstein(a: &mut [f64]) {
 
 /// The signs of a list.
 struct Signs {
-    /// How often they change.
+    /// The number of sign changes.
     changes: u32,
-    /// The first that is not zero; zero where there is none.
+    /// The first sign that is not zero; zero if there is none.
     first: f64,
-    /// The last.
+    /// The last sign.
     last: f64,
 }
 
@@ -165,8 +166,8 @@ fn signs(list: &[f64]) -> Signs {
     signs
 }
 
-/// The root between `low` and `high`, where the polynomial has this sign: Newton's step where it stays inside, else
-/// halving.
+/// The root between `low` and `high`, between which the polynomial has this sign first: by Newton's
+/// step if it stays inside, else by bisection.
 fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     let mut x = 0.5 * (low + high);
     for _ in 0..200 {
@@ -188,7 +189,7 @@ fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     x
 }
 
-/// A polynomial and its derivative.
+/// Evaluates a polynomial and its derivative.
 pub(super) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients
         .iter()

@@ -1,32 +1,32 @@
-//! What rounding alone does to rates of change: where an error cannot become smaller.
+//! The effect of rounding alone on rates of change, below which an error cannot shrink.
 //!
-//! In: the rates of a motion at one place, and how large its numbers are there. Out: how much of
-//! each rate is rounding. It is measured afresh wherever it is asked for, and what was found is
-//! never fed back: an error of the method cannot pass for rounding.
+//! In: the rates of a motion at one state, and the sizes of its numbers there. Out: the part of
+//! each rate that is rounding. It is measured again at each request and never fed back, so an error
+//! of the method cannot pass for rounding.
 
 use crate::system::{MotionError, Rates};
 
-/// By how many units in the last place the numbers are moved, in turn: unlike each other, so that
-/// no symmetry of the motion hides what they do.
+/// The perturbations of successive numbers in units in the last place. They differ, so that no
+/// symmetry of the motion hides their effect.
 const UNITS: [f64; 5] = [2.0, -3.0, 1.0, -2.0, 3.0];
 
-/// In how many ways the numbers are moved.
+/// The number of perturbations tried.
 const WAYS: usize = 3;
 
-/// Where the rates are asked for.
+/// Where the rates are evaluated.
 pub(super) struct Place<'a> {
     pub(super) time: f64,
     pub(super) numbers: &'a [f64],
-    /// How large each number is within the step.
+    /// The size of each number within the step.
     pub(super) sizes: &'a [f64],
     pub(super) step: f64,
 }
 
-/// Writes into `noise` how much each rate changes where every number changes in its last places,
-/// and once more where it changes also by what rounding of its own rate adds to it within the
-/// step: a velocity that is nothing but rounding is the rate of its coordinate. A rate that is
-/// zero by cancellation only is told apart by this from one that is small, whatever the units.
-/// Across a kink a rate changes by more than rounding, and nothing is learnt.
+/// Writes into `noise` the change of each rate when every number changes in its last places, and
+/// when it also changes by the rounding of its own rate over the step: a velocity that is nothing
+/// but rounding is the rate of its coordinate. This distinguishes a rate that is zero only by
+/// cancellation from one that is small, in any units. Across a kink a rate changes by more than
+/// rounding, and the measurement is discarded.
 pub(super) fn measure(
     rates: &mut Rates,
     place: &Place<'_>,

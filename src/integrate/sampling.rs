@@ -1,11 +1,13 @@
-//! EventLocator looked for on the dense output of a method that has no series, and where a series tells nothing.
+//! Crossings located on the dense output of a method without series, and where a series is not
+//! usable.
 //!
-//! In: a stepper that has taken a step, a stretch of it on which the functions are simple. Out: where each crosses zero.
-//! Never here: which crossing counts first, and what follows from it.
+//! In: a stepper that has taken a step, an interval of it on which the functions are simple. Out:
+//! where each function crosses zero. Never here: which crossing counts first, and what follows from
+//! it.
 //!
-//! A function is followed from look to look by its values and slopes (cubic interpolation); where
-//! it is not what its ends foretell, the piece is halved, so that functions that change faster than
-//! the motion are not stepped over, and neither are two zeros within one piece.
+//! A function is followed from sample to sample by its values and slopes (cubic interpolation).
+//! Where it deviates from the interpolation, the piece is halved, so that neither functions that
+//! change faster than the motion nor two zeros within one piece are missed.
 
 use super::Stepper;
 use super::clock::spacing;
@@ -15,29 +17,30 @@ use crate::model::Direction;
 use crate::num::{DoubleDouble, math};
 use crate::system::MotionError;
 
-/// Into how many pieces a stretch on which the functions are simple is cut at first.
+/// The number of pieces into which an interval on which the functions are simple is divided at
+/// first.
 const PIECES: usize = 4;
 
-/// How far a look goes beyond the zero of a secant, in parts of the way to it.
+/// The distance of a sample beyond the zero of a secant, relative to the distance to the zero.
 const BEYOND: f64 = 1.01;
 
-/// A value between two looks may differ from what they foretell by this part of its size.
+/// The tolerated deviation of a value from the interpolation, relative to its size.
 const PREDICTED: f64 = 0.02;
 
-/// How often a piece may be halved.
+/// The maximal number of halvings of a piece.
 const HALVINGS: u32 = 14;
 
 /// The part of a piece over which a slope is taken.
 const SLOPE_OVER: f64 = 1e-5;
 
-/// How far beside a change of sign a function is looked at again, in parts of the distance of the times between which
-/// it lies.
+/// The distance beside a change of sign at which a function is sampled again, in multiples of the
+/// distance of the times between which it lies.
 const ASIDE: f64 = 4.0;
 
-/// A value below this part of those beside it has no sign that could be trusted.
+/// The sign of a value below this part of those beside it is not trusted.
 pub(super) const SIGNLESS: f64 = 1e-13;
 
-/// A look at one function.
+/// A sample of one function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     time: f64,
@@ -45,17 +48,17 @@ pub(super) struct Look {
     slope: f64,
 }
 
-/// What follows the functions over one stretch.
+/// Follows the functions over one interval.
 pub(super) struct Sampling<'a> {
     pub(super) probe: &'a mut Probe,
     pub(super) stepper: &'a mut dyn Stepper,
-    /// Where the stretch begins and ends.
+    /// The beginning and end of the interval.
     pub(super) whole: (f64, f64),
 }
 
 impl Sampling<'_> {
-    /// Looks at all of so many functions over the whole stretch. `soonest` is the part of the time after which the first
-    /// look is due, if an impulse has just fallen.
+    /// Samples all functions over the whole interval. `soonest` is the part of the time after which
+    /// the first sample is taken, if an impulse has just been applied.
     pub(super) fn looks(
         &mut self,
         functions: usize,
@@ -79,11 +82,12 @@ impl Sampling<'_> {
         Ok(looks)
     }
 
-    /// Looks at all functions at a time within the stretch; slopes are taken over a small part of `width`.
+    /// Samples all functions at a time within the interval; slopes are taken over a small part of
+    /// `width`.
     fn look(&mut self, time: f64, width: f64) -> Result<Vec<Look>, MotionError> {
         let (from, to) = self.whole;
         let here = self.probe.at(self.stepper, time)?.to_vec();
-        // not so small that the clock's last digit decides
+        // not so small that the last digit of time dominates
         let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
         let beside = if time + step <= to { time + step } else { (time - step).max(from) };
         let there = self.probe.at(self.stepper, beside)?;
@@ -94,7 +98,7 @@ impl Sampling<'_> {
         Ok(looks.collect())
     }
 
-    /// The crossings of one function, in time, up to the first that counts.
+    /// The crossings of one function, in order of time, up to the first that counts.
     pub(super) fn follow(
         &mut self,
         event: usize,
@@ -118,7 +122,7 @@ impl Sampling<'_> {
         Ok(walk.found)
     }
 
-    /// Follows a function over one piece; true where a crossing that counts was found.
+    /// Follows a function over one piece. Returns true if a crossing that counts was found.
     fn piece(
         &mut self,
         walk: &mut Walk<'_>,
@@ -144,8 +148,8 @@ impl Sampling<'_> {
         Ok(self.turned(walk, a, middle)? || self.turned(walk, middle, b)?)
     }
 
-    /// A piece on which the function has one turning point at most: looks there, too, where it lies
-    /// towards zero.
+    /// Handles a piece on which the function has at most one turning point, which is also sampled
+    /// if it lies towards zero.
     fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
@@ -178,11 +182,12 @@ impl Sampling<'_> {
         self.end(walk, a, b)
     }
 
-    /// A piece with one crossing at most: notes it.
+    /// Handles a piece with at most one crossing, and records it.
     fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
         let side = sign(b, a);
         if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
-            // it crosses just where the step ends, as one does that ends there for a row or an impulse
+            // it crosses at the very end of the step, which may be the time of an output row or an
+            // impulse
             let crossing = Crossing::at(DoubleDouble::written(b.time), -walk.side);
             walk.side = -walk.side;
             walk.found.push(crossing);
@@ -202,10 +207,10 @@ impl Sampling<'_> {
         Ok(crossing.counts(walk.direction))
     }
 
-    /// The time of a crossing between two, after which the function is on `side`: halving, mixed
-    /// with the secant's step kept inside (R. P. Brent, Algorithms for Minimization without
-    /// Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant between these. Where the
-    /// function has a pole, there is no zero.
+    /// The time of a crossing between two samples, after which the function is on `side`:
+    /// bisection, mixed with secant steps kept inside (R. P. Brent, Algorithms for Minimization
+    /// without Derivatives, ch. 4, has the reasons), down to neighbouring times, and a secant
+    /// between these. If the function has a pole, there is no zero.
     fn locate(
         &mut self,
         event: usize,
@@ -216,7 +221,7 @@ impl Sampling<'_> {
         let mut low = self.probe.exactly(self.stepper, event, left)?;
         let mut high = self.probe.exactly(self.stepper, event, right)?;
         if low.high * side > 0.0 {
-            // in all digits it has crossed already
+            // in double-double it has crossed already
             let next = (left + spacing(left)).min(right);
             let beside = self.probe.exactly(self.stepper, event, next)?;
             let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
@@ -227,7 +232,7 @@ impl Sampling<'_> {
             if middle <= left || middle >= right {
                 break;
             }
-            // a little beyond the secant's zero, so that the farther end comes near, too
+            // a little beyond the secant's zero, so that the farther end also converges
             let part = low.high / (low.high - high.high);
             let digit = spacing(right.abs().max(left.abs()));
             let secant = if part < 0.5 {
@@ -248,15 +253,15 @@ impl Sampling<'_> {
             }
         }
         let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
-        // the states looked at were those at these times
+        // the samples were taken at exactly these times
         let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
         let part = low / (low - high);
         let exact = if part.is_finite() { left + (right - left) * part } else { left };
         Ok(Crossing { exact, side, pole })
     }
 
-    /// Whether a function that changes its sign between two neighbouring times is smaller farther from them: zeros are
-    /// left behind by what grows, poles by what falls.
+    /// Whether a function that changes its sign between two neighbouring times is smaller farther
+    /// from them: beside a zero its size grows with distance, beside a pole it falls.
     fn is_pole(
         &mut self,
         event: usize,
@@ -265,27 +270,27 @@ impl Sampling<'_> {
     ) -> Result<bool, MotionError> {
         let aside = ASIDE * (right - left);
         let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
-        if before == left && after == right {
+        if before == left || after == right {
+            // one side alone does not tell a pole from a jump
             return Ok(false);
         }
         let earlier = self.probe.exactly(self.stepper, event, before)?.high.abs();
         let later = self.probe.exactly(self.stepper, event, after)?.high.abs();
-        let falls = |distant: bool, value: f64, near: f64| !distant || value < near.abs();
-        Ok(falls(before < left, earlier, low) && falls(after > right, later, high))
+        Ok(earlier < low.abs() && later < high.abs())
     }
 }
 
-/// One function on its way through a stretch.
+/// The progress of one function through an interval.
 struct Walk<'a> {
     event: usize,
     direction: Direction,
     side: f64,
-    /// The side it was on where the stretch begins, or where that was first known.
+    /// The sign at the beginning of the interval, or when it was first known.
     known: &'a mut f64,
     found: Vec<Crossing>,
 }
 
-/// The side of zero a function is on; none where its value may be rounding.
+/// The side of zero a function is on; none if its value may be rounding.
 fn sign(here: Look, beside: Look) -> f64 {
     let value = here.value;
     if value.abs() > SIGNLESS * beside.value.abs() { value.signum() } else { 0.0 }

@@ -1,7 +1,7 @@
-//! Splitting: H = T(p) + V(q, t) is moved by V alone and by T alone in turn, each exactly.
+//! Splitting: H = T(p) + V(q, t) is integrated by V alone and by T alone in turn, each exactly.
 //!
-//! Störmer and Verlet's step is half a kick, a drift, half a kick. Its composition with steps
-//! w₁ h, w₂ h, …, symmetric and of sum h, is of a higher order where the w are right.
+//! A step of Störmer and Verlet is half a kick, a drift, half a kick. A symmetric composition of
+//! steps w₁ h, w₂ h, … with sum h has a higher order for suitable w.
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
@@ -10,15 +10,15 @@ use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
 use crate::system::{Form, MotionError, Rates, State, System};
 
-/// What a system must be for it.
+/// What it requires of a system.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
 
-/// Whether a system is so.
+/// Checks that a system is separable.
 pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     system.separable().map_err(|why| MethodError { method: method.name, reason: why.to_owned() })
 }
 
-/// A stepper by `weights`, the parts of the step in order.
+/// Creates a stepper from `weights`, the parts of the step in order.
 pub(super) fn make(
     method: &Method,
     system: &System,
@@ -42,7 +42,8 @@ struct Splitting {
     weights: Vec<f64>,
     velocity: Vec<f64>,
     force: Vec<f64>,
-    /// `force` is that of the present place: of the last kick, which changed only momenta.
+    /// Whether `force` is that of the current positions: that of the last kick, which changed only
+    /// momenta.
     known: bool,
 }
 
@@ -86,8 +87,9 @@ impl Scheme for Splitting {
     }
 }
 
-/// By how much an oscillation q' = p, p' = −θ² q grows in one step of size 1, with iθ = z; what
-/// does not oscillate is not judged. The step is a matrix of determinant 1, so its trace tells.
+/// The growth of an oscillation q' = p, p' = −θ² q in one step of size 1, with iθ = z; modes that
+/// do not oscillate are not judged. The step is a matrix of determinant 1, so its trace determines
+/// the growth.
 fn growth(weights: &[f64], [re, im]: [f64; 2]) -> f64 {
     if im.abs() <= 10.0 * re.abs() {
         return 1.0;

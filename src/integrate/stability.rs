@@ -1,12 +1,12 @@
-//! Whether a fixed step is stable: what a method makes of the small oscillations about the motion.
+//! The stability of a fixed step: how a method amplifies small oscillations about the motion.
 //!
-//! The rates are made linear where the motion is, by differences. To each eigenvalue λ there
-//! belongs a mode e^{λt}; a method multiplies it in a step h by a factor that depends on z = hλ
-//! alone. Where that exceeds 1 for a mode that does not grow by itself, the step is too long, and
-//! the motion is lost whatever else is right.
+//! The rates are linearised about the motion by differences. Each eigenvalue λ belongs to a mode
+//! e^{λt}, which a method multiplies in a step h by a factor that depends on z = hλ alone. If that
+//! exceeds 1 for a mode that does not grow by itself, the step is too long, and the motion is wrong
+//! whatever its local error.
 //!
 //! In: rates, a state, a step. Out: the longest step that is stable there. Never here: errors of
-//! steps that are stable.
+//! stable steps.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2.
 
@@ -15,37 +15,37 @@ use nalgebra::linalg::{Schur, balancing};
 
 use crate::num::math;
 
-/// A mode that grows by less than this part in a step is not told from one that does not.
+/// A mode that grows by less than this part in a step counts as constant.
 const GROWS: f64 = 1e-3;
 
-/// A mode counts as one that does not grow by itself up to this part of its rate: differences
-/// tell eigenvalues no better.
+/// A mode counts as not growing by itself up to this part of its rate, the accuracy of eigenvalues
+/// from differences.
 const STEADY: f64 = 1e-3;
 
-/// A number is moved by this part of its size for a difference.
+/// The perturbation of a number for a difference, relative to its size.
 const DIFFERENCE: f64 = 1e-6;
 
-/// The longest stable step is told to one part in so many.
+/// The longest stable step is found to one part in this many.
 const PARTS: u32 = 200;
 
-/// How often the search for eigenvalues may be repeated.
+/// The maximal number of iterations of the search for eigenvalues.
 const SWEEPS: usize = 1000;
 
-/// A fixed step that lies beyond what is stable.
+/// A fixed step beyond the stability limit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Unstable {
-    /// Where the motion was when it was found.
+    /// The time at which it was found.
     pub time: f64,
     /// The step in use.
     pub step: f64,
-    /// Steps below this one are stable there.
+    /// The limit below which steps are stable there.
     pub limit: f64,
 }
 
-/// By how much a method multiplies a mode in one step, at z = hλ.
+/// The factor by which a method multiplies a mode in one step, at z = hλ.
 pub(super) type Growth = fn(&[f64], [f64; 2]) -> f64;
 
-/// What a method makes of modes: the rule, and the weights it is given.
+/// How a method amplifies modes: the rule, and its weights.
 #[derive(Clone, Copy)]
 pub(super) struct Modes<'a> {
     pub(super) growth: Growth,
@@ -53,8 +53,7 @@ pub(super) struct Modes<'a> {
 }
 
 impl Modes<'_> {
-    /// The longest step that is stable, where `step` is not: `z` are the eigenvalues times the
-    /// step.
+    /// The longest stable step, if `step` is not stable; `z` are the eigenvalues times the step.
     pub(super) fn limit(self, z: &[[f64; 2]], step: f64) -> Option<f64> {
         let grows = |part: f64| {
             z.iter().any(|&[re, im]| {
@@ -73,8 +72,8 @@ impl Modes<'_> {
     }
 }
 
-/// The eigenvalues of the rates at a state, times the step; none where they cannot be found.
-/// `rates` gives the rates of the `moving` numbers that stand first.
+/// The eigenvalues of the rates at a state, times the step; empty if they cannot be found. `rates`
+/// gives the rates of the leading `moving` numbers.
 pub(super) fn eigenvalues(
     numbers: &[f64],
     moving: usize,
@@ -91,7 +90,7 @@ pub(super) fn eigenvalues(
         let size = x.abs().max((step * here[j]).abs());
         moved[j] = x + DIFFERENCE * size;
         let difference = moved[j] - x;
-        // a number at rest at zero has no size, and no part in the motion
+        // a number that stays at zero has no size, and no part in the motion
         if difference.is_normal() && rates(&moved, &mut there) {
             for (i, (there, here)) in there.iter().zip(&here).enumerate().take(moving) {
                 matrix[(i, j)] = step * ((there - here) / difference);
@@ -102,7 +101,7 @@ pub(super) fn eigenvalues(
     if matrix.iter().any(|x: &f64| !x.is_finite()) {
         return Vec::new();
     }
-    // units of the numbers apart
+    // removes the effect of different units
     balancing::balance_parlett_reinsch(&mut matrix);
     let found = Schur::try_new(matrix, f64::EPSILON, SWEEPS);
     let values = found.map(|schur| schur.complex_eigenvalues());
@@ -113,7 +112,7 @@ pub(super) fn eigenvalues(
 mod tests {
     use super::*;
 
-    /// A method that makes of a mode what the explicit rule of Euler does.
+    /// A method that amplifies modes as Euler's explicit rule does.
     const EULER: Modes<'static> =
         Modes { growth: |_, [re, im]| math::hypot(1.0 + re, im), weights: &[] };
 
@@ -123,7 +122,7 @@ mod tests {
         assert_eq!(EULER.limit(&[[-2.0009, 0.0]], 1.0), None);
         let limit = EULER.limit(&[[-2.0011, 0.0]], 1.0).unwrap_or(0.0);
         assert!((0.99..1.0).contains(&limit), "{limit}");
-        // told to one part in two hundred
+        // accurate to one part in two hundred
         let limit = EULER.limit(&[[-4.0, 0.0]], 1.0).unwrap_or(0.0);
         assert!((limit - 0.5).abs() <= 0.0051 && limit >= 0.4949, "{limit}");
     }

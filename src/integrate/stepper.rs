@@ -1,23 +1,23 @@
-//! What every method can do.
+//! The interface of every method.
 
 use super::Unstable;
 use crate::num::DoubleDouble;
 use crate::system::{Form, MotionError, Series, State};
 
-/// A motion under way by one method. A call of [`Stepper::step`] takes one step; afterwards the
+/// A motion in progress by one method. A call of [`Stepper::step`] takes one step; afterwards the
 /// motion is known anywhere inside it.
 pub trait Stepper: Send {
-    /// Begins at a state, at these parameters; it may have either form. Forgets all steps taken.
+    /// Begins at a state, which may have either form, at these parameters. Forgets all steps taken.
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError>;
 
-    /// Takes one step towards `limit`, which lies before or after the present time. A method of
-    /// variable step never passes the limit and ends its last step exactly on it. A method of
-    /// fixed step keeps its step and so may pass it: states between are reported by [`Stepper::at`].
-    /// Does nothing where the present time has reached the limit.
+    /// Takes one step towards `limit`, which lies before or after the current time. A method of
+    /// variable step never passes the limit and ends its last step exactly on it. A method of fixed
+    /// step keeps its step and so may pass it; [`Stepper::at`] gives the states between. Does
+    /// nothing if the current time has reached the limit.
     fn step(&mut self, limit: f64) -> Result<(), MotionError>;
 
-    /// Goes on from a state that differs from the one at the end of the last step by rounding only,
-    /// as one put back on its constraints does. The last step stays as it was.
+    /// Continues from a state that differs from the one at the end of the last step by rounding
+    /// only, as one projected onto its constraints does. The last step remains available.
     fn replace_state(&mut self, state: &State);
 
     /// The state at the end of the last step, in the form the method works in.
@@ -26,23 +26,22 @@ pub trait Stepper: Send {
     /// The times at which the last step began and ended; equal before the first.
     fn interval(&self) -> (f64, f64);
 
-    /// The state at a time within the last step.
+    /// Writes the state at a time within the last step into `out`.
     ///
     /// Adaptive methods evaluate their interpolant (the Taylor polynomial itself, `dop853`'s of
-    /// order 7). A method of fixed step takes one shorter step of its own from the beginning of
-    /// the last step and throws it away afterwards: the result has the method's order, and the
-    /// sequence of equal steps, on which the good behaviour of symplectic methods rests, is not
-    /// disturbed.
+    /// order 7). A method of fixed step takes a shorter step from the beginning of the last step
+    /// and discards it afterwards: the result has the method's order, and the sequence of equal
+    /// steps, on which the good behaviour of symplectic methods rests, is not disturbed.
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError>;
 
-    /// The same at a time that is known beyond the last digit of an `f64`, as that of a crossing
-    /// is. A method that cannot tell such times apart gives the state at the nearest.
+    /// The same at a time that is known beyond the last digit of an `f64`, such as that of a
+    /// crossing. A method that cannot distinguish such times gives the state at the nearest one.
     fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         self.at(time.high, out)
     }
 
-    /// The power series that the last step was taken by, about its beginning; `None` for methods that have none, and where
-    /// the last step was not taken by it.
+    /// The power series of the last step, about its beginning. Returns `None` for methods without
+    /// series, and if the last step did not use it.
     fn series(&self) -> Option<&Series> {
         None
     }
@@ -53,7 +52,7 @@ pub trait Stepper: Send {
         end - begin
     }
 
-    /// Where the fixed step was found to lie beyond what is stable, if it was.
+    /// The instability of the fixed step, if one was found.
     fn unstable(&self) -> Option<Unstable> {
         None
     }
@@ -63,7 +62,7 @@ pub trait Stepper: Send {
         self.state().form
     }
 
-    /// The present time: the end of the last step.
+    /// The current time: the end of the last step.
     fn time(&self) -> f64 {
         self.state().time
     }

@@ -1,8 +1,8 @@
-//! How a body stands: A = B(ψ) C(θ) D(φ) by Euler's angles, or A′ = −\[ω\]× A integrated beside the
-//! motion.
+//! The attitude of a body: A = B(ψ) C(θ) D(φ) by Euler's angles, or A′ = −\[ω\]× A integrated
+//! alongside the motion.
 //!
-//! In: the model's attitude. Out: the nine entries as expressions, or as numbers carried along.
-//! Never here: the body's tensor; torques.
+//! In: the model's attitude. Out: the nine entries as expressions, or as numbers integrated with
+//! the state. Never here: the body's tensor; torques.
 //! Source: *The Principles of Dynamics*, §§ 2.1.2–3. A takes components along space axes to those
 //! along body axes.
 

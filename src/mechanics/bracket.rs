@@ -1,10 +1,11 @@
-//! Poisson's brackets: [f, g] = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q, or {f, g} = ∇f · B ∇g where the file
+//! Poisson brackets: [f, g] = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q, or {f, g} = ∇f · B ∇g where the file
 //! gives the brackets B of its variables.
 //!
-//! In: two expressions as observables are written. Out: their bracket as a function of (q, p, t),
-//! and what it is by the names the file knows. Where the velocities are not known in terms of the
-//! momenta, its value at a point, by the chain rule. Constraints are not looked at: the bracket is
-//! that of the phase space without them. Never here: motion.
+//! In: two expressions, written as observables are. Out: their bracket as a function of (q, p, t),
+//! and, where it is recognised, in terms of names that the file knows. Where the velocities are not
+//! known in terms of the momenta, the value of the bracket at a point follows by the chain rule.
+//! Constraints are ignored: the bracket is that of the phase space without them. Never here:
+//! motion.
 //! Source: *The Principles of Dynamics*, § 3.2.3.
 
 use std::collections::HashMap;
@@ -17,12 +18,13 @@ use crate::expr::{Expr, Rank, Symbol, Zero};
 use crate::model::{Mechanics, Model};
 use crate::num::{Number, math};
 
-/// \[f, g\] as a function of (q, p, t), or of a Poisson system's variables and t; simplified, and
-/// exactly 0 where that is proved. `f` and `g` are written as observables are, or are such
-/// functions already.
+/// \[f, g\] as a function of (q, p, t), or of a Poisson system's variables and t.
+///
+/// The result is simplified, and exactly 0 where that is proved. `f` and `g` are written as
+/// observables are, or are already such functions.
 ///
 /// # Errors
-/// Where f or g is not known as such a function.
+/// Returns an error if f or g is not known as such a function.
 pub fn bracket(
     model: &Model,
     equations: &mut Equations,
@@ -38,10 +40,10 @@ pub fn bracket(
     Ok(pool.simplify(sum))
 }
 
-/// df/dt = \[f, H\] + ∂f/∂t, which holds where no force acts and no constraint.
+/// df/dt = \[f, H\] + ∂f/∂t, which is valid if neither forces nor constraints act.
 ///
 /// # Errors
-/// Where f or H is not known as a function of (q, p, t).
+/// Returns an error if f or H is not known as a function of (q, p, t).
 pub fn rate_by_bracket(
     model: &Model,
     equations: &mut Equations,
@@ -57,10 +59,10 @@ pub fn rate_by_bracket(
 }
 
 /// An observable as a function of (q, p, t): velocities, accelerations, multipliers and the energy
-/// are opened.
+/// are replaced by their expressions.
 ///
 /// # Errors
-/// Where one of these is not known in closed form, or the action stands in it.
+/// Returns an error if one of these is not known in closed form, or if the action occurs in it.
 pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedForm> {
     if equations.pool.depends(e, equations.symbols.action) {
         let why = "the action is an integral along the motion, no function of its state";
@@ -107,7 +109,7 @@ fn unknown(what: &str, by: &str, why: &NoClosedForm) -> NoClosedForm {
     NoClosedForm(format!("{what} is not known in terms of {by}: {why}"))
 }
 
-/// The derivation f ↦ \[f, g\]: what each variable of phase space is taken to.
+/// The derivation f ↦ \[f, g\]: the image of each variable of phase space.
 fn flow_of(model: &Model, equations: &mut Equations, g: Expr) -> Vec<(Symbol, Expr)> {
     let coordinates = equations.coordinates.clone();
     let pool = &mut equations.pool;
@@ -130,8 +132,8 @@ fn flow_of(model: &Model, equations: &mut Equations, g: Expr) -> Vec<(Symbol, Ex
     seeds
 }
 
-/// \[f, g\] at points (q, q̇, t) of a Lagrangian system, by the chain rule: nothing has to be known
-/// in closed form but L.
+/// \[f, g\] at points (q, q̇, t) of a Lagrangian system, by the chain rule. Only L needs to be
+/// known in closed form.
 #[derive(Clone, Debug)]
 pub struct ChainRule {
     f: Slopes,
@@ -152,7 +154,8 @@ impl ChainRule {
     /// Prepares the bracket of two observables.
     ///
     /// # Errors
-    /// Where there is no Lagrangian, or f or g is not known as a function of (q, q̇, t).
+    /// Returns an error if there is no Lagrangian, or if f or g is not known as a function of (q,
+    /// q̇, t).
     pub fn of(equations: &mut Equations, f: Expr, g: Expr) -> Result<ChainRule, NoClosedForm> {
         let Flow::Lagrange { mass, .. } = equations.flow.clone() else {
             return Err(NoClosedForm("there is no Lagrangian to begin with".to_owned()));
@@ -165,8 +168,8 @@ impl ChainRule {
         Ok(ChainRule { f, g, mass, momentum_slopes })
     }
 
-    /// The value where the symbols of q, q̇, t and the parameters have the values `at` gives them;
-    /// `None` where ∂²L/∂q̇² is singular or something is not finite.
+    /// The value of the bracket at a point; `at` gives the values of the symbols of q, q̇, t and
+    /// the parameters. Returns `None` if ∂²L/∂q̇² is singular or something is not finite.
     ///
     /// With W = ∂p/∂q: ∂f/∂p = M⁻¹ ∂f/∂q̇, and ∂f/∂q at fixed p is ∂f/∂q − Wᵀ ∂f/∂p.
     pub fn value(&self, equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
@@ -216,19 +219,19 @@ fn slopes(equations: &mut Equations, e: Expr) -> Slopes {
     }
 }
 
-/// What a bracket is by the names the file knows.
+/// A bracket in terms of the names that the file knows.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Recognised {
     /// Zero, or parameters times names of observables, Casimirs and `energy`: −2 m energy L_z.
     pub expression: Expr,
-    /// Whether that is proved, or holds to rounding.
+    /// Whether that is proved, or only true to rounding.
     pub proof: Zero,
 }
 
-/// More names than this are not tried in pairs.
+/// The largest number of names that are also tried in pairs.
 const MOST_IN_PAIRS: usize = 16;
 
-/// Recognises a function of phase space: as zero, as a declared observable, a Casimir or the
+/// Recognises a function on phase space: as zero, as a declared observable, a Casimir or the
 /// energy, or as the product of two of these, up to a factor made of parameters.
 pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Recognised> {
     match equations.pool.is_zero(e) {
@@ -262,10 +265,10 @@ pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Re
     None
 }
 
-/// How the energy is written.
+/// The name of the energy.
 const ENERGY: &str = "energy";
 
-/// The names a bracket may be reported by, and what they are as functions of phase space.
+/// The names by which a bracket may be reported, each with its function on phase space.
 fn names(model: &Model, equations: &mut Equations) -> Vec<(Expr, Expr)> {
     let mut written: Vec<(String, Expr)> =
         model.observables.iter().map(|o| (o.name.clone(), o.expression)).collect();
@@ -283,7 +286,7 @@ fn names(model: &Model, equations: &mut Equations) -> Vec<(Expr, Expr)> {
             let info = pool.symbol_info(symbol).clone();
             let shown = if name == ENERGY { "E" } else { info.unicode.as_str() };
             let latex = if name == ENERGY { "E" } else { info.latex.as_str() };
-            // behind the parameters
+            // after the parameters
             pool.describe(symbol, shown, latex, Rank::Momentum);
             known.push((pool.variable(symbol), opened));
         }
@@ -291,14 +294,14 @@ fn names(model: &Model, equations: &mut Equations) -> Vec<(Expr, Expr)> {
     known
 }
 
-/// What stays the same along the motion: parameters, and what follows from a body.
+/// The symbols that are constant along the motion: the parameters, and what follows from a body.
 fn constants(model: &Model) -> Vec<Symbol> {
     let of_body = model.body.iter().flat_map(|body| body.names.all());
     model.parameters.iter().map(|p| p.symbol).chain(of_body).collect()
 }
 
-/// The monomial c Π (parameter)ⁿ, c a small fraction, that `e` over `candidate` seems to be: by its
-/// values, so a proof has to follow.
+/// The monomial c Π (parameter)ⁿ, with c a small fraction, that `e` over `candidate` appears to be.
+/// It is found from values, so a proof has to follow.
 fn common_factor(
     constants: &[Symbol],
     equations: &mut Equations,

@@ -1,7 +1,9 @@
-//! Which of the file's observables are conserved: proved, to rounding, or not, and at what rate.
+//! Classifies the file's observables: conserved by proof, conserved to rounding, or not conserved,
+//! and at what rate they change.
 //!
-//! In: the observables. Out: a [`Classed`] for each; *not known* is an answer. Where the
-//! accelerations are not known in closed form they are solved for at points near the start.
+//! In: the observables. Out: a [`Classed`] for each; *unknown* is a possible answer. Where the
+//! accelerations are not known in closed form, they are solved for numerically at points near the
+//! start.
 //! Never here: the motion.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3: df/dt = \[f, H\] + ∂f/∂t.
 
@@ -16,34 +18,35 @@ use crate::expr::{Expr, Symbol, Zero};
 use crate::model::Model;
 use crate::num::{Number, math};
 
-/// An observable and what the motion does to it.
+/// An observable and its conservation class.
 #[derive(Clone, Debug)]
 pub struct Classed {
     /// Its name in the file.
     pub name: String,
     /// Whether it is conserved.
     pub class: Class,
-    /// Its rate of change, a function of the state; 0 where that is proved.
+    /// Its rate of change as a function of the state; 0 if that is proved.
     pub rate: Result<Expr, NoClosedForm>,
 }
 
 /// Whether an observable is conserved.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Class {
-    /// Its rate vanishes by proof.
+    /// Its rate is proved to vanish.
     Proved,
-    /// Its rate vanishes to rounding wherever it was looked at, and nothing in it can hide.
+    /// Its rate vanishes to rounding at all points tried, and nothing in it could hide between
+    /// them.
     Numerically,
-    /// Its rate vanishes by proof at the file's values of the parameters, and not at others.
+    /// Its rate is proved to vanish at the file's values of the parameters, but not at others.
     AtTheseParameters,
     /// It changes.
     Changing,
-    /// Neither is shown, or its rate could not be had at all.
+    /// Neither is known, or its rate could not be computed.
     Unknown,
 }
 
 impl Class {
-    /// Whether it is conserved, however that is known.
+    /// Returns whether it is conserved, by proof or numerically.
     pub fn is_conserved(self) -> bool {
         matches!(self, Class::Proved | Class::Numerically | Class::AtTheseParameters)
     }
@@ -61,13 +64,13 @@ impl std::fmt::Display for Class {
     }
 }
 
-/// The class of every declared observable.
+/// Classifies every declared observable.
 pub fn classes(model: &Model, equations: &mut Equations) -> Vec<Classed> {
     let observables = model.observables.iter();
     observables.map(|o| class_of(model, equations, &o.name, o.expression)).collect()
 }
 
-/// The class of an expression written as an observable is.
+/// Classifies an expression, written as an observable is.
 pub fn class_of(model: &Model, equations: &mut Equations, name: &str, observable: Expr) -> Classed {
     let name = name.to_owned();
     let Some(rate) = equations.rate_of(observable) else {
@@ -81,15 +84,15 @@ pub fn class_of(model: &Model, equations: &mut Equations, name: &str, observable
     let class = match equations.is_conserved(observable) {
         Some(Zero::Proved) => return Classed { name, class: Class::Proved, rate: Ok(Expr::ZERO) },
         Some(Zero::Numerically) => Class::Numerically,
-        // it may vanish where the constraints hold, and only there
+        // the rate may vanish where the constraints are satisfied, and only there
         _ if !equations.constraints.is_empty() => by_values(model, equations, rate),
         zero => at_parameters(model, equations, rate, zero == Some(Zero::No)),
     };
     Classed { name, class, rate: Ok(rate) }
 }
 
-/// The class of a rate that does not vanish for all values of the parameters, or is not known to:
-/// at the file's own it may.
+/// Classifies a rate that does not vanish for all values of the parameters, or is not known to; it
+/// may vanish at the file's own values.
 fn at_parameters(model: &Model, equations: &mut Equations, rate: Expr, refuted: bool) -> Class {
     let values = model.parameters.iter().filter_map(|p| {
         let value = Number::Real(p.value).canonical();
@@ -111,8 +114,8 @@ fn at_parameters(model: &Model, equations: &mut Equations, rate: Expr, refuted: 
     }
 }
 
-/// The class by values of the rate, which may hold accelerations and multipliers, at points near
-/// the start that obey the constraints.
+/// Classifies by values of the rate, which may contain accelerations and multipliers, at points
+/// near the start that satisfy the constraints.
 fn by_values(model: &Model, equations: &Equations, rate: Expr) -> Class {
     let mut seen = 0;
     for n in 0..TRIES {
@@ -122,7 +125,7 @@ fn by_values(model: &Model, equations: &Equations, rate: Expr) -> Class {
             s if s == equations.symbols.action => 0.0,
             s => solved.get(&s).copied().unwrap_or_else(|| point.at(s)),
         };
-        // the point obeys the constraints, and the accelerations their equations, to rounding
+        // the point satisfies the constraints, and the accelerations their equations, to rounding
         match equations.pool.vanishes_at(rate, SLACK, &at) {
             Some(false) => return Class::Changing,
             Some(true) => seen += 1,
@@ -139,10 +142,10 @@ fn by_values(model: &Model, equations: &Equations, rate: Expr) -> Class {
     }
 }
 
-/// How far what is solved for at a point may be off, relative to itself.
+/// The relative error allowed in quantities that are solved for at a point.
 const SLACK: f64 = 1e-10;
 
-/// The class by the rate's values, and why there is no formula for it.
+/// Classifies by the rate's values, and returns why there is no formula for the rate.
 fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Class, NoClosedForm) {
     let why = match &equations.solved {
         Err(why) => NoClosedForm(format!("q̈ is not known in closed form: {why}")),
@@ -170,8 +173,8 @@ fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Cla
     (by_values(model, equations, rate), why)
 }
 
-/// q̈ and λ at a point, from M q̈ − Aᵀλ = f and A q̈ = γ; λ of least norm where constraints repeat
-/// each other.
+/// q̈ and λ at a point, from M q̈ − Aᵀλ = f and A q̈ = γ. If constraints are redundant, λ is the
+/// solution of least norm.
 fn solved_at(equations: &Equations, point: &Valuation) -> Option<HashMap<Symbol, f64>> {
     let Flow::Lagrange { mass, force, .. } = &equations.flow else { return Some(HashMap::new()) };
     let (n, rows) = (force.len(), &equations.constraints);
@@ -194,11 +197,11 @@ fn solved_at(equations: &Equations, point: &Valuation) -> Option<HashMap<Symbol,
     Some(symbols.zip(solved.iter().copied()).collect())
 }
 
-/// How often rows and columns are brought to the same size.
+/// The number of passes that bring rows and columns to the same size.
 const ROUNDS: usize = 8;
 
-/// The solution of equations whose rows and columns have units of their own, and so any sizes; of
-/// least squares where the matrix need not be `regular`.
+/// Solves equations whose rows and columns have units of their own, and so any sizes. The solution
+/// is the least-squares one unless the matrix has to be `regular`.
 fn solve(mut matrix: DMatrix<f64>, mut right: DVector<f64>, regular: bool) -> Option<DVector<f64>> {
     let n = right.len();
     let mut columns = vec![1.0; n];

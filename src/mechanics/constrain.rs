@@ -1,7 +1,7 @@
-//! Constraints: Σ A_βα q̇_α + A_β = 0, kept by the forces Σ λ_β A_βα.
+//! Constraints: Σ A_βα q̇_α + A_β = 0, enforced by the forces Σ λ_β A_βα.
 //!
 //! In: the model's constraints. Out: each one's row A_β, and the equations of motion with their
-//! multipliers, M q̈ = f + Aᵀλ and A q̈ = γ, as one system. Never here: numbers, whether the
+//! multipliers, M q̈ = f + Aᵀλ and A q̈ = γ, as one system. Never here: numbers; whether the
 //! initial values agree.
 //! Source: *The Principles of Dynamics*, § 1.3.2.
 
@@ -70,7 +70,7 @@ pub(super) fn force(pool: &mut Pool, rows: &[ConstraintRow], coordinate: usize) 
     pool.sum(&terms)
 }
 
-/// f + Aᵀλ with the multipliers' symbols: the right side of M q̈ = f + Aᵀλ.
+/// f + Aᵀλ with the multipliers' symbols: the right-hand side of M q̈ = f + Aᵀλ.
 pub fn with_reactions(pool: &mut Pool, rows: &[ConstraintRow], acting: &[Expr]) -> Vec<Expr> {
     let all = acting.iter().enumerate();
     all.map(|(i, &f)| {
@@ -80,7 +80,7 @@ pub fn with_reactions(pool: &mut Pool, rows: &[ConstraintRow], acting: &[Expr]) 
     .collect()
 }
 
-/// −Σ_β λ_β A_β0: what the constraints that move do to the energy.
+/// −Σ_β λ_β A_β0: the power of the rheonomic (time-dependent) constraints.
 pub(super) fn power(pool: &mut Pool, rows: &[ConstraintRow]) -> Expr {
     let terms: Vec<(Number, Expr)> = rows
         .iter()
@@ -92,7 +92,7 @@ pub(super) fn power(pool: &mut Pool, rows: &[ConstraintRow]) -> Expr {
     pool.linear(Number::ZERO, &terms)
 }
 
-/// The matrix of M q̈ − Aᵀλ = f, A q̈ = γ. M alone may be singular where this is not.
+/// The matrix of M q̈ − Aᵀλ = f, A q̈ = γ. It may be regular even if M alone is singular.
 fn augmented(pool: &mut Pool, mass: &[Vec<Expr>], rows: &[ConstraintRow]) -> Vec<Vec<Expr>> {
     let mut matrix = mass.to_vec();
     for (i, row) in matrix.iter_mut().enumerate() {

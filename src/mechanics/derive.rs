@@ -1,6 +1,6 @@
-//! The way from a law to its equations, arrow by arrow.
+//! The derivation of the equations from a law, step by step.
 //!
-//! In: a [`Model`]. Out: [`Equations`]. Never here: any of the arrows.
+//! In: a [`Model`]. Out: [`Equations`]. Never here: the individual steps.
 
 use super::attitude;
 use super::equations::{Equations, Flow, NoClosedForm};
@@ -17,7 +17,7 @@ use crate::model::{Mechanics, Model};
 /// Derives everything that follows from a model's law of motion.
 ///
 /// # Errors
-/// Where the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
+/// Returns an error if the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
 pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut pool = model.pool.clone();
     let constraints = model.constraints.iter().map(|c| c.expression);
@@ -62,7 +62,7 @@ fn too_large() -> NoClosedForm {
     NoClosedForm(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
 }
 
-/// The pieces of the longest expression derived, written out.
+/// The written-out size of the longest derived expression.
 fn longest(equations: &Equations) -> u64 {
     let (first, second) = match &equations.flow {
         Flow::Lagrange { mass, force, .. } => (mass.concat(), force),

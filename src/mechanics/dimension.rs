@@ -1,9 +1,12 @@
-//! Units of what follows from a law: of the energy, of the momenta and of what is observed, from those that the file gives.
+//! Units of derived quantities: of the energy, the momenta and the observables, from the units that
+//! the file gives.
 //!
-//! The dimension of every part of an expression follows from its symbols; the energy's is that on which all terms agree
-//! whose units are known, and a momentum's is energy times time over its coordinate: pᵢq̇ᵢ is an energy.
+//! The dimension of an expression follows from its symbols. The dimension of the energy is the one
+//! on which all terms with known units agree. A momentum has the dimension of energy times time
+//! over its coordinate, because pᵢq̇ᵢ is an energy.
 //!
-//! In: a model, its energy. Out: units as text, empty where they are not known. Never here: a conversion of numbers.
+//! In: a model and its energy. Out: units as text, empty if they are not known. Never here:
+//! conversion of numbers.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +15,11 @@ use crate::expr::{Expr, Node, Symbol};
 use crate::model::Model;
 use crate::num::Number;
 
-/// Exponents of base units, in halves: the units of Gauss have them.
+/// Exponents of base units, in halves, because Gaussian units need them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Dimension(BTreeMap<String, i64>);
 
-/// What is made of other units, in halves: g^½ cm^(3/2)/s is the unit of charge of Gauss.
+/// Derived units in terms of base units, in halves: g^½ cm^(3/2)/s is the Gaussian unit of charge.
 const MADE: [(&str, &[(&str, i64)]); 9] = [
     ("N", &[("kg", 2), ("m", 2), ("s", -4)]),
     ("J", &[("kg", 2), ("m", 4), ("s", -4)]),
@@ -29,10 +32,11 @@ const MADE: [(&str, &[(&str, i64)]); 9] = [
     ("G", &[("g", 1), ("cm", -1), ("s", -2)]),
 ];
 
-/// The unit of angles, which is 1 and is written only where a quantity is an angle or how fast one changes.
+/// The unit of angles. It equals 1 and is written only if a quantity is an angle or a rate of
+/// change of one.
 const ANGLE: &str = "rad";
 
-/// The units of mass and length come first, in this order; then all others, the units of time last.
+/// The order of units: mass and length first, as listed; then all others, with units of time last.
 const ORDER: [&str; 7] = ["kg", "g", "M☉", "M⊕", "m", "cm", "au"];
 const TIMES: [&str; 5] = ["s", "min", "h", "d", "yr"];
 
@@ -44,7 +48,7 @@ impl Dimension {
         Some(dimension)
     }
 
-    /// The same, with the radian as a unit like others.
+    /// Reads a unit, with the radian treated like any other unit.
     fn with_angles(unit: &str) -> Option<Self> {
         let mut dimension = Self::default();
         for (place, part) in unit.split('/').enumerate() {
@@ -80,7 +84,7 @@ impl Dimension {
         }
     }
 
-    /// The product with another one raised to `n / d`, if all exponents stay halves.
+    /// The product with another dimension raised to `n / d`, if all exponents remain halves.
     fn product(mut self, other: &Self, (n, d): (i64, i64)) -> Option<Self> {
         for (base, halves) in &other.0 {
             if (halves * n) % d != 0 {
@@ -91,7 +95,7 @@ impl Dimension {
         Some(self)
     }
 
-    /// Whether it is that of an angle, or of how fast one changes.
+    /// Returns whether this is the dimension of an angle or of its rate of change.
     fn is_of_angle(&self) -> bool {
         self.0.get(ANGLE) == Some(&2)
             && self.0.iter().all(|(base, halves)| {
@@ -99,12 +103,12 @@ impl Dimension {
             })
     }
 
-    /// As it is written, an energy in joule by that name.
+    /// The dimension as text, with an energy in joules given by that name.
     fn named(&self) -> String {
         if Self::read("J").as_ref() == Some(self) { "J".to_owned() } else { self.written() }
     }
 
-    /// As it is written: `kg m²/s`; nothing where an exponent is no whole number.
+    /// The dimension as text, `kg m²/s`; empty if an exponent is not an integer.
     fn written(&self) -> String {
         if self.0.values().any(|halves| halves % 2 != 0) {
             return String::new();
@@ -134,19 +138,20 @@ impl Dimension {
     }
 }
 
-/// The value of a raised digit.
+/// The value of a superscript digit.
 fn power(c: char) -> Option<i64> {
     "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|digit| digit == c).map(|digit| digit as i64)
 }
 
-/// An exponent, raised; 1 is not written.
+/// An exponent in superscript; 1 is omitted.
 fn raised(n: i64) -> String {
     let digits = if n == 1 { String::new() } else { n.to_string() };
     digits.chars().filter_map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize)).collect()
 }
 
 impl Equations {
-    /// The units of the energy and of each momentum, empty where they do not follow from those of the file.
+    /// The units of the energy and of each momentum; empty where they do not follow from the file's
+    /// units.
     pub fn units(&self, model: &Model) -> (String, Vec<String>) {
         let unknown = || (String::new(), vec![String::new(); model.coordinates.len()]);
         let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty());
@@ -166,7 +171,8 @@ impl Equations {
         (energy.named(), momenta.collect())
     }
 
-    /// The unit of any other quantity, empty where it does not follow from those of the file, or where it has none.
+    /// The unit of any other quantity; empty if it does not follow from the file's units or there
+    /// is none.
     pub fn unit(&self, model: &Model, e: Expr) -> String {
         let angular = self.dimension(model, e, Dimension::with_angles);
         if let Some(angular) = angular.filter(Dimension::is_of_angle) {
@@ -178,7 +184,7 @@ impl Equations {
             .map_or_else(String::new, |dimension| dimension.named())
     }
 
-    /// The dimension of an expression, where it follows from the units of the symbols.
+    /// The dimension of an expression, if it follows from the units of the symbols.
     fn dimension(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
         let mut known: BTreeMap<usize, Option<Dimension>> = BTreeMap::new();
         let mut parts = self.pool.reachable(&[e]);
@@ -209,7 +215,7 @@ impl Equations {
     }
 }
 
-/// How a unit is read.
+/// A function that reads a unit.
 type Reader = fn(&str) -> Option<Dimension>;
 
 /// The dimension of a parameter, a coordinate or a velocity.
@@ -227,7 +233,7 @@ fn of_symbol(model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
     read(&c.unit)?.product(&time, (-1, 1))
 }
 
-/// What all agree on that are known.
+/// The dimension on which all known ones agree.
 fn agreed(all: impl Iterator<Item = Option<Dimension>>) -> Option<Dimension> {
     let mut known = all.flatten();
     let first = known.next()?;

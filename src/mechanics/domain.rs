@@ -1,15 +1,15 @@
-//! Where a law holds that was written with roots: (√x)² is x, but for x ≥ 0 only.
+//! The domain of a law that was written with roots: (√x)² simplifies to x, but only for x ≥ 0.
 //!
-//! In: a model with its equations. Out: what must not be below zero, though no root of it is left to
-//! say so. Never here: domains of functions that are left; these say so themselves.
+//! In: a model with its equations. Out: expressions that must not be negative, although no root of
+//! them remains. Never here: domains of functions that remain; their values show these.
 
 use super::equations::Equations;
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::model::Model;
 use crate::num::Number;
 
-/// Expressions of the motion that stood under even roots in the file and are nowhere under one in
-/// the energy: where they are below zero, the file's law has no value and the equations do.
+/// Returns the expressions of the motion that stood under an even root in the file and are under none now: where one of
+/// them is negative, the file's law has no value and the equations do. Whatever cannot be negative is left out.
 pub fn widened(model: &Model, equations: &Equations) -> Vec<Expr> {
     let pool = &model.pool;
     let coordinates = model.coordinates.iter();
@@ -17,13 +17,40 @@ pub fn widened(model: &Model, equations: &Equations) -> Vec<Expr> {
         coordinates.flat_map(|c| [c.position, c.velocity, c.momentum]).collect();
     moving.push(model.symbols.time);
     let is_root = |n: &Number| matches!(n, Number::Rational(_, below) if below % 2 == 0);
-    let reachable = equations.pool.reachable(&[equations.energy]);
-    let kept = |e: Expr| {
-        reachable.iter().any(|&node| match equations.pool.node(node) {
-            Node::Product(_, factors) => factors.iter().any(|(b, n)| *b == e && is_root(n)),
-            _ => false,
+    let law = model.mechanics.function().1;
+    let reachable = [
+        (pool, pool.reachable(&[law])),
+        (&equations.pool, equations.pool.reachable(&[equations.energy])),
+    ];
+    let is_kept = |e: Expr| {
+        reachable.iter().any(|(pool, nodes)| {
+            nodes.iter().any(|&node| match pool.node(node) {
+                Node::Product(_, factors) => factors.iter().any(|(b, n)| *b == e && is_root(n)),
+                _ => false,
+            })
         })
     };
     let roots = pool.under_roots().iter().copied();
-    roots.filter(|&e| pool.depends_on_any(e, &moving) && !kept(e)).collect()
+    let may_be_negative = |e: Expr| !is_never_negative(pool, e);
+    let counts = |&e: &Expr| pool.depends_on_any(e, &moving) && may_be_negative(e) && !is_kept(e);
+    roots.filter(counts).collect()
+}
+
+/// Whether an expression is negative for no real values of its symbols, as its form alone shows: a sum of such, or a
+/// product of even powers with a positive coefficient.
+fn is_never_negative(pool: &Pool, e: Expr) -> bool {
+    let even = |n: &Number| matches!(n, Number::Rational(above, 1) if above % 2 == 0);
+    match pool.node(e) {
+        Node::Number(n) => n.value() >= 0.0,
+        Node::Sum(constant, terms) => {
+            constant.value() >= 0.0
+                && terms.iter().all(|(n, term)| n.value() >= 0.0 && is_never_negative(pool, *term))
+        }
+        Node::Pi => true,
+        Node::Product(n, factors) => {
+            let factor = |(b, n): &(Expr, Number)| even(n) || is_never_negative(pool, *b);
+            n.value() >= 0.0 && factors.iter().all(factor)
+        }
+        _ => false,
+    }
 }

@@ -1,73 +1,78 @@
-//! What follows from a law of motion.
+//! What follows from a law of motion: the equations and everything derived with them.
 
 use super::rigid_body::{RigidBody, Tensor};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{CommonSymbols, Model, Point};
 
-/// Everything derived from one model. All expressions live in `pool`; they are functions of
-/// (q, q̇, t) for a Lagrangian system and of (q, p, t) for a Hamiltonian one, unless said
-/// otherwise.
+/// Everything derived from one model.
+///
+/// All expressions live in `pool`. Unless noted otherwise they are functions of (q, q̇, t) for a
+/// Lagrangian system and of (q, p, t) for a Hamiltonian one.
 #[derive(Clone, Debug)]
 pub struct Equations {
-    /// The model's pool, grown by what was derived.
+    /// The model's pool, with the derived expressions added.
     pub pool: Pool,
     /// The four symbols of each coordinate.
     pub coordinates: Vec<CoordinateSymbols>,
     /// Time, `energy` and `action`.
     pub symbols: CommonSymbols,
-    /// p_i: ∂L/∂q̇_i for a Lagrangian, the symbol p_i itself for a Hamiltonian; none for brackets.
+    /// p_i: ∂L/∂q̇_i for a Lagrangian, the symbol p_i itself for a Hamiltonian; empty for brackets.
     pub momenta: Vec<Expr>,
-    /// The equations of motion in the form they are integrated in.
+    /// The equations of motion in the form in which they are integrated.
     pub flow: Flow,
-    /// L, given or found from H by the inverse Legendre transform.
+    /// L, as given or obtained from H by the inverse Legendre transform.
     pub lagrangian: Result<Expr, NoClosedForm>,
-    /// H(q, p, t), given or found from L.
+    /// H(q, p, t), as given or obtained from L.
     pub hamiltonian: Result<Expr, NoClosedForm>,
-    /// For a Lagrangian system q̇(q, p, t) where it exists in closed form; for a Hamiltonian one
-    /// ∂H/∂p.
+    /// q̇(q, p, t), where it exists in closed form, for a Lagrangian system; ∂H/∂p for a
+    /// Hamiltonian one.
     pub velocities: Result<Vec<Expr>, NoClosedForm>,
     /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, or H.
     pub energy: Expr,
-    /// dh/dt by its law: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, or ∂H/∂t + Σ force ∂H/∂p. Exactly zero where
-    /// energy is conserved; its integral is the energy ledger's other side.
+    /// The rate of change of the energy: −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q − Σ λ_β A_β, or ∂H/∂t + Σ force
+    /// ∂H/∂p.
+    ///
+    /// It is exactly zero where energy is conserved. Its integral is the other side of the energy
+    /// balance.
     pub energy_rate: Expr,
     /// d(action)/dt = L (for a Hamiltonian system Σ p ∂H/∂p − H).
     pub action_rate: Expr,
-    /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian); q̇ then ṗ (Hamiltonian).
+    /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian), or q̇ then ṗ
+    /// (Hamiltonian).
     pub solved: Result<Vec<Expr>, NoClosedForm>,
-    /// What the motion is held to.
+    /// The constraints on the motion.
     pub constraints: Vec<ConstraintRow>,
     /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
     pub multipliers: Result<Vec<Expr>, NoClosedForm>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
-    /// What is conserved, and why.
+    /// The conserved quantities, each with its reason.
     pub conserved: Vec<Conserved>,
-    /// H = T(p) + V(q, t) where it splits so and no force acts: what splitting methods need.
+    /// H = T(p) + V(q, t), if H separates in this way and no force acts. Splitting methods need it.
     pub separable: Result<Separable, NoClosedForm>,
-    /// What goes beside the motion.
+    /// What accompanies the equations of motion.
     pub supplements: Supplements,
 }
 
-/// What is integrated, seen or known beside the equations of motion, and has no part in them.
+/// What is integrated, drawn or derived alongside the equations of motion without affecting them.
 #[derive(Clone, Debug, Default)]
 pub struct Supplements {
-    /// Numbers that are integrated beside the motion and do not act on it.
+    /// Numbers that are integrated alongside the motion and do not act on it.
     pub auxiliary: Vec<Auxiliary>,
-    /// The wrong mechanics beside the right, where the file asks for it.
+    /// The vakonomic comparison motion, if the file asks for it.
     pub vakonomic: Option<Vakonomic>,
     /// The particles of each frame, as seen from it.
     pub frames: Vec<Vec<Apparent>>,
-    /// The body of the file, put together.
+    /// The body of the file, assembled from its pieces.
     pub body: Option<RigidBody>,
-    /// The matrix of its attitude, where that follows from Euler's angles.
+    /// The attitude matrix of the body, if it follows from Euler's angles.
     pub attitude: Option<Tensor>,
-    /// The symbols of the matrix, by rows.
+    /// The symbols of the attitude matrix, by rows.
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
 }
 
 impl Supplements {
-    /// Nothing yet, but for the symbols that the model's attitude has.
+    /// Returns supplements that are empty except for the symbols of the model's attitude.
     pub(super) fn of(model: &Model) -> Supplements {
         let attitude_symbols = model.attitude.as_ref().map(|a| a.matrix);
         Supplements { attitude_symbols, ..Supplements::default() }
@@ -87,7 +92,7 @@ pub struct CoordinateSymbols {
     pub momentum: Symbol,
 }
 
-/// One constraint Σ A_α q̇_α + A = 0 as the equations of motion need it.
+/// One constraint Σ A_α q̇_α + A = 0 in the form that the equations of motion need.
 #[derive(Clone, Debug)]
 pub struct ConstraintRow {
     /// Its name in the file.
@@ -98,39 +103,39 @@ pub struct ConstraintRow {
     pub row: Vec<Expr>,
     /// A(q, t): ∂f/∂t of a holonomic constraint.
     pub rate: Expr,
-    /// γ(q, q̇, t) of A q̈ = γ, which follows by d/dt.
+    /// γ(q, q̇, t) of A q̈ = γ, the time derivative of the constraint.
     pub bias: Expr,
-    /// f(q, t), where the constraint is holonomic.
+    /// f(q, t), if the constraint is holonomic.
     pub position: Option<Expr>,
 }
 
-/// Numbers that are integrated beside the motion: functions of the state, of themselves and of t.
+/// Numbers that are integrated alongside the motion: functions of the state, of themselves and of
+/// t.
 #[derive(Clone, Debug)]
 pub struct Auxiliary {
-    /// What they are called, in the order in which a state carries them.
+    /// Their symbols, in the order in which a state carries them.
     pub symbols: Vec<Symbol>,
     /// Their rates of change.
     pub rates: AuxiliaryRates,
-    /// Their values at the start, of the state there and the parameters.
+    /// Their initial values, in terms of the initial state and the parameters.
     pub initial: AuxiliaryRates,
 }
 
-/// As many expressions as there are numbers: some as they stand, then the solution of linear
-/// equations.
+/// One expression for each number: first explicit ones, then the solution of linear equations.
 #[derive(Clone, Debug)]
 pub struct AuxiliaryRates {
-    /// The first ones.
+    /// The explicit expressions.
     pub plain: Vec<Expr>,
-    /// The matrix of the others.
+    /// The matrix of the linear equations for the others.
     pub matrix: Vec<Vec<Expr>>,
-    /// Its right side.
+    /// The right-hand side of these equations.
     pub right: Vec<Expr>,
 }
 
-/// The wrong mechanics beside the right.
+/// The vakonomic comparison motion.
 #[derive(Clone, Debug)]
 pub struct Vakonomic {
-    /// L with the constraints put into it.
+    /// L with the constraints substituted into it.
     pub lagrangian: Result<Expr, NoClosedForm>,
 }
 
@@ -160,64 +165,64 @@ pub enum Flow {
     },
 }
 
-/// The most pieces a solved or transformed expression may have and still be worth writing down.
+/// The largest number of nodes at which a solved or transformed expression is still reported.
 pub const CLOSED_FORM_LIMIT: u64 = 10_000;
 
 /// A particle as seen from a frame.
 #[derive(Clone, Debug)]
 pub struct Apparent {
-    /// r', where it is.
+    /// r', its position.
     pub at: Point,
-    /// v', how fast it goes there.
+    /// v', its velocity in the frame.
     pub velocity: Point,
     /// −m ω×(ω×r').
     pub centrifugal: Point,
     /// −2m ω×v'.
     pub coriolis: Point,
-    /// −m ω'×r'; zero where the frame turns evenly.
+    /// −m ω'×r'; zero if the frame rotates uniformly.
     pub euler: Point,
-    /// −m R(−α) o''; zero where the origin is not accelerated.
+    /// −m R(−α) o''; zero if the origin is not accelerated.
     pub dragging: Point,
 }
 
-/// Something conserved.
+/// A conserved quantity.
 #[derive(Clone, Debug)]
 pub struct Conserved {
     /// `energy`, `p_phi`, or an observable's name.
     pub name: String,
-    /// As a function of the state.
+    /// The quantity as a function of the state.
     pub expression: Expr,
-    /// Why.
+    /// Why it is conserved.
     pub reason: Reason,
 }
 
-/// Why something is conserved.
+/// Why a quantity is conserved.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Reason {
-    /// ∂L/∂q_i = 0 and no force on it; holds the coordinate's shown name.
+    /// ∂L/∂q_i = 0 and no force acts on q_i. Carries the coordinate's display name.
     Cyclic(String),
-    /// ∂L/∂t = 0 (or ∂H/∂t = 0, as the letter says) and nothing dissipates or drives.
+    /// ∂L/∂t = 0 (or ∂H/∂t = 0, according to the letter) and nothing dissipates or drives.
     TimeTranslation(char),
-    /// Moving these coordinates together changes nothing; holds their shown names.
+    /// A common translation of these coordinates changes nothing. Carries their display names.
     Translation(String),
-    /// Turning these angles together changes nothing; holds their shown names.
+    /// A common rotation of these angles changes nothing. Carries their display names.
     CommonRotation(String),
-    /// Turning all points about this axis changes nothing.
+    /// A rotation of all points about this axis changes nothing.
     Rotation(char),
     /// It has zero bracket with everything, and no force changes it.
     Casimir,
     /// dG/dt = 0 along the motion, proved symbolically.
     Proved,
-    /// The same where the motion is Hamilton's and nothing else acts: \[G, H\] + ∂G/∂t = 0.
+    /// The same, for a Hamiltonian motion on which nothing else acts: \[G, H\] + ∂G/∂t = 0.
     Commutes,
-    /// dG/dt = 0 wherever the constraints hold, proved symbolically.
+    /// dG/dt = 0 wherever the constraints are satisfied, proved symbolically.
     ProvedOnConstraints,
-    /// dG/dt = 0 to rounding at points of all magnitudes, no proof found, and nothing in it that a
-    /// few points might not show.
+    /// dG/dt = 0 to rounding at points of all magnitudes. No proof was found, but nothing in the
+    /// rate could escape a few points.
     Numerically,
-    /// The file says so; the drift is what there is to see.
+    /// The file declares it; the numerical drift shows how well it holds.
     Declared,
-    /// For this reason, but an impulse of the file changes it.
+    /// Conserved for this reason, except that an impulse of the file changes it.
     BetweenImpulses(Box<Reason>),
 }
 
@@ -236,7 +241,8 @@ pub struct Separable {
 pub struct NoClosedForm(pub String);
 
 impl Equations {
-    /// Whether the state holds velocities (Lagrangian) or momenta (Hamiltonian).
+    /// Returns whether the state consists of positions and velocities (Lagrangian) rather than
+    /// momenta.
     pub fn is_lagrangian(&self) -> bool {
         matches!(self.flow, Flow::Lagrange { .. })
     }
@@ -256,7 +262,7 @@ impl CoordinateSymbols {
 }
 
 impl Reason {
-    /// Whether it is proved: not the file's word, nor only values.
+    /// Returns whether it is proved, not merely declared or found numerically.
     pub fn is_proved(&self) -> bool {
         match self {
             Reason::Declared | Reason::Numerically => false,
@@ -265,7 +271,7 @@ impl Reason {
         }
     }
 
-    /// Whether there is only the file's word for it.
+    /// Returns whether it rests on the file's declaration alone.
     pub fn is_declared(&self) -> bool {
         match self {
             Reason::Declared => true,

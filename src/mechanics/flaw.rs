@@ -1,16 +1,16 @@
-//! Something false in what a file says of its brackets or its body, found by what follows from it.
+//! A false statement in a file about its brackets or its body, discovered from its consequences.
 //!
-//! In: a place and words. Out: a [`StructureError`]. Never here: what is looked for.
+//! In: a place and a message. Out: a [`StructureError`]. Never here: the checks themselves.
 
 use crate::diagnostic::SourceRange;
 
-/// Something false in what a file says of its brackets or its body.
+/// A false statement in a file about its brackets or its body.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct StructureError {
-    /// Where it stands in the file.
+    /// Its place in the file.
     pub place: SourceRange,
     /// What is false.
     pub message: String,
-    /// What it is instead.
+    /// The correct value.
     pub help: String,
 }

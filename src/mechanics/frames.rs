@@ -1,7 +1,9 @@
-//! Frames that turn: where a particle is as seen from one, and the forces that seem to act on it there.
+//! Rotating frames: the position of a particle as seen from one, and the apparent forces on it
+//! there.
 //!
-//! In: the frames of a model, whose angle and origin may depend on q and t. Out: an [`Apparent`] for each particle of
-//! each frame, of (q, q̇, q̈, t). Never here: forces that somebody exerts, or drawing.
+//! In: the frames of a model, whose angle and origin may depend on q and t. Out: an [`Apparent`]
+//! for each particle of each frame, as a function of (q, q̇, q̈, t). Never here: real forces, or
+//! drawing.
 //! Source: *The Principles of Dynamics*, § 2.1.1: with ω = α' n,
 //!
 //! ```text
@@ -15,7 +17,7 @@ use super::equations::{Apparent, Equations};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Frame, Model, Point};
 
-/// Every particle of every frame, seen from it.
+/// The particles of every frame as seen from it.
 pub(super) fn find(model: &Model, equations: &mut Equations) -> Vec<Vec<Apparent>> {
     let seen = |frame: &Frame| {
         let particles = if frame.attitude { &[] } else { &frame.particles[..] };

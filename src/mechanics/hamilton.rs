@@ -8,8 +8,8 @@ use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
-/// All that follows from H(q, p, t) and what is added to ṗ, but for the invariants. The pool
-/// field of the result is empty: the caller moves `pool` in.
+/// Everything that follows from H(q, p, t) and the forces added to ṗ, except the invariants. The
+/// pool field of the result is empty: the caller moves `pool` in.
 pub(super) fn equations(
     pool: &mut Pool,
     model: &Model,
@@ -67,10 +67,11 @@ pub(super) fn equations(
     }
 }
 
-/// Why a motion with forces does not follow from H alone.
+/// The reason why a motion with forces does not follow from H alone.
 pub(super) const FORCED: &str = "a force acts that does not come from H";
 
-/// H = T(p) + V(q, t), where it splits so and nothing else acts; `others` says what does.
+/// Separates H = T(p) + V(q, t), if that is possible and nothing else acts; `others` names what
+/// does.
 pub(super) fn separate(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
@@ -111,8 +112,8 @@ pub(super) fn separate(
     Ok(Separable { velocities, momentum_rates })
 }
 
-/// An expression that is known not to vary with `symbols`, with those set to one: it may hold them
-/// still, where they cancel.
+/// An expression that is known not to vary with `symbols`, with those set to one: it may still
+/// contain them if they cancel.
 fn without(pool: &mut Pool, e: Expr, symbols: &[Symbol]) -> Expr {
     if !pool.depends_on_any(e, symbols) {
         return e;

@@ -1,5 +1,5 @@
-//! What is conserved, found symbolically and never asked of the user: cyclic momenta, the energy,
-//! the momenta of common translations and rotations (`symmetry`), and those of the file's
+//! Finds conserved quantities symbolically, without input from the user: cyclic momenta, the
+//! energy, the momenta of common translations and rotations (`symmetry`), and those of the file's
 //! observables whose rate of change vanishes.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
 
@@ -62,7 +62,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     } else if !jumps {
         symmetry::find(equations, model, &rates);
     }
-    // what follows from a constraint does no longer once that is let go
+    // a consequence of a constraint is lost once the constraint is released
     let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
     for observable in &model.observables {
         name_observable(equations, model, observable, released);
@@ -75,7 +75,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     }
 }
 
-/// Whether an impulse of the file may change a quantity.
+/// Returns whether an impulse of the file may change a quantity.
 fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -> bool {
     let after_impulse =
         |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
@@ -91,20 +91,21 @@ fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -
     (0..equations.coordinates.len()).any(|i| after_impulse(i) && depends(i))
 }
 
-/// Whether nothing but the law acts: no forces, no dissipation, no constraints.
+/// Returns whether nothing but the law acts: no forces, no dissipation, no constraints.
 fn is_free(model: &Model) -> bool {
     model.constraints.is_empty()
         && model.mechanics.dissipation() == Expr::ZERO
         && model.mechanics.forces().iter().all(|&force| force == Expr::ZERO)
 }
 
-/// What is proved of a quantity whose rate vanishes: by the bracket where the motion is Hamilton's.
+/// The reason for a quantity whose rate is proved to vanish: by the bracket if the motion is
+/// Hamiltonian.
 fn proved(equations: &Equations, model: &Model) -> Reason {
     if is_free(model) && equations.hamiltonian.is_ok() { Reason::Commutes } else { Reason::Proved }
 }
 
-/// Why the energy's rate vanishes: as the law does not hold the time and nothing else acts but
-/// constraints at rest, or as whatever does balances.
+/// Why the energy's rate vanishes: either the law does not contain the time and nothing else acts
+/// except scleronomic constraints, or the contributions balance.
 fn energy_reason(equations: &mut Equations, model: &Model) -> Reason {
     let (_, law) = model.mechanics.function();
     let explicit = equations.pool.derivative(law, equations.symbols.time);
@@ -118,7 +119,8 @@ fn energy_reason(equations: &mut Equations, model: &Model) -> Reason {
     }
 }
 
-/// dC/dt = ∇C · f for a Casimir: H does not move it. Zero exactly where it is proved to vanish.
+/// dC/dt = ∇C · f for a Casimir, which H does not change. The result is exactly zero if it is
+/// proved to vanish.
 pub fn casimir_rate(equations: &mut Equations, casimir: Expr, forces: &[Expr]) -> Expr {
     let variables = equations.coordinates.iter().map(|c| c.position);
     let seeds: Vec<(Symbol, Expr)> = variables.zip(forces.iter().copied()).collect();
@@ -130,8 +132,8 @@ pub fn casimir_rate(equations: &mut Equations, casimir: Expr, forces: &[Expr]) -
     }
 }
 
-/// Adds an observable that is conserved. One that was found already, as the momentum of a
-/// symmetry, only gives it the file's own name.
+/// Adds a conserved observable. If it has already been found, as the momentum of a symmetry, it
+/// only receives the file's name.
 fn name_observable(
     equations: &mut Equations,
     model: &Model,
@@ -165,7 +167,7 @@ fn name_observable(
     equations.conserved.push(Conserved { name: observable.name.clone(), expression, reason });
 }
 
-/// Whether the i-th coordinate does not appear in L (or H), or to no effect.
+/// Returns whether the i-th coordinate does not appear in L (or H), or has no effect there.
 fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
     let (_, f) = model.mechanics.function();
     let position = model.coordinates[i].position;
@@ -176,19 +178,19 @@ fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
     equations.pool.is_zero(slope) == Zero::Proved
 }
 
-/// How the conservation of a quantity is known.
+/// How it is known that a quantity is conserved.
 enum Known {
-    /// Its rate vanishes by proof.
+    /// Its rate is proved to vanish.
     Always,
-    /// Its rate vanishes by proof where the constraints hold.
+    /// Its rate is proved to vanish where the constraints are satisfied.
     OnConstraints,
     /// Its rate is zero to rounding.
     ByValues,
 }
 
 impl Equations {
-    /// How it is known that an observable is conserved, if it is. Where constraints may be
-    /// `released`, only what holds for whatever forces they exert counts.
+    /// How it is known that an observable is conserved, or `None` if it is not. If constraints may
+    /// be `released`, only what holds for any constraint forces counts.
     fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<Known> {
         if self.may_jump(observable) {
             return None;
@@ -218,7 +220,7 @@ impl Equations {
         }
     }
 
-    /// Whether dG/dt = 0 along the motion, for G as an observable is written; `None` where the
+    /// Whether dG/dt = 0 along the motion, for G written as an observable is. Returns `None` if the
     /// rate is not known in closed form.
     pub fn is_conserved(&mut self, observable: Expr) -> Option<Zero> {
         if self.may_jump(observable) {
@@ -236,8 +238,9 @@ impl Equations {
         }
     }
 
-    /// Whether an observable may jump, so that its rate does not say all: it, or the law by which
-    /// it is conserved, holds a sign or an angle of what is not constant.
+    /// Returns whether an observable may jump, so that its rate is not the whole answer: the
+    /// observable, or the law by which it is conserved, contains a sign or an angle of something
+    /// that is not constant.
     pub(super) fn may_jump(&mut self, observable: Expr) -> bool {
         if self.law_jumps() {
             return true;
@@ -258,7 +261,7 @@ impl Equations {
         })
     }
 
-    /// Whether L (or H) has a step, where the force is an impulse that no derivative shows.
+    /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
     fn law_jumps(&self) -> bool {
         let given = [&self.lagrangian, &self.hamiltonian];
         let law = if self.is_lagrangian() { given[0] } else { given[1] };
@@ -272,9 +275,9 @@ impl Equations {
         })
     }
 
-    /// dG/dt of a function of q, p, t and the energy of a Lagrangian system by ṗ and Ė as they
-    /// stand, for which no acceleration has to be solved for: in the symbols of q, q̇, p, t and λ.
-    /// `None` for anything else.
+    /// dG/dt of a function of q, p, t and the energy of a Lagrangian system, in the symbols of q,
+    /// q̇, p, t and λ. It uses ṗ and Ė directly, so no acceleration has to be solved for. Returns
+    /// `None` for any other function.
     fn rate_by_momenta(&mut self, observable: Expr) -> Option<Expr> {
         let Flow::Lagrange { momentum_rates, .. } = &self.flow else { return None };
         let momentum_rates = momentum_rates.clone();
@@ -302,11 +305,11 @@ impl Equations {
         Some(self.pool.substitute(rate, &opened))
     }
 
-    /// dG/dt along the motion, in the variables of the state; `None` where the accelerations are
-    /// not known in closed form or G holds the action.
+    /// dG/dt along the motion, in the variables of the state. Returns `None` if the accelerations
+    /// are not known in closed form or G contains the action.
     pub fn rate_of(&mut self, observable: Expr) -> Option<Expr> {
         if let Some(rate) = self.rate_by_momenta(observable) {
-            // the multipliers, if there are any, as they follow from the state
+            // the multipliers, if any, as functions of the state
             let multipliers: Vec<Symbol> = self.constraints.iter().map(|c| c.multiplier).collect();
             if !self.pool.depends_on_any(rate, &multipliers) {
                 return Some(rate);

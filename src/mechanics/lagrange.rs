@@ -9,7 +9,7 @@ use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
-/// All that follows from L(q, q̇, t), Rayleigh's F(q, q̇, t) and the forces Q, but for the
+/// Everything that follows from L(q, q̇, t), Rayleigh's F(q, q̇, t) and the forces Q, except the
 /// invariants. The pool field of the result is empty: the caller moves `pool` in.
 pub(super) fn equations(
     pool: &mut Pool,
@@ -114,8 +114,8 @@ pub(super) fn equations(
     }
 }
 
-/// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, term by term, so that what is homogeneous in the velocities keeps
-/// its form: a term of degree d gives d − 1 times itself (Euler).
+/// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, term by term, so that terms homogeneous in the velocities keep
+/// their form: a term of degree d gives d − 1 times itself (Euler).
 fn energy_function(pool: &mut Pool, coordinates: &[CoordinateSymbols], lagrangian: Expr) -> Expr {
     let scaled: Vec<(Symbol, Expr)> =
         coordinates.iter().map(|c| (c.velocity, pool.variable(c.velocity))).collect();

@@ -1,4 +1,4 @@
-//! The Legendre transform, both ways, where it exists in closed form.
+//! The Legendre transform in both directions, where it exists in closed form.
 //! Source: *The Principles of Dynamics*, § 3.1.1.
 
 mod root;
@@ -11,7 +11,7 @@ use super::{CLOSED_FORM_LIMIT, linear};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::num::Number;
 
-/// A transform and, where it is short enough, the old variables in terms of the new.
+/// A transform and, if they are short enough, the old variables in terms of the new.
 type Transformed = (Expr, Result<Vec<Expr>, NoClosedForm>);
 
 /// H(q, p, t) and q̇(q, p, t) from L(q, q̇, t).
@@ -19,8 +19,8 @@ type Transformed = (Expr, Result<Vec<Expr>, NoClosedForm>);
 /// For L = ½ q̇·M q̇ + b·q̇ + L₀: q̇ = M⁻¹(p − b) and H = ½ (p − b)·q̇ − L₀.
 ///
 /// # Errors
-/// Where L is neither quadratic in the velocities nor a root of such (a relativistic particle), M
-/// is singular, or the result is too long to write.
+/// Returns an error if L is neither quadratic in the velocities nor a root of a quadratic form (a
+/// relativistic particle), M is singular, or the result is too long to write.
 pub fn lagrangian_to_hamiltonian(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
@@ -33,11 +33,11 @@ pub fn lagrangian_to_hamiltonian(
         .or_else(|why| root::transform(pool, &from, &to, lagrangian).ok_or(why))
 }
 
-/// L(q, q̇, t) from H(q, p, t): the same transform the other way.
+/// L(q, q̇, t) from H(q, p, t): the inverse transform.
 ///
 /// # Errors
-/// Where H is neither quadratic in the momenta nor a root of such, ∂²H/∂p² is singular, or the
-/// result is too long to write.
+/// Returns an error if H is neither quadratic in the momenta nor a root of a quadratic form,
+/// ∂²H/∂p² is singular, or the result is too long to write.
 pub fn hamiltonian_to_lagrangian(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
@@ -109,7 +109,7 @@ fn transform(
     Ok((transformed, solution.x))
 }
 
-/// `e` without the symbols, if it does not vary with them.
+/// `e` with the symbols removed, if it does not vary with them.
 fn constant_in(pool: &mut Pool, e: Expr, symbols: &[Symbol]) -> Option<Expr> {
     if !pool.depends_on_any(e, symbols) {
         return Some(e);

@@ -1,25 +1,26 @@
-//! Symbolic solution of A x = b for the matrices of mechanics: elimination on the simplest pivot
-//! first (a constant on the diagonal before anything that moves), every entry simplified, given
-//! up as soon as it is too long to be read.
+//! Symbolic solution of A x = b for the matrices of mechanics.
+//!
+//! Elimination uses the simplest pivot first (a constant on the diagonal before anything variable)
+//! and simplifies every entry. It gives up as soon as an entry is too long to be read.
 
 use super::equations::CLOSED_FORM_LIMIT;
 use super::equations::NoClosedForm;
 use crate::expr::{Expr, Pool, Zero};
 use crate::num::Number;
 
-/// A x = b, solved.
+/// The solution of A x = b.
 pub(super) struct Solution {
-    /// x, where it is short enough to be read.
+    /// x, if it is short enough to be read.
     pub(super) x: Result<Vec<Expr>, NoClosedForm>,
-    /// Where every pivot stood on the diagonal: b̃_k and d_k of b·A⁻¹b = Σ b̃_k²/d_k for
-    /// symmetric A, the sum of squares that elimination leaves.
+    /// b̃_k and d_k of b·A⁻¹b = Σ b̃_k²/d_k for symmetric A, the sum of squares that elimination
+    /// leaves; `None` if a pivot was not on the diagonal.
     pub(super) squares: Option<Vec<(Expr, Expr)>>,
 }
 
 /// Solves A x = b.
 ///
 /// # Errors
-/// Where A is singular, or an entry grows beyond [`CLOSED_FORM_LIMIT`] nodes.
+/// Returns an error if A is singular, or an entry grows beyond [`CLOSED_FORM_LIMIT`] nodes.
 pub(super) fn solve(
     pool: &mut Pool,
     a: &[Vec<Expr>],
@@ -54,7 +55,7 @@ pub(super) fn solve(
     Ok(Solution { x, squares })
 }
 
-/// x from the triangle that elimination leaves.
+/// Solves for x from the triangular system that elimination leaves.
 fn substitute_back(
     pool: &mut Pool,
     a: &[Vec<Expr>],
@@ -95,7 +96,7 @@ fn bounded(pool: &mut Pool, e: Expr) -> Result<Expr, NoClosedForm> {
     Ok(simpler)
 }
 
-/// The simplest entry that does not vanish, one on the diagonal before others.
+/// The simplest nonvanishing entry; entries on the diagonal take precedence.
 fn pivot(
     pool: &mut Pool,
     a: &[Vec<Expr>],
@@ -115,7 +116,7 @@ fn pivot(
     for (_, _, i, j) in candidates {
         match pool.is_zero(a[i][j]) {
             Zero::No => return Some((i, j)),
-            // its values are not known to be 0, nor not to be
+            // it is not known whether its values are 0
             Zero::Unknown => doubtful = doubtful.or(Some((i, j))),
             Zero::Numerically | Zero::Proved => {}
         }

@@ -1,5 +1,5 @@
-//! What vanishes wherever the constraints hold: velocities and positions eliminated by them, one
-//! each, until nothing is left.
+//! Tests for vanishing on the constraints: each constraint eliminates a velocity and a position
+//! until nothing is left.
 //!
 //! In: a rate of change in (q, q̇, t). Out: whether it is proved to vanish on the constraints.
 //! Never here: numbers.
@@ -9,24 +9,24 @@ use std::collections::HashMap;
 use super::equations::Equations;
 use crate::expr::{Expr, Symbol, Zero};
 
-/// A rate heavier than this is not tried.
+/// The largest weight of a rate for which this is tried.
 const WEIGHT_LIMIT: u64 = 4_000;
 
-/// How often what remains is brought back to a normal form.
+/// The number of times the remainder is brought back to a normal form.
 const ROUNDS: usize = 4;
 
-/// A coordinate that a holonomic constraint fixes.
+/// A coordinate that a holonomic constraint determines.
 enum Fixed {
-    /// q = this.
+    /// q equals this expression.
     Value(Symbol, Expr),
-    /// q² = this.
+    /// q² equals this expression.
     Square(Symbol, Expr),
 }
 
 impl Equations {
-    /// Whether a function of (q, q̇, t) is proved to vanish wherever the constraints hold. What was
-    /// divided by on the way is not zero identically, so that the proof holds but for
-    /// configurations that are singular.
+    /// Returns whether a function of (q, q̇, t) is proved to vanish wherever the constraints are
+    /// satisfied. No divisor used on the way is identically zero, so the proof is valid except at
+    /// singular configurations.
     pub(super) fn vanishes_on_constraints(&mut self, rate: Expr) -> bool {
         if self.constraints.is_empty() || self.pool.weight(rate) > WEIGHT_LIMIT {
             return false;
@@ -59,7 +59,8 @@ impl Equations {
         false
     }
 
-    /// One velocity for each constraint, in those that are left; to be put in in this order.
+    /// One velocity for each constraint, in terms of the remaining ones; to be substituted in this
+    /// order.
     fn fixed_velocities(&mut self) -> Vec<(Symbol, Expr)> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.velocity).collect();
         let mut fixed: Vec<(Symbol, Expr)> = Vec::new();
@@ -90,7 +91,8 @@ impl Equations {
         fixed
     }
 
-    /// A coordinate for each holonomic constraint that is linear in one, or holds its square only.
+    /// A coordinate for each holonomic constraint that is linear in it, or contains only its
+    /// square.
     fn fixed_positions(&mut self) -> Vec<Fixed> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.position).collect();
         let held: Vec<Expr> = self.constraints.iter().filter_map(|c| c.position).collect();

@@ -1,5 +1,5 @@
-//! Observables in the variables of the state: `energy`, momenta beside a Lagrangian, velocities
-//! and accelerations beside a Hamiltonian are opened.
+//! Observables in the variables of the state: `energy`, the momenta of a Lagrangian system, and the
+//! velocities and accelerations of a Hamiltonian one are replaced by their expressions.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use super::equations::{Equations, Flow};
 use crate::expr::{Expr, Symbol};
 
 impl Equations {
-    /// What time, coordinates and momenta (or variables) change by, for a flow that is of first
+    /// The rates of change of time, coordinates and momenta (or variables), for a flow of first
     /// order in time.
     pub fn along_the_flow(&self) -> Vec<(Symbol, Expr)> {
         let mut seeds = vec![(self.symbols.time, Expr::ONE)];
@@ -26,14 +26,14 @@ impl Equations {
         seeds
     }
 
-    /// What the entries of an attitude's matrix are by Euler's angles.
+    /// The entries of an attitude matrix in terms of Euler's angles.
     pub fn attitude_map(&self) -> HashMap<Symbol, Expr> {
         let symbols = self.supplements.attitude_symbols.iter().flat_map(|m| m.concat());
         symbols.zip(self.supplements.attitude.iter().flat_map(|m| m.concat())).collect()
     }
 
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a
-    /// Lagrangian system, of (q, p, t) for a Hamiltonian one. The symbol `action` stays.
+    /// Lagrangian system, of (q, p, t) for a Hamiltonian one. The symbol `action` remains.
     pub fn open(&mut self, observable: Expr) -> Expr {
         let energy = HashMap::from([(self.symbols.energy, self.energy)]);
         let e = self.pool.substitute(observable, &energy);

@@ -1,4 +1,4 @@
-//! Motion by brackets of variables that are no coordinates and momenta: ẋ = {x, H} + force.
+//! Motion given by brackets of variables that are not canonical: ẋ = {x, H} + force.
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
 use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Supplements};
@@ -6,8 +6,8 @@ use super::slope::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;
 
-/// All that follows from H(x, t), the brackets {x_i, x_j} and what is added to each ẋ, but for the
-/// invariants. The pool field of the result is empty: the caller moves `pool` in.
+/// Everything that follows from H(x, t), the brackets {x_i, x_j} and the forces added to each ẋ,
+/// except the invariants. The pool field of the result is empty: the caller moves `pool` in.
 pub(super) fn equations(
     pool: &mut Pool,
     model: &Model,

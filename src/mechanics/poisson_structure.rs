@@ -1,8 +1,9 @@
-//! Whether given brackets are a Poisson structure (Jacobi's identity), and given Casimirs are
-//! Casimirs (B ∇C = 0): proved, or to 1e-10 of the size of terms at twenty points near the start.
+//! Checks that given brackets are a Poisson structure (Jacobi's identity), and that given Casimirs
+//! are Casimirs (B ∇C = 0): by proof, or to 1e-10 of the size of the terms at twenty points near
+//! the start.
 //!
-//! In: a Poisson system's model and equations. Out: a [`StructureError`] at its place for each thing that is
-//! false. Never here: antisymmetry, which the reader of files sees to.
+//! In: a Poisson system's model and equations. Out: a [`StructureError`] with its place for each
+//! false statement. Never here: antisymmetry, which the reader of files ensures.
 //! Source: *The Principles of Dynamics*, § 3.2.3; Hairer, Lubich & Wanner, *Geometric Numerical
 //! Integration*, § VII.2.
 
@@ -15,16 +16,16 @@ use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Zero};
 use crate::model::{Mechanics, Model};
 
-/// How far from zero counts as zero, relative to the size of the terms.
+/// Values below this, relative to the size of the terms, count as zero.
 const TOLERANCE: f64 = 1e-10;
 
-/// So many products are multiplied out in search of a proof; beyond, numbers have to do.
+/// The largest number of products multiplied out in search of a proof; beyond it, values decide.
 const PROOF_PRODUCTS: usize = 20_000;
 
-/// An expression of more pieces than this is not reported in a message.
+/// The largest number of nodes of an expression that a message quotes.
 const LONGEST: u64 = 60;
 
-/// What is false in the brackets and Casimirs of a Poisson system, and senseless in a body.
+/// Finds what is false in the brackets and Casimirs of a Poisson system, or meaningless in a body.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let mut flaws = rigid_body::flaws(model, &equations.pool, equations.supplements.body.as_ref());
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
@@ -40,7 +41,7 @@ pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
     flaws
 }
 
-/// The brackets under examination.
+/// The brackets being checked.
 struct Structure<'a> {
     model: &'a Model,
     equations: Equations,
@@ -52,7 +53,7 @@ struct Structure<'a> {
 type Triple = ([usize; 3], Vec<(Expr, Expr)>);
 
 impl Structure<'_> {
-    /// {x_i, {x_j, x_k}} + cyclic = Σ_l B_il ∂_l B_jk + cyclic = 0 for every three variables.
+    /// {x_i, {x_j, x_k}} + cyclic = Σ_l B_il ∂_l B_jk + cyclic = 0 for any three variables.
     fn jacobi(&mut self, place: &SourceRange) -> Option<StructureError> {
         let triples = self.triples();
         let products: usize = triples.iter().map(|(_, terms)| terms.len()).sum();
@@ -101,7 +102,7 @@ impl Structure<'_> {
         None
     }
 
-    /// What a sum of products is, `is x + y`, where it is not zero.
+    /// Describes a sum of products, `is x + y`, if it is not zero.
     fn sum(&mut self, terms: &[(Expr, Expr)], provable: bool) -> Option<String> {
         if terms.is_empty() {
             return None;

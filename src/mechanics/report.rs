@@ -1,8 +1,8 @@
-//! What follows from a law of motion, in the order in which it is reported: the one report behind the text, the typeset
-//! fragment, the object for programs and the page on the screen.
+//! The report on a system: everything that follows from a law of motion, in reporting order. The
+//! text, the LaTeX fragment, the JSON object and the page on the screen are all written from it.
 //!
-//! In: a model and its equations. Out: sections of lines, each an expression with what stands left of it; reasons where
-//! there is none. Never here: how any of it is written.
+//! In: a model and its equations. Out: sections of lines, each an expression with its left-hand
+//! side, or the reason why there is none. Never here: how any of it is written.
 
 use super::conservation::{Classed, classes};
 use super::constrain::with_reactions;
@@ -14,29 +14,30 @@ use crate::expr::{Expr, Symbol};
 use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
 use crate::num::DoubleDouble;
 
-/// What stands left of the sign of equality.
+/// The left-hand side of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Left {
     /// A letter with a fixed meaning: `L`, `H`, `F`, `E`.
     Letter(&'static str),
     /// A symbol of the system.
     Symbol(Symbol),
-    /// The rate of change of a symbol that has none for it.
+    /// The rate of change of a symbol that has no symbol for its rate.
     Rate(Symbol),
-    /// What acts on a variable beside the law: `Q` for a force, `f` for what is added to a rate.
+    /// What acts on a variable in addition to the law: `Q` for a force, `f` for a term added to a
+    /// rate.
     Added(char, Symbol),
     /// The bracket of two variables.
     Bracket(Symbol, Symbol),
-    /// By how much an impulse changes a symbol.
+    /// The jump of a symbol under an impulse.
     Jump(Symbol),
 }
 
-/// An equation to be reported.
+/// A reported equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Line {
-    /// What it is.
+    /// The left-hand side.
     pub left: Left,
-    /// What it equals.
+    /// The right-hand side.
     pub right: Expr,
 }
 
@@ -53,15 +54,15 @@ impl Line {
 /// A constraint with its multiplier.
 #[derive(Clone, Copy, Debug)]
 pub struct Constrained<'a> {
-    /// As in the file.
+    /// The constraint as the file gives it.
     pub constraint: &'a Constraint,
-    /// In terms of the velocities.
+    /// The constraint in terms of the velocities.
     pub row: &'a ConstraintRow,
-    /// λ, where it is known in closed form.
+    /// λ, if it is known in closed form.
     pub multiplier: Option<Expr>,
 }
 
-/// The force of one constraint on one coordinate: a factor times its multiplier.
+/// The force of one constraint on one coordinate: a factor times the multiplier.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Reaction {
     /// The coordinate.
@@ -72,51 +73,51 @@ pub struct Reaction {
     pub multiplier: Symbol,
 }
 
-/// An impulse.
+/// A reported impulse.
 #[derive(Clone, Debug)]
 pub struct ImpulseReport<'a> {
-    /// As in the file.
+    /// The impulse as the file gives it.
     pub impulse: &'a Impulse,
-    /// What it changes.
+    /// The jumps it causes.
     pub changes: Vec<Line>,
 }
 
-/// What a conserved quantity is.
+/// The kind of a conserved quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Constant<'a> {
     /// A momentum.
     Momentum(Symbol),
     /// The energy.
     Energy,
-    /// A Casimir of this name.
+    /// The Casimir of this name.
     Casimir(&'a str),
-    /// Something else of this name.
+    /// Another quantity of this name.
     Other(&'a str),
 }
 
-/// Something conserved.
+/// A conserved quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept<'a> {
-    /// What.
+    /// Its kind.
     pub constant: Constant<'a>,
-    /// As a function of the state.
+    /// The quantity as a function of the state.
     pub expression: Expr,
-    /// Why.
+    /// Why it is conserved.
     pub reason: &'a Reason,
 }
 
-/// A body in numbers, at the file's parameters.
+/// A body in numbers, at the file's values of the parameters.
 #[derive(Clone, Debug)]
 pub struct BodyNumbers {
     /// Its mass.
     pub mass: f64,
     /// Its centre of mass.
     pub centre: [f64; 3],
-    /// Its inertia about the point it turns about.
+    /// Its inertia about the point about which it rotates.
     pub inertia: [[f64; 3]; 3],
     /// The principal moments.
     pub moments: [f64; 3],
-    /// The principal axes, one a row, in the order of the moments.
+    /// The principal axes, one per row, in the order of the moments.
     pub axes: [[f64; 3]; 3],
 }
 
@@ -125,7 +126,7 @@ pub struct BodyNumbers {
 pub struct BodyReport {
     /// Mass, centre of mass, inertia.
     pub lines: Vec<Line>,
-    /// What the principal moments are called.
+    /// The symbols of the principal moments.
     pub moments: [Symbol; 3],
     names: BodyNames,
 }
@@ -133,19 +134,19 @@ pub struct BodyReport {
 /// The report.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
-    /// What the file says.
+    /// The model that the file describes.
     pub model: &'a Model,
-    /// What follows from it.
+    /// The equations derived from the model.
     pub equations: &'a Equations,
     /// The body, if there is one.
     pub body: Option<BodyReport>,
-    /// L or H.
+    /// The law: L or H.
     pub law: Line,
-    /// What must not be below zero where the law holds, though no root is left to say so.
+    /// Expressions that must not be negative for the law to hold, although no root of them remains.
     pub domain: Vec<Expr>,
     /// Rayleigh's function, if there is one.
     pub dissipation: Option<Line>,
-    /// What acts beside the law.
+    /// The forces that act in addition to the law.
     pub forces: Vec<Line>,
     /// The brackets that do not vanish.
     pub brackets: Vec<Line>,
@@ -155,30 +156,30 @@ pub struct Report<'a> {
     pub constraints: Vec<Constrained<'a>>,
     /// Their multipliers, or why these have no closed form.
     pub multipliers: Result<Vec<Line>, &'a NoClosedForm>,
-    /// What the constraints do to the coordinates.
+    /// The forces of the constraints on the coordinates.
     pub reactions: Vec<Reaction>,
     /// The impulses.
     pub impulses: Vec<ImpulseReport<'a>>,
     /// The momenta.
     pub momenta: Vec<Line>,
-    /// What the equations of motion are solved for.
+    /// The quantities for which the equations of motion are solved.
     pub rates: Vec<Left>,
-    /// The equations of motion, solved, or why they are not.
+    /// The solved equations of motion, or why they have no closed form.
     pub motion: Result<Vec<Line>, &'a NoClosedForm>,
     /// H, or why it has no closed form.
     pub hamiltonian: Result<Line, &'a NoClosedForm>,
     /// The energy.
     pub energy: Line,
-    /// The law of its change.
+    /// The rate of change of the energy.
     pub energy_rate: Expr,
-    /// Coordinates that do not occur.
+    /// The cyclic coordinates.
     pub cyclic: Vec<Symbol>,
-    /// What is conserved, and why.
+    /// The conserved quantities, each with its reason.
     pub conserved: Vec<Kept<'a>>,
 }
 
 impl<'a> Report<'a> {
-    /// The report on a system.
+    /// Compiles the report on a system.
     pub fn of(model: &'a Model, equations: &'a Equations) -> Report<'a> {
         let coordinates = &model.coordinates;
         let (name, law) = model.mechanics.function();
@@ -242,7 +243,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// The mass matrix and the forces of M q̈ = f, where L is the law.
+    /// The mass matrix and the forces of M q̈ = f, if the law is a Lagrangian.
     pub fn unsolved(&self) -> Option<(&'a [Vec<Expr>], &'a [Expr])> {
         match &self.equations.flow {
             Flow::Lagrange { mass, force, .. } => Some((mass, force)),
@@ -251,19 +252,19 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What takes longer to find, and is reported only in full.
+/// Results that take longer to find and appear only in the full report.
 #[derive(Clone, Debug)]
 pub struct Further {
-    /// Whether the observables are conserved.
+    /// Whether each observable is conserved.
     pub classes: Vec<Classed>,
-    /// What the mass matrix times the accelerations, or the rates, are equal to: with the forces of constraints.
+    /// The right-hand side of the equations of motion, with the forces of constraint.
     pub right_hand_side: Vec<Expr>,
     /// The rate of change of each Casimir.
     pub casimir_rates: Vec<Expr>,
 }
 
 impl Further {
-    /// Finds it; the equations' pool grows.
+    /// Computes them; the equations' pool grows.
     pub fn of(model: &Model, equations: &mut Equations) -> Further {
         let classes = classes(model, equations);
         let flow = equations.flow.clone();
@@ -287,7 +288,7 @@ impl Further {
     }
 }
 
-/// q̈, or q̇ and then ṗ.
+/// Left-hand sides of the equations of motion: q̈, or q̇ and then ṗ.
 fn rates(model: &Model) -> Vec<Left> {
     let all = model.coordinates.iter();
     if model.is_lagrangian() {
@@ -343,7 +344,7 @@ impl BodyReport {
         Some(BodyReport { lines, moments: names.principal, names })
     }
 
-    /// In numbers, at the file's parameters.
+    /// The body in numbers, at the file's values of the parameters.
     pub fn numbers(&self, model: &Model, equations: &Equations) -> BodyNumbers {
         let (names, whole) = (self.names, equations.supplements.body.as_ref());
         let values = body_values(model, &equations.pool, whole, &model.parameter_values());

@@ -1,8 +1,9 @@
-//! A rigid body from its pieces: mass, centre of mass, inertia tensor about it; its principal
-//! moments and axes.
+//! A rigid body assembled from pieces: its mass, centre of mass, inertia tensor, principal moments
+//! and principal axes.
 //!
-//! In: pieces, each a standard solid placed and turned. Out: a [`RigidBody`] of expressions in the
-//! parameters, and the principal moments of a tensor of numbers. Never here: motion.
+//! In: pieces, each a standard solid with a position and an orientation. Out: a [`RigidBody`] of
+//! expressions in the parameters, and the principal moments of a tensor of numbers. Never here:
+//! motion.
 //! Source: *The Principles of Dynamics*, § 2.2: I_ij = Σ m (r² δ_ij − x_i x_j), so products carry
 //! the minus sign; parallel axes: I = I_cm + M (R² 1 − R Rᵀ).
 
@@ -14,7 +15,7 @@ use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
 use crate::num::{DoubleDouble, Number};
 
-/// A body as a whole.
+/// A rigid body as a whole.
 #[derive(Clone, Debug)]
 pub struct RigidBody {
     /// M.
@@ -25,13 +26,13 @@ pub struct RigidBody {
     pub inertia: [Expr; 6],
 }
 
-/// Rows and columns of the six components.
+/// The row and column of each of the six components.
 pub const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// Nine expressions, by rows.
 pub type Tensor = [[Expr; 3]; 3];
 
-/// Puts a body together.
+/// Assembles a body from its pieces.
 pub(super) fn compose(pool: &mut Pool, body: &Body) -> RigidBody {
     let masses: Vec<Expr> = body.pieces.iter().map(|piece| piece.mass).collect();
     let mass = pool.sum(&masses);
@@ -65,7 +66,7 @@ pub(super) fn compose(pool: &mut Pool, body: &Body) -> RigidBody {
     RigidBody { mass, centre, inertia }
 }
 
-/// The moments of a solid about its centre of mass, along axes of its own.
+/// The principal moments of a solid about its centre of mass, along its own axes.
 ///
 /// With radius a, length l, height h, edges b: ball ⅖Ma², spherical shell ⅔Ma²; cylinder ½Ma² and
 /// ¼Ma² + Ml²/12; tube Ma² and ½Ma² + Ml²/12; cone 3Ma²/10 and 3Ma²/20 + 3Mh²/80; disc ½Ma², ¼Ma²;
@@ -124,7 +125,7 @@ fn turned(pool: &mut Pool, piece: &Piece) -> Tensor {
     tensor
 }
 
-/// The rotation that takes a piece's own axes to the file's: its columns are the own axes.
+/// The rotation from a piece's own axes to the file's; its columns are the piece's axes.
 fn rotation(pool: &mut Pool, turn: &Turn) -> Tensor {
     match turn {
         Turn::None => identity(),
@@ -211,17 +212,17 @@ fn parallel(pool: &mut Pool, mass: Expr, away: Point) -> Tensor {
     })
 }
 
-/// The matrix of six components.
+/// The symmetric matrix with these six components.
 pub fn matrix<T: Copy>(inertia: &[T; 6]) -> [[T; 3]; 3] {
     let [xx, yy, zz, xy, xz, yz] = *inertia;
     [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 
-/// Principal moments, ascending, and their axes, one a row: unit vectors, right-handed.
+/// Principal moments, in ascending order, and their axes, one per row: unit vectors, right-handed.
 ///
-/// The moments of a diagonal tensor are its entries. Others are found by an eigen-decomposition
-/// and made exact to the last digit of an `f64` by Rayleigh's quotient v·Iv / v·v, whose error is
-/// the square of the axis's.
+/// The moments of a diagonal tensor are its entries. Otherwise they come from an eigendecomposition
+/// and are refined to the last digit of an `f64` by the Rayleigh quotient v·Iv / v·v, whose error
+/// is the square of the axis's error.
 pub fn principal(inertia: &[DoubleDouble; 6]) -> ([DoubleDouble; 3], [[f64; 3]; 3]) {
     let tensor = matrix(inertia);
     let mut found: Vec<(DoubleDouble, [f64; 3])> = Vec::new();
@@ -249,7 +250,7 @@ pub fn principal(inertia: &[DoubleDouble; 6]) -> ([DoubleDouble; 3], [[f64; 3]; 
     ([0, 1, 2].map(|k| found[k].0), axes)
 }
 
-/// v·Iv / v·v.
+/// The Rayleigh quotient v·Iv / v·v.
 fn quotient(tensor: &[[DoubleDouble; 3]; 3], axis: [f64; 3]) -> DoubleDouble {
     let v = axis.map(DoubleDouble::from);
     let (mut above, mut below) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
@@ -262,14 +263,14 @@ fn quotient(tensor: &[[DoubleDouble; 3]; 3], axis: [f64; 3]) -> DoubleDouble {
     above / below
 }
 
-/// The axis or its opposite: the one whose largest component is positive.
+/// Returns the axis or its opposite, whichever has a positive component of largest magnitude.
 fn upright(axis: [f64; 3]) -> [f64; 3] {
     let largest = axis.iter().copied().fold(0.0, |a: f64, x| if x.abs() > a.abs() { x } else { a });
     if largest < 0.0 { axis.map(|x| 0.0 - x) } else { axis }
 }
 
-/// What a body's names stand for at these parameters, in the order of
-/// [`BodyNames::all`](crate::model::BodyNames::all); nothing where there is no body.
+/// The values of a body's names at these parameters, in the order of
+/// [`BodyNames::all`](crate::model::BodyNames::all); empty if there is no body.
 pub fn body_values(
     model: &Model,
     pool: &Pool,
@@ -289,7 +290,7 @@ pub fn body_values(
     names.all().into_iter().zip(all).collect()
 }
 
-/// The same before anything is derived.
+/// The same values, computed before anything is derived.
 pub fn body_constants(model: &Model, parameters: &[f64]) -> Vec<(Symbol, f64)> {
     let Some(body) = &model.body else { return Vec::new() };
     let mut pool = model.pool.clone();
@@ -304,8 +305,8 @@ pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| rotation[j][i]))
 }
 
-/// What is senseless in a body at the file's parameters: negative sizes, no mass, an axis without
-/// direction.
+/// Finds what is physically meaningless in a body at the file's parameters: negative sizes, no
+/// mass, an axis without direction.
 pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<StructureError> {
     let (Some(body), Some(whole)) = (&model.body, whole) else { return Vec::new() };
     let known = Valuation::of_parameters(model, &model.parameter_values());

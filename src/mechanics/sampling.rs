@@ -1,8 +1,8 @@
-//! Valuations of phase space near the start: where an identity that no proof is found for is held
-//! against numbers.
+//! Points of phase space near the start, at which identities without a proof are checked
+//! numerically.
 //!
-//! In: a model with its equations. Out: values for every symbol of q, q̇, p, t and the parameters,
-//! the same for everybody; on request they obey the constraints. Never here: motion.
+//! In: a model with its equations. Out: reproducible values for every symbol of q, q̇, p, t and the
+//! parameters, which satisfy the constraints on request. Never here: motion.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,24 +12,26 @@ use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
 use crate::model::Model;
 
-/// How many points an identity has to hold at.
+/// The number of points at which an identity has to hold.
 pub const POINTS: usize = 20;
 
-/// So many are tried to find that many.
+/// The number of points tried in order to find that many.
 pub const TRIES: u64 = 400;
 
-/// How far the points are from the start, in turn, on the scale of the largest start of their kind.
+/// The distances of the points from the start, in turn, relative to the largest initial value of
+/// their kind.
 const WIDTHS: [f64; 4] = [1.0, 0.1, 1.0, 0.01];
 
-/// The scales tried in turn where all coordinates, or all velocities, start at 0.
+/// The scales tried in turn if all coordinates, or all velocities, start at 0.
 const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
 
-/// A point is on the constraints when it is moved by no more than this part of its size.
+/// A point is on the constraints if a correction moves it by no more than this fraction of its
+/// size.
 const SETTLED: f64 = 1e-14;
 
 impl Valuation {
     /// The n-th point near the start, at the file's parameters. The momenta of a Lagrangian system
-    /// are those of its velocities, the velocities of any other those of its state.
+    /// follow from its velocities; the velocities of any other system follow from its state.
     pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
         let parameters = model.parameter_values();
         let body = equations.supplements.body.as_ref();
@@ -50,7 +52,7 @@ impl Valuation {
         point.set(model.symbols.time, time);
         let largest = |of: fn(&(f64, f64)) -> f64| {
             let size = starts.iter().map(|start| of(start).abs()).fold(0.0, f64::max);
-            // where everything starts at 0 nothing says how large it will be
+            // if everything starts at 0, nothing indicates how large it will become
             if size > 0.0 { size } else { SIZES[(n % SIZES.len() as u64) as usize] }
         };
         let (length, speed) = (largest(|start| start.0), largest(|start| start.1));
@@ -73,12 +75,13 @@ impl Valuation {
     }
 }
 
-/// How often a point is moved towards the constraints.
+/// The largest number of corrections towards the constraints.
 const CORRECTIONS: usize = 40;
 
 impl Valuation {
-    /// The n-th point near the start that obeys the constraints, moved onto them the shortest way
-    /// (positions by Newton's method, then velocities); `None` where that does not succeed.
+    /// The n-th point near the start that satisfies the constraints, projected onto them along the
+    /// shortest path (positions by Newton's method, then velocities). Returns `None` if that does
+    /// not succeed.
     pub fn on_constraints(model: &Model, equations: &Equations, n: u64) -> Option<Valuation> {
         let mut point = Valuation::near_start(model, equations, n);
         let rows = &equations.constraints;
@@ -116,9 +119,8 @@ impl Valuation {
         settled.then_some(point)
     }
 
-    /// Moves `symbols` by the least change that takes the residual of `rows` away, to first order;
-    /// gives the greatest change
-    /// relative to the largest of them.
+    /// Changes `symbols` by the least amount that removes the residual of `rows`, to first order.
+    /// Returns the greatest change relative to the largest of them.
     fn correct(
         &mut self,
         equations: &Equations,
@@ -154,14 +156,14 @@ impl Valuation {
     }
 }
 
-/// Numbers that look random and are the same each time.
+/// A reproducible sequence of pseudo-random numbers.
 struct Draws {
     n: u64,
     k: u64,
 }
 
 impl Draws {
-    /// In (−½, ½).
+    /// A number in (−½, ½).
     fn next(&mut self) -> f64 {
         self.k += 1;
         let mut x = self.n.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ self.k.wrapping_mul(0xD1B5_4A32);
@@ -170,7 +172,7 @@ impl Draws {
         ((x >> 11) as f64 + 0.5) / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// Near a value, on the scale of the value, or of its kind where that is larger.
+    /// A number near a value, on the scale of the value, or of its kind if that is larger.
     fn near(&mut self, value: f64, kind: f64) -> f64 {
         value + self.next() * value.abs().max(kind)
     }

@@ -1,6 +1,6 @@
-//! Symmetries that move several coordinates at once, tried by their names: `x1, x2, …` shifted
-//! together, and all Cartesian pairs `(x…, y…)` turned together. Each is a proof, not a guess: the
-//! rate of its generator vanishes symbolically.
+//! Symmetries that move several coordinates at once. Candidates are chosen by name: common
+//! translations of `x1, x2, …`, and common rotations of all Cartesian pairs `(x…, y…)`. Each one is
+//! proved: the rate of its generator vanishes symbolically.
 //! Source: *The Principles of Dynamics*, §§ 1.1.2, 1.4.2.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use crate::expr::{Expr, Zero};
 use crate::model::{Coordinate, Model};
 use crate::num::Number;
 
-/// Adds total momenta and angular momenta to what is conserved. `rates` are the ṗ.
+/// Adds total momenta and angular momenta to the conserved quantities. `rates` are the ṗ.
 pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
     for (stem, members) in families(model) {
         if members.iter().all(|i| equations.cyclic.contains(i)) {
@@ -23,7 +23,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
             let shown: Vec<&str> =
                 members.iter().map(|&i| model.coordinates[i].shown.as_str()).collect();
             let shown = shown.join(", ");
-            // that the sum of all forces vanishes is no symmetry of L
+            // if forces act, the vanishing of their sum is not a symmetry of L
             let reason = if members.iter().any(|&i| is_driven(model, i)) {
                 Reason::Proved
             } else if members.iter().all(|&i| is_angle(&model.coordinates[i])) {
@@ -57,19 +57,19 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
     }
 }
 
-/// Whether a force or dissipation acts on a coordinate.
+/// Returns whether a force or dissipation acts on a coordinate.
 fn is_driven(model: &Model, i: usize) -> bool {
     let friction = model.mechanics.dissipation();
     model.mechanics.forces().get(i).is_some_and(|&force| force != Expr::ZERO)
         || model.pool.depends(friction, model.coordinates[i].velocity)
 }
 
-/// Whether a coordinate is an angle, by its unit or its period.
+/// Returns whether a coordinate is an angle, judging by its unit or its period.
 fn is_angle(coordinate: &Coordinate) -> bool {
     coordinate.period.is_some() || ["rad", "deg", "°"].contains(&coordinate.unit.as_str())
 }
 
-/// Coordinates whose names differ only in a trailing number, two or more of them.
+/// Groups of two or more coordinates whose names differ only in a trailing number.
 fn families(model: &Model) -> Vec<(String, Vec<usize>)> {
     let mut families: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (i, c) in model.coordinates.iter().enumerate() {
@@ -85,7 +85,7 @@ fn families(model: &Model) -> Vec<(String, Vec<usize>)> {
         .collect()
 }
 
-/// Cartesian pairs: `x…` with the `y…` of the same ending.
+/// Cartesian pairs: each `x…` with the `y…` of the same ending.
 fn pairs(model: &Model, first: char, second: char) -> Vec<(usize, usize)> {
     let partner = |name: &str| {
         let ending = name.strip_prefix(first)?;
@@ -94,7 +94,7 @@ fn pairs(model: &Model, first: char, second: char) -> Vec<(usize, usize)> {
     model.coordinates.iter().enumerate().filter_map(|(i, c)| Some((i, partner(&c.name)?))).collect()
 }
 
-/// Whether every coordinate that begins with either letter is in a pair.
+/// Returns whether every coordinate that begins with either letter is in a pair.
 fn covers(model: &Model, first: char, second: char, pairs: usize) -> bool {
     let cartesian = |letter: char| {
         let one = |name: &str| {

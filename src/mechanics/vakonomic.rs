@@ -1,15 +1,16 @@
-//! The wrong mechanics beside the right: the constraints put into L before it is varied.
+//! The vakonomic comparison motion: the constraints are substituted into L before it is varied,
+//! which gives the wrong mechanics for nonholonomic constraints.
 //!
-//! In: the equations of a constrained motion. Out: the equations of its twin, in symbols of their
-//! own. Never here: that the right equations stay as they are.
+//! In: the equations of a constrained motion. Out: the equations of the comparison motion, in its
+//! own symbols. Never here: a change of the true equations.
 //!
-//! Solving c_β(q, q̇, t) = 0 for some velocities and varying the shorter L is to vary
-//! L + Σ μ_β c_β with μ a function of time (the vakonomic problem):
+//! Solving c_β(q, q̇, t) = 0 for some velocities and varying the shorter L amounts to varying L + Σ
+//! μ_β c_β with μ a function of time (the vakonomic problem):
 //!
 //!   M q̈ + Aᵀ μ̇ = f − Σ_β μ_β (dA_β/dt − ∂c_β/∂q),   A q̈ = γ,
 //!
-//! begun with the μ for which the momenta of the eliminated coordinates vanish. For holonomic
-//! constraints both motions are one; for others they part (J. I. Neimark, N. A. Fufaev, Dynamics of
+//! starting from the μ for which the momenta of the eliminated coordinates vanish. For holonomic
+//! constraints both motions agree; for others they differ (J. I. Neimark, N. A. Fufaev, Dynamics of
 //! Nonholonomic Systems, ch. III §5; V. I. Arnold, V. V. Kozlov, A. I. Neishtadt, Mathematical
 //! Aspects of Classical and Celestial Mechanics, §1.4).
 
@@ -21,7 +22,7 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Comparison, Model};
 use crate::num::Number;
 
-/// The twin of a constrained motion; its numbers are carried along.
+/// The comparison motion of a constrained motion, integrated alongside it.
 pub(super) fn vakonomic(
     equations: &mut Equations,
     model: &Model,
@@ -71,13 +72,13 @@ pub(super) fn vakonomic(
         matrix.push(c.row.iter().copied().chain((0..m).map(|_| Expr::ZERO)).collect());
     }
 
-    // the μ of the start: ∂L/∂q̇_e + Σ_β μ_β A_βe = 0
+    // the initial μ: ∂L/∂q̇_e + Σ_β μ_β A_βe = 0
     let start_matrix: Vec<Vec<Expr>> =
         comparison.eliminate.iter().map(|&e| rows.iter().map(|row| row.row[e]).collect()).collect();
     let start_right: Vec<Expr> =
         comparison.eliminate.iter().map(|&e| pool.neg(equations.momenta[e])).collect();
 
-    // the twin's equations stand in its own symbols
+    // the comparison motion's equations are written in its own symbols
     let mut own: HashMap<Symbol, Expr> = HashMap::new();
     for (c, &(position, velocity)) in equations.coordinates.iter().zip(&comparison.symbols) {
         own.insert(c.position, pool.variable(position));
@@ -107,7 +108,7 @@ pub(super) fn vakonomic(
     Vakonomic { lagrangian }
 }
 
-/// L with the eliminated velocities as the constraints give them.
+/// L with the eliminated velocities substituted from the constraints.
 fn shortened(
     equations: &mut Equations,
     model: &Model,

@@ -1,6 +1,7 @@
-//! What the symbols of a system are worth: the one answer to that question, for whoever evaluates an expression of it.
+//! The values of a system's symbols, for every evaluation of one of its expressions.
 //!
-//! In: parameters, and whatever else is known. Out: a number for each symbol. Never here: where the numbers come from.
+//! In: parameters, and whatever else is known. Out: a number for each symbol. Never here: where the
+//! numbers come from.
 
 use std::collections::HashMap;
 
@@ -12,25 +13,25 @@ use crate::model::Model;
 pub struct Valuation(HashMap<Symbol, f64>);
 
 impl Valuation {
-    /// The parameters of a model.
+    /// The values of a model's parameters.
     pub fn of_parameters(model: &Model, parameters: &[f64]) -> Valuation {
         let known = model.parameters.iter().zip(parameters);
         Valuation(known.map(|(parameter, &value)| (parameter.symbol, value)).collect())
     }
 
-    /// The same with other values, which take the place of those known.
+    /// The same valuation with these values added; they replace known ones.
     #[must_use]
     pub fn with(mut self, values: impl IntoIterator<Item = (Symbol, f64)>) -> Valuation {
         self.0.extend(values);
         self
     }
 
-    /// Gives a symbol a value.
+    /// Sets the value of a symbol.
     pub fn set(&mut self, symbol: Symbol, value: f64) {
         self.0.insert(symbol, value);
     }
 
-    /// The value of a symbol; not a number for one that has none.
+    /// The value of a symbol, or NaN if it has none.
     pub fn at(&self, symbol: Symbol) -> f64 {
         self.0.get(&symbol).copied().unwrap_or(f64::NAN)
     }

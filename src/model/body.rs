@@ -1,4 +1,4 @@
-//! A rigid body put together from pieces, how it stands, and the frames it is seen from.
+//! A rigid body assembled from pieces, its attitude, and the frames from which it is seen.
 
 use super::Point;
 use crate::diagnostic::SourceRange;
@@ -7,18 +7,18 @@ use crate::expr::{Expr, Symbol};
 /// A rigid body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// What it is made of.
+    /// The pieces it consists of.
     pub pieces: Vec<Piece>,
-    /// What follows from the pieces, as names that stand wherever a parameter may.
+    /// The names defined by the body, which may be used wherever a parameter may.
     pub names: BodyNames,
-    /// Where the table stands in the file.
+    /// The place of the table in the file.
     pub place: SourceRange,
 }
 
-/// The names a body defines. They have values of their own at every set of parameters.
+/// The names that a body defines. Their values depend on the parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyNames {
-    /// `Ixx Iyy Izz Ixy Ixz Iyz` about the centre of mass, products with the minus sign.
+    /// `Ixx Iyy Izz Ixy Ixz Iyz` about the centre of mass; products carry the minus sign.
     pub inertia: [Symbol; 6],
     /// `I1 ≤ I2 ≤ I3`.
     pub principal: [Symbol; 3],
@@ -29,7 +29,7 @@ pub struct BodyNames {
 }
 
 impl BodyNames {
-    /// How they are written: six components, three moments, the mass, the centre of mass.
+    /// Their spellings: six components, three moments, the mass, the centre of mass.
     pub const WRITTEN: [&'static str; 13] = [
         "Ixx",
         "Iyy",
@@ -46,29 +46,29 @@ impl BodyNames {
         "body_z",
     ];
 
-    /// All of them.
+    /// All symbols, in the order of `WRITTEN`.
     pub fn all(&self) -> Vec<Symbol> {
         let single = [self.mass];
         [&self.inertia[..], &self.principal, &single, &self.centre].concat()
     }
 }
 
-/// One piece: a solid, placed and turned.
+/// One piece: a solid with a position and an orientation.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// What it is.
+    /// Its shape.
     pub solid: Solid,
     /// Its mass.
     pub mass: Expr,
     /// Its centre of mass.
     pub at: Point,
-    /// How it is turned; not at all where the file says nothing.
+    /// Its orientation; [`Turn::None`] if the file gives none.
     pub turn: Turn,
-    /// Where it stands in the file.
+    /// Its place in the file.
     pub place: SourceRange,
 }
 
-/// The standard solids, in axes of their own: edges are full edges, lengths full lengths.
+/// The standard solids along their own axes. Edges and lengths are full edges and lengths.
 #[derive(Clone, Debug)]
 pub enum Solid {
     /// A point mass.
@@ -91,16 +91,16 @@ pub enum Solid {
         /// Its length.
         length: Expr,
     },
-    /// A solid cone about z, tip up.
+    /// A solid cone about z, with its tip up.
     Cone {
         /// The radius of its base.
         radius: Expr,
         /// Its height.
         height: Expr,
     },
-    /// A thin disc at right angles to z.
+    /// A thin disc perpendicular to z.
     Disc(Expr),
-    /// A thin ring at right angles to z.
+    /// A thin ring perpendicular to z.
     Ring(Expr),
     /// A thin rod along z, of this length.
     Rod(Expr),
@@ -108,12 +108,12 @@ pub enum Solid {
     Cuboid([Expr; 3]),
 }
 
-/// A turning of a piece.
+/// The orientation of a piece.
 #[derive(Clone, Debug)]
 pub enum Turn {
-    /// None.
+    /// Not rotated.
     None,
-    /// By the right-hand rule about an axis of any length.
+    /// Rotated by the right-hand rule about an axis of any length.
     Axis {
         /// The axis.
         axis: Point,
@@ -124,19 +124,19 @@ pub enum Turn {
     Euler([Expr; 3]),
 }
 
-/// How a body stands: A takes components along space axes to those along body axes.
+/// The attitude of a body: the matrix A takes components along space axes to those along body axes.
 #[derive(Clone, Debug)]
 pub struct Attitude {
     /// `A11 … A33`, by rows.
     pub matrix: [[Symbol; 3]; 3],
     /// Where A comes from.
     pub source: AttitudeSource,
-    /// Where the table stands in the file.
+    /// The place of the table in the file.
     pub place: SourceRange,
 }
 
 impl Attitude {
-    /// How the entries of the matrix are written, by rows.
+    /// The spellings of the matrix entries, by rows.
     pub const WRITTEN: [[&'static str; 3]; 3] =
         [["A11", "A12", "A13"], ["A21", "A22", "A23"], ["A31", "A32", "A33"]];
 }
@@ -146,39 +146,39 @@ impl Attitude {
 pub enum AttitudeSource {
     /// Euler's angles φ, θ, ψ: A = B(ψ) C(θ) D(φ).
     Euler([Expr; 3]),
-    /// Integrated beside the motion: A′ = −\[ω\]× A.
+    /// Integrated alongside the motion: A′ = −\[ω\]× A.
     Rate {
-        /// ω about the body axes.
+        /// ω along the body axes.
         omega: Point,
-        /// Euler's angles at the start, in parameters.
+        /// Euler's angles at the start, in terms of parameters.
         start: [Expr; 3],
     },
 }
 
-/// The wrong mechanics beside the right: the constraints put into L before it is varied.
+/// The vakonomic comparison motion: the constraints are substituted into L before it is varied.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// The coordinates whose velocities the constraints are solved for.
+    /// The coordinates whose velocities are eliminated by the constraints.
     pub eliminate: Vec<usize>,
-    /// `other_x` of each coordinate, and `other_x'`.
+    /// `other_x` and `other_x'` for each coordinate.
     pub symbols: Vec<(Symbol, Symbol)>,
-    /// Where the table stands in the file.
+    /// The place of the table in the file.
     pub place: SourceRange,
 }
 
-/// Axes a picture in space may be seen from.
+/// Axes from which a picture in space may be seen.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// As written in the file.
     pub name: String,
-    /// The axis it turns about; z where the file gives none.
+    /// The axis about which it rotates; z if the file gives none.
     pub axis: Point,
     /// The angle from the axes of `[space]`.
     pub angle: Expr,
-    /// Its origin in these axes.
+    /// Its origin along these axes.
     pub origin: Point,
-    /// The particles whose apparent forces are drawn: where, and the mass.
+    /// The particles whose apparent forces are drawn: position and mass.
     pub particles: Vec<(Point, Expr)>,
-    /// Whether it is the frame of the body of `[attitude]`; axis and angle say nothing then.
+    /// Whether it is the frame of the body of `[attitude]`; axis and angle are then unused.
     pub attitude: bool,
 }

@@ -1,102 +1,103 @@
-//! What a file wants watched, and what it claims of itself.
+//! The quantities that a file observes, and its claims about its own motion.
 
 use crate::expr::Expr;
 
 use crate::diagnostic::SourceRange;
 
-/// A named quantity to be watched.
+/// A named quantity to be observed.
 #[derive(Clone, Debug)]
 pub struct Observable {
-    /// Its name, also its column.
+    /// Its name, also that of its column.
     pub name: String,
-    /// In q, q̇, q̈, p, t, parameters, `energy`, `action`; earlier observables are opened.
+    /// In q, q̇, q̈, p, t, parameters, `energy`, `action`; earlier observables are already
+    /// substituted.
     pub expression: Expr,
-    /// Whether the file claims that it is conserved (`true`) or that it is not (`false`).
+    /// The file's claim that it is conserved (`true`) or not conserved (`false`), if there is one.
     pub conserved: Option<bool>,
-    /// Where the claim stands.
+    /// The place of the claim in the file.
     pub place: SourceRange,
 }
 
-/// The file's own test.
+/// The file's own tests.
 #[derive(Clone, Debug, Default)]
 pub struct Expect {
-    /// What is claimed to be conserved: `energy`, a momentum `p_x`, or an observable's name, each
-    /// with its place.
+    /// The quantities claimed to be conserved: `energy`, a momentum `p_x`, or an observable's name,
+    /// each with its place.
     pub conserves: Vec<(String, Expr, SourceRange)>,
-    /// Values the motion is to have.
+    /// Expected values of the motion.
     pub values: Vec<ExpectedValue>,
-    /// When events and impulses are to happen.
+    /// Expected times of events and impulses.
     pub events: Vec<ExpectedEvent>,
-    /// How often they are to happen.
+    /// Expected counts of events and impulses.
     pub counts: Vec<ExpectedCount>,
-    /// What brackets are to be.
+    /// Expected values of brackets.
     pub brackets: Vec<ExpectedBracket>,
 }
 
-/// A moment at which something is to happen.
+/// The expected time of an event or impulse.
 #[derive(Clone, Debug)]
 pub struct ExpectedEvent {
     /// The name of the event or impulse.
     pub name: String,
-    /// Which time it is; the first is 1.
+    /// The index of the occurrence; the first is 1.
     pub nth: usize,
-    /// When.
+    /// The expected time.
     pub at: f64,
-    /// The absolute tolerance of the time; 1e-10 where the file gives none.
+    /// The absolute tolerance of the time; 1e-10 if the file gives none.
     pub within: f64,
-    /// Where the number comes from.
+    /// The source of the number.
     pub source: String,
-    /// Where the claim stands.
+    /// The place of the claim in the file.
     pub place: SourceRange,
 }
 
-/// How often something is to have happened.
+/// The expected number of occurrences of an event or impulse.
 #[derive(Clone, Debug)]
 pub struct ExpectedCount {
     /// The name of the event or impulse.
     pub name: String,
-    /// Until this time.
+    /// The time up to which occurrences are counted.
     pub until: f64,
-    /// So often.
+    /// The expected count.
     pub is: usize,
-    /// Where the number comes from.
+    /// The source of the number.
     pub source: String,
-    /// Where the claim stands.
+    /// The place of the claim in the file.
     pub place: SourceRange,
 }
 
-/// \[f, g\] = is.
+/// The expected value of a bracket: \[f, g\] = is.
 #[derive(Clone, Debug)]
 pub struct ExpectedBracket {
-    /// As in an observable.
+    /// The first argument, written as an observable is.
     pub f: Expr,
-    /// As in an observable.
+    /// The second argument, written as an observable is.
     pub g: Expr,
-    /// As in an observable.
+    /// The expected bracket, written as an observable is.
     pub is: Expr,
-    /// As the file writes f and g.
+    /// f and g as written in the file.
     pub written: String,
-    /// Where it comes from.
+    /// The source of the claim.
     pub source: String,
-    /// Where the claim stands.
+    /// The place of the claim in the file.
     pub place: SourceRange,
 }
 
-/// A number the motion is to give.
+/// An expected value of a quantity.
 #[derive(Clone, Debug)]
 pub struct ExpectedValue {
-    /// What it is.
+    /// The name of the quantity.
     pub name: String,
-    /// As in an observable.
+    /// The quantity, written as an observable is.
     pub expression: Expr,
-    /// At what time.
+    /// The time at which it is evaluated.
     pub at: f64,
-    /// What it is to be.
+    /// The expected value.
     pub is: f64,
-    /// The absolute tolerance; 1e-10 where the file gives none.
+    /// The absolute tolerance; 1e-10 if the file gives none.
     pub within: f64,
-    /// Where the number comes from.
+    /// The source of the number.
     pub source: String,
-    /// Where the claim stands.
+    /// The place of the claim in the file.
     pub place: SourceRange,
 }

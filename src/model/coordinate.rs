@@ -10,38 +10,39 @@ pub struct Coordinate {
     pub name: String,
     /// As shown: `θ`.
     pub shown: String,
-    /// Its unit, empty where none is given.
+    /// Its unit, empty if none is given.
     pub unit: String,
     /// q.
     pub position: Symbol,
     /// q̇, written `theta'`.
     pub velocity: Symbol,
-    /// q̈, written `theta''`; stands in observables only.
+    /// q̈, written `theta''`; it may be used in observables only.
     pub acceleration: Symbol,
     /// The momentum conjugate to it, written `p_theta`.
     pub momentum: Symbol,
-    /// The initial value, in parameters.
+    /// The initial value, in terms of parameters.
     pub initial: Expr,
-    /// The initial velocity (Lagrangian) or momentum (Hamiltonian), in parameters; zero where the
-    /// file leaves it out.
+    /// The initial velocity (Lagrangian) or momentum (Hamiltonian), in terms of parameters; zero if
+    /// the file omits it.
     pub initial_rate: Expr,
-    /// Whether the file gives that rate; under constraints a velocity left out is solved for.
+    /// Whether the file gives the initial rate; under constraints an omitted velocity is solved
+    /// for.
     pub rate_given: bool,
-    /// After what the coordinate repeats, in parameters; for drawing only.
+    /// The period of the coordinate, in terms of parameters; for drawing only.
     pub period: Option<Expr>,
-    /// Where its name stands in the file.
+    /// The place of its name in the file.
     pub place: SourceRange,
 }
 
 impl Coordinate {
-    /// A coordinate at rest at zero; introduces its four symbols into the pool. `shown` is the
-    /// symbol the file gives, or empty for the name's own.
+    /// Creates a coordinate with initial values zero and introduces its four symbols into the pool.
+    /// `shown` is the symbol the file gives; if it is empty, the symbol follows from the name.
     pub fn new(pool: &mut Pool, name: &str, shown: &str, unit: &str) -> Coordinate {
         Coordinate::introduce(pool, name, shown, unit, &format!("p_{name}"))
     }
 
-    /// A variable of a Poisson system. It has no momentum: the symbol in that place has a name that
-    /// no file can write, so that a variable may be called `p_x` beside one called `x`.
+    /// Creates a variable of a Poisson system. It has no momentum: the symbol in that place has a
+    /// name that no file can write, so a variable may be called `p_x` beside one called `x`.
     pub fn variable(pool: &mut Pool, name: &str, shown: &str, unit: &str) -> Coordinate {
         Coordinate::introduce(pool, name, shown, unit, &format!("no momentum of {name}"))
     }
@@ -117,7 +118,7 @@ fn dotted(shown: &str, mark: char) -> String {
     }
 }
 
-/// The subscript of a momentum: a real subscript where common fonts have the letters.
+/// The subscript of a momentum: Unicode subscripts where common fonts have the letters.
 fn subscript(shown: &str) -> String {
     let lowered: Option<String> = shown
         .chars()

@@ -1,6 +1,7 @@
-//! A system as its file describes it, every name resolved.
+//! A system as its file describes it, with every name resolved.
 //!
-//! In: what `preset` has checked. Out: a [`Model`]. Never here: text, and what follows from it.
+//! In: what `preset` has checked. Out: a [`Model`]. Never here: text, and what is derived from the
+//! model.
 
 use super::body::{Attitude, Body, Comparison, Frame};
 use super::claim::{Expect, Observable};
@@ -12,12 +13,12 @@ use super::picture::{Shape, View};
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};
 
-/// A mechanical system as a file describes it, checked.
+/// A checked mechanical system, as a file describes it.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// Title, notes and where the system comes from.
+    /// Title, notes and source of the system.
     pub info: Info,
-    /// Where all expressions of the model live.
+    /// The pool that holds all expressions of the model.
     pub pool: Pool,
     /// Time, `energy` and `action`.
     pub symbols: CommonSymbols,
@@ -25,35 +26,36 @@ pub struct Model {
     pub coordinates: Vec<Coordinate>,
     /// The parameters, in order.
     pub parameters: Vec<Parameter>,
-    /// Definitions, in order, already opened in every expression that uses them: kept to be shown.
+    /// Definitions, in order. They are already substituted wherever they are used, and are stored
+    /// for display.
     pub definitions: Vec<(String, Expr)>,
-    /// What makes it move.
+    /// The law of motion.
     pub mechanics: Mechanics,
-    /// What the motion is held to; beside a Lagrangian only.
+    /// The constraints on the motion; for a Lagrangian only.
     pub constraints: Vec<Constraint>,
-    /// Impulses.
+    /// The impulses.
     pub impulses: Vec<Impulse>,
-    /// Crossings to be located.
+    /// The events: crossings to be located.
     pub events: Vec<Event>,
-    /// A body put together from pieces.
+    /// The body assembled from pieces.
     pub body: Option<Body>,
-    /// How a body stands.
+    /// The attitude of a body.
     pub attitude: Option<Attitude>,
-    /// The wrong mechanics beside the right.
+    /// The vakonomic comparison motion.
     pub comparison: Option<Comparison>,
-    /// Frames a picture may be seen from.
+    /// Frames from which a picture may be seen.
     pub frames: Vec<Frame>,
-    /// Where its law, L or H, stands in the file.
+    /// The place of its law, L or H, in the file.
     pub law_place: SourceRange,
-    /// What the file wants to be watched.
+    /// The observables of the file.
     pub observables: Vec<Observable>,
-    /// What the file claims of itself.
+    /// The file's claims about its own motion.
     pub expect: Expect,
-    /// What the screen opens with.
+    /// The panes that the screen opens with.
     pub views: Vec<View>,
-    /// The picture of the thing itself.
+    /// The picture of the system in space.
     pub space: Vec<Shape>,
-    /// How it is run where nobody says otherwise.
+    /// The default settings of a run.
     pub run: RunSettings,
 }
 
@@ -62,46 +64,46 @@ pub struct Model {
 pub struct Info {
     /// The title.
     pub title: String,
-    /// One line on what it is.
+    /// A one-line description.
     pub summary: String,
-    /// The book, section or paper it comes from.
+    /// The book, section or paper it is taken from.
     pub source: String,
     /// Its place in the notes, `2.3`.
     pub chapter: String,
-    /// What it is about, the first one its home in the picker.
+    /// Its topics; the picker lists it under the first one.
     pub topics: Vec<String>,
-    /// What to look for, a few short paragraphs.
+    /// What to observe, in a few short paragraphs.
     pub notes: String,
 }
 
-/// The symbols every model has.
+/// The symbols common to all models.
 #[derive(Clone, Copy, Debug)]
 pub struct CommonSymbols {
     /// `t`.
     pub time: Symbol,
-    /// `energy`: Jacobi's h, or H. Stands in observables only.
+    /// `energy`: Jacobi's h, or H. It may be used in observables only.
     pub energy: Symbol,
-    /// `action`: ∫ L dt from the start. Stands in observables only.
+    /// `action`: ∫ L dt from the start. It may be used in observables only.
     pub action: Symbol,
 }
 
-/// The law of motion as given.
+/// The law of motion as the file gives it.
 #[derive(Clone, Debug)]
 pub enum Mechanics {
     /// d/dt(∂L/∂q̇) − ∂L/∂q + ∂F/∂q̇ = Q.
     Lagrangian {
         /// L(q, q̇, t).
         lagrangian: Expr,
-        /// Rayleigh's function F(q, q̇, t); zero where there is none.
+        /// Rayleigh's function F(q, q̇, t); zero if there is none.
         dissipation: Expr,
-        /// The generalised force on each coordinate; zero where there is none.
+        /// The generalised force on each coordinate; zero if there is none.
         forces: Vec<Expr>,
     },
     /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
     Hamiltonian {
         /// H(q, p, t).
         hamiltonian: Expr,
-        /// What is added to each ṗ; zero where there is none.
+        /// The force added to each ṗ; zero if there is none.
         forces: Vec<Expr>,
     },
     /// ẋ = {x, H} + force. The variables are the model's coordinates; they have no momenta.
@@ -112,15 +114,15 @@ pub enum Mechanics {
         brackets: Vec<Vec<Expr>>,
         /// Name, expression and place of each Casimir.
         casimirs: Vec<(String, Expr, SourceRange)>,
-        /// What is added to each ẋ; zero where there is none.
+        /// The force added to each ẋ; zero if there is none.
         forces: Vec<Expr>,
-        /// Where the brackets stand in the file.
+        /// The place of the brackets in the file.
         place: SourceRange,
     },
 }
 
 impl Mechanics {
-    /// `L` or `H`, and the function.
+    /// The letter `L` or `H`, and the function.
     pub fn function(&self) -> (&'static str, Expr) {
         match self {
             Mechanics::Lagrangian { lagrangian, .. } => ("L", *lagrangian),
@@ -130,7 +132,7 @@ impl Mechanics {
         }
     }
 
-    /// Rayleigh's function, zero where there is none.
+    /// Rayleigh's function; zero if there is none.
     pub fn dissipation(&self) -> Expr {
         match self {
             Mechanics::Lagrangian { dissipation, .. } => *dissipation,
@@ -138,8 +140,7 @@ impl Mechanics {
         }
     }
 
-    /// The brackets {x_i, x_j}, i < j, that do not vanish; none where there are coordinates and
-    /// momenta.
+    /// The nonvanishing brackets {x_i, x_j}, i < j; empty for canonical coordinates and momenta.
     pub fn brackets(&self) -> Vec<(usize, usize, Expr)> {
         let Mechanics::Poisson { brackets, .. } = self else { return Vec::new() };
         let rows = brackets.iter().enumerate();
@@ -147,7 +148,7 @@ impl Mechanics {
         all.filter(|&(i, j, e)| i < j && e != Expr::ZERO).collect()
     }
 
-    /// What acts beside it on each coordinate or variable.
+    /// The forces on each coordinate or variable.
     pub fn forces(&self) -> &[Expr] {
         match self {
             Mechanics::Lagrangian { forces, .. }
@@ -157,24 +158,24 @@ impl Mechanics {
     }
 }
 
-/// How a system is run where nobody says otherwise.
+/// The settings of a run, which the user may override.
 #[derive(Clone, Debug)]
 pub struct RunSettings {
     /// The method's name, or `auto`.
     pub method: String,
-    /// Where the file names it, for whoever knows the methods.
+    /// The place of the method in the file, for checks that need the table of methods.
     pub method_place: Option<SourceRange>,
     /// Simulated seconds per second of the wall clock.
     pub speed: f64,
-    /// The time of the initial values.
+    /// The initial time.
     pub start: f64,
-    /// When a run ends.
+    /// The final time.
     pub until: Option<f64>,
-    /// The step of a method of fixed step.
+    /// The step of a fixed-step method.
     pub step: Option<f64>,
     /// The relative tolerance of an adaptive method.
     pub tolerance: Option<f64>,
-    /// Where the file gives the tolerance or the step, for whoever knows what a method takes.
+    /// The place of the tolerance or the step in the file, for checks that depend on the method.
     pub settings_place: Option<SourceRange>,
 }
 
@@ -194,7 +195,7 @@ impl Default for RunSettings {
 }
 
 impl Model {
-    /// An empty model that knows `t`, `energy` and `action`; `preset` fills it.
+    /// Creates an empty model that has only `t`, `energy` and `action`; `preset` fills it.
     pub fn new(title: &str) -> Model {
         let mut pool = Pool::new();
         let symbols = CommonSymbols {
@@ -231,27 +232,28 @@ impl Model {
         }
     }
 
-    /// Whether the file gives a Lagrangian (and so velocities at the start).
+    /// Returns whether the file gives a Lagrangian (and so initial velocities).
     pub fn is_lagrangian(&self) -> bool {
         matches!(self.mechanics, Mechanics::Lagrangian { .. })
     }
 
-    /// Whether the file gives brackets of variables that are no coordinates and momenta.
+    /// Returns whether the file gives brackets of variables that are not canonical.
     pub fn is_poisson(&self) -> bool {
         matches!(self.mechanics, Mechanics::Poisson { .. })
     }
 
-    /// How many numbers say where a motion is: two of each coordinate, one of each variable.
+    /// The dimension of phase space: two for each coordinate, one for each variable of a Poisson
+    /// system.
     pub fn moving(&self) -> usize {
         if self.is_poisson() { self.coordinates.len() } else { 2 * self.coordinates.len() }
     }
 
-    /// The coordinate of a name.
+    /// The index of the coordinate with this name.
     pub fn coordinate(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)
     }
 
-    /// The parameter of a name.
+    /// The index of the parameter with this name.
     pub fn parameter(&self, name: &str) -> Option<usize> {
         self.parameters.iter().position(|p| p.name == name)
     }

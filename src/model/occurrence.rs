@@ -1,5 +1,4 @@
-//! What happens to a motion at single moments: impulses that are given, and crossings that are looked
-//! for.
+//! What happens to a motion at single instants: given impulses, and crossings to be located.
 
 use crate::diagnostic::SourceRange;
 use crate::expr::Expr;
@@ -9,54 +8,54 @@ use crate::expr::Expr;
 pub struct Impulse {
     /// As written in the file.
     pub name: String,
-    /// At these times, in parameters.
+    /// The times at which it is applied, in terms of parameters.
     pub times: Vec<Expr>,
-    /// And at every multiple of this interval after the start, in parameters.
+    /// The interval at whose multiples after the start it is also applied, in terms of parameters.
     pub period: Option<Expr>,
-    /// The applied impulse Q̂ on each coordinate (the jump of each variable of a Poisson system), of
-    /// the state before it; zero where there is none.
+    /// The applied impulse Q̂ on each coordinate (the jump of each variable of a Poisson system),
+    /// as a function of the state before it; zero if there is none.
     pub change: Vec<Expr>,
     /// What it is, in words.
     pub about: String,
-    /// Where it stands in the file.
+    /// Its place in the file.
     pub place: SourceRange,
 }
 
-/// A crossing to be located on the motion.
+/// An event: a crossing to be located on the motion.
 #[derive(Clone, Debug)]
 pub struct Event {
     /// As written in the file.
     pub name: String,
-    /// It happens where this crosses zero. As in an observable.
+    /// The expression whose zero crossings are located, written as an observable is.
     pub when: Expr,
     /// Which crossings count.
     pub direction: Direction,
-    /// What follows.
+    /// The action it triggers.
     pub action: Action,
-    /// Where it stands in the file.
+    /// Its place in the file.
     pub place: SourceRange,
 }
 
-/// The sense of a crossing of zero.
+/// The direction of a zero crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Direction {
     /// From below.
     Rising,
     /// From above.
     Falling,
-    /// Both.
+    /// From either side.
     Either,
 }
 
-/// What an event does.
+/// The action of an event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Action {
-    /// It is recorded.
+    /// It is only recorded.
     Mark,
     /// The motion ends.
     Stop,
-    /// The constraint of this index holds no longer.
+    /// The constraint of this index is released.
     Release(usize),
-    /// The impulse of this index strikes.
+    /// The impulse of this index is applied.
     Impulse(usize),
 }

@@ -1,8 +1,8 @@
-//! A parameter: a number the user turns while the system moves.
+//! A parameter: a number that the user may change while the system moves.
 
 use crate::expr::Symbol;
 
-/// A live parameter.
+/// An adjustable parameter.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// As written in expressions.
@@ -17,20 +17,20 @@ pub struct Parameter {
     pub min: f64,
     /// The greatest value of its range.
     pub max: f64,
-    /// How the range is divided.
+    /// The spacing of the steps in its range.
     pub scale: Scale,
-    /// Its unit, empty where none is given.
+    /// Its unit, empty if none is given.
     pub unit: String,
     /// What it means, in words.
     pub about: String,
 }
 
-/// How a range is divided into steps.
+/// The spacing of the steps in a range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Scale {
-    /// Evenly.
+    /// Equal differences.
     #[default]
     Linear,
-    /// By equal factors; the range is positive.
+    /// Equal ratios; the range is positive.
     Log,
 }

@@ -1,50 +1,50 @@
-//! What a file wants shown: views and the picture in space. Everything in it is an expression of
-//! the state, to be evaluated beside the observables.
+//! The views of a file and its picture in space. Everything in them is an expression of the state,
+//! evaluated with the observables.
 
 use crate::expr::Expr;
 
-/// An expression to be shown, as it was written.
+/// An expression to be shown, with its source text.
 #[derive(Clone, Debug)]
 pub struct Channel {
     /// As written in the file.
     pub written: String,
-    /// What it is.
+    /// The expression itself.
     pub expression: Expr,
 }
 
 /// One pane.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The name of its kind, one of the table of instruments.
+    /// The name of its instrument.
     pub kind: String,
     /// A title, or empty.
     pub title: String,
-    /// What is written for each axis of the kind, in their order.
+    /// The expressions on each axis of the instrument, in order.
     pub axes: Vec<Vec<Channel>>,
-    /// The frame a picture in space is seen from; the axes of `[space]` where there is none.
+    /// The frame from which a picture in space is seen; the axes of `[space]` if there is none.
     pub frame: Option<usize>,
-    /// What a picture in space draws in place of the model's shapes.
+    /// The shapes that a picture in space draws instead of the model's.
     pub shapes: Option<Vec<Shape>>,
 }
 
-/// A point in space: three expressions, z up; a plane system leaves the third at zero.
+/// A point in space: three expressions, with z up; the third is zero for a plane system.
 pub type Point = [Expr; 3];
 
 /// One part of the picture in space.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// A straight piece.
+    /// A straight line.
     Line {
-        /// From here.
+        /// Its first end.
         from: Point,
-        /// To here.
+        /// Its second end.
         to: Point,
     },
     /// A coiled spring.
     Spring {
-        /// From here.
+        /// Its first end.
         from: Point,
-        /// To here.
+        /// Its second end.
         to: Point,
     },
     /// A circle.
@@ -53,41 +53,40 @@ pub enum Shape {
         centre: Point,
         /// Its radius.
         radius: Expr,
-        /// Its axis; z where the file gives none.
+        /// Its axis; z if the file gives none.
         normal: Point,
     },
-    /// A body.
+    /// A point mass.
     Mass {
-        /// Where it is.
+        /// Its position.
         at: Point,
-        /// How large it is drawn; a dot where the file gives none.
+        /// Its drawn radius; a dot if the file gives none.
         radius: Option<Expr>,
     },
-    /// The track a point leaves behind.
+    /// The track that a point leaves behind.
     Trace {
         /// The point.
         at: Point,
     },
     /// An arrow.
     Vector {
-        /// Its foot.
+        /// Its tail.
         at: Point,
         /// Its components.
         components: Point,
     },
-    /// A curve, sampled: `points` are the values of the file's expressions at evenly spaced
-    /// values of its own parameter `s`.
+    /// A curve, sampled at evenly spaced values of its own parameter `s`.
     Path {
         /// The sampled points, in order.
         points: Vec<Point>,
     },
-    /// A piece of a plane.
+    /// A square part of a plane.
     Plane {
-        /// Its middle.
+        /// Its centre.
         at: Point,
         /// Its normal.
         normal: Point,
-        /// Its edge.
+        /// The length of its edge.
         size: Expr,
     },
     /// The pieces of the model's body, turned by its attitude, with the principal axes.

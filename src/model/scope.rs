@@ -1,5 +1,5 @@
-//! Which names an expression may use, by where it stands; and the clear sentence for each that it
-//! may not.
+//! Which names an expression may use, depending on its place in the file, and the error message for
+//! each name that it may not use.
 
 mod allowed;
 
@@ -13,14 +13,14 @@ pub use allowed::Allowed;
 
 use allowed::Kind;
 
-/// How deep an expression may go once its definitions are opened: the 256 parentheses a text may
-/// nest, with a call, a sum, a product and a power in each.
+/// The largest depth of an expression with its definitions substituted: the 256 nested parentheses
+/// allowed in a text, with a call, a sum, a product and a power in each.
 const DEPTH_LIMIT: usize = 4 * 256;
 
-/// More mistakes than these in one place are not reported.
+/// The largest number of mistakes reported at one place.
 const MOST_MISTAKES: usize = 100;
 
-/// The names of a model as one place of use sees them, and the mistakes met there.
+/// The names of a model that may be used at one place, and the mistakes found there.
 #[derive(Clone, Debug)]
 pub struct Scope {
     allowed: Allowed,
@@ -28,32 +28,32 @@ pub struct Scope {
     names: BTreeMap<String, Meaning>,
     kinds: HashMap<Symbol, Kind>,
     offenders: HashMap<Expr, Option<Symbol>>,
-    /// How many mistakes were met, those beyond the first hundred included.
-    complaints: usize,
-    /// Whether the coordinates are variables of brackets, which have no momenta.
+    /// The number of mistakes found, including those that are not reported.
+    mistake_count: usize,
+    /// Whether the coordinates are variables of a Poisson system, which have no momenta.
     poisson: bool,
-    /// The mistakes found so far, to be taken out by whoever tells them.
+    /// The mistakes found so far; the caller takes them out to report them.
     pub mistakes: Vec<SyntaxError>,
-    /// The names used, so that unused ones can be reported.
+    /// The names used so far, so that unused ones can be reported.
     pub used: BTreeSet<String>,
 }
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug)]
 enum Meaning {
     Symbol(Symbol),
     /// A coordinate: q, q̇ and q̈.
     Position([Symbol; 3]),
-    /// A coordinate of the other motion of a comparison, and its velocity.
+    /// A coordinate of the comparison motion, and its velocity.
     Other([Symbol; 2]),
     Defined(Expr),
-    /// Something that is defined, but not above the place of use.
+    /// A name that is defined only after the place of use.
     Later,
 }
 
 impl Scope {
-    /// The names of `model` (with its definitions) where `allowed` holds; `place` is how messages
-    /// call it: "the Lagrangian", "an initial value".
+    /// The names of `model` (with its definitions) that `allowed` permits. Messages refer to the
+    /// place as `place`: "the Lagrangian", "an initial value".
     pub fn new(model: &Model, allowed: Allowed, place: &str) -> Scope {
         let mut names = BTreeMap::new();
         let mut kinds = HashMap::new();
@@ -111,48 +111,48 @@ impl Scope {
             names,
             kinds,
             offenders: HashMap::new(),
-            complaints: 0,
+            mistake_count: 0,
             poisson: model.is_poisson(),
             mistakes: Vec::new(),
             used: BTreeSet::new(),
         }
     }
 
-    /// Changes how messages call the place of use.
+    /// Changes how messages refer to the place of use.
     pub fn at(&mut self, place: &str) -> &mut Scope {
         place.clone_into(&mut self.place);
         self
     }
 
-    /// Adds a name that stands for an expression (a definition, an earlier observable, the
-    /// parameter of a path).
+    /// Adds a name for an expression (a definition, an earlier observable, the parameter of a
+    /// path).
     pub fn define(&mut self, name: &str, e: Expr) {
         self.names.insert(name.to_owned(), Meaning::Defined(e));
     }
 
-    /// Adds a name that will be defined further down; until [`Scope::define`] gives it a meaning,
-    /// its use is a mistake of its own kind.
+    /// Adds a name that is defined further down. Until [`Scope::define`] gives it a meaning, its
+    /// use is reported as a mistake of its own kind.
     pub fn announce(&mut self, name: &str) {
         self.names.entry(name.to_owned()).or_insert(Meaning::Later);
     }
 
-    /// Whether a name is known here, whether or not it may be used.
+    /// Returns whether a name is known here, whether or not it may be used.
     pub fn knows(&self, name: &str) -> bool {
         self.names.contains_key(name)
     }
 
-    /// Reads an expression under this scope; `None` where there were mistakes, which are then in
+    /// Reads an expression in this scope. Returns `None` if there were mistakes, which are then in
     /// [`Scope::mistakes`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
-        let before = self.complaints;
+        let before = self.mistake_count;
         match parse(text) {
             Err(mistake) => self.complain(mistake),
             Ok(syntax) => {
                 let e = syntax.lower(pool, self);
-                if self.complaints == before {
+                if self.mistake_count == before {
                     self.check_result(pool, e, syntax.span);
                 }
-                if self.complaints == before {
+                if self.mistake_count == before {
                     return Some(e);
                 }
             }
@@ -160,7 +160,7 @@ impl Scope {
         None
     }
 
-    /// No constant may be infinite, and nothing may outgrow the limits.
+    /// Checks that no constant is infinite and that no limit is exceeded.
     fn check_result(&mut self, pool: &Pool, e: Expr, span: Span) {
         if pool.is_full() {
             let message = "with this, the file's expressions grow beyond a million nodes";
@@ -177,7 +177,7 @@ impl Scope {
         }
     }
 
-    /// Why this place may not use a symbol of some kind, if it may not.
+    /// Why a kind of symbol may not be used here, or `None` if it may.
     fn refusal(&self, kind: Kind) -> Option<String> {
         self.allowed.refusal(kind, &self.place)
     }
@@ -248,7 +248,7 @@ impl Scope {
         }
     }
 
-    /// What could be meant by a name that begins as a multiplier's does.
+    /// Suggests the multipliers that a name beginning like one could mean.
     fn multipliers(&self) -> String {
         let multiplies = |meaning: &Meaning| match meaning {
             Meaning::Symbol(s) => self.kinds.get(s) == Some(&Kind::Multiplier),
@@ -287,7 +287,7 @@ impl Scope {
                     return Err(SyntaxError::new(span, message));
                 }
             },
-            _ if primes > 0 => return Err(self.at_rest(name, span)),
+            _ if primes > 0 => return Err(self.without_velocity(name, span)),
             Meaning::Symbol(symbol) => pool.variable(symbol),
             Meaning::Defined(e) => e,
             Meaning::Later => {
@@ -323,8 +323,8 @@ impl Scope {
         Ok(e)
     }
 
-    /// A prime after something that is no coordinate.
-    fn at_rest(&self, name: &str, span: Span) -> SyntaxError {
+    /// The error for a prime after a name that is not a coordinate.
+    fn without_velocity(&self, name: &str, span: Span) -> SyntaxError {
         let message = format!("`{name}` is not a coordinate and has no velocity");
         let error = SyntaxError::new(span, message);
         let moves = |m: &Meaning| matches!(m, Meaning::Position(_) | Meaning::Other(_));
@@ -336,7 +336,7 @@ impl Scope {
     }
 }
 
-/// The table that defines a name by being in the file.
+/// The table whose presence in the file defines a name.
 fn table_of(name: &str) -> Option<&'static str> {
     if BodyNames::WRITTEN.contains(&name) {
         Some("[body]")
@@ -347,7 +347,7 @@ fn table_of(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a constant of a node is beyond all range, or no number.
+/// Returns whether a constant of a node is infinite or NaN.
 fn holds_infinity(node: &Node) -> bool {
     match node {
         Node::Number(n) => !n.is_finite(),
@@ -377,7 +377,7 @@ impl Resolve for Scope {
     }
 
     fn complain(&mut self, error: SyntaxError) {
-        self.complaints += 1;
+        self.mistake_count += 1;
         if self.mistakes.len() < MOST_MISTAKES {
             self.mistakes.push(error);
         }

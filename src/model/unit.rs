@@ -1,11 +1,12 @@
-//! In what time is measured, as far as the units of a file tell.
+//! The unit of time, as far as the units of a file determine it.
 //!
-//! In: the units of coordinates and parameters, which are only text. Out: `s`, `yr`, `d` or nothing. Never here:
-//! conversion, which nothing needs: the numbers of a file are in its own units throughout.
+//! In: the units of coordinates and parameters, which are only text. Out: `s`, `yr`, `d` or an
+//! empty text. Never here: conversion, which is never needed: the numbers of a file are in its own
+//! units throughout.
 
 use super::Model;
 
-/// Units that are or contain a time, and which.
+/// Units that are or contain a time, each with its unit of time.
 const TIMES: [(&str, &str); 12] = [
     ("s", "s"),
     ("Hz", "s"),
@@ -22,7 +23,8 @@ const TIMES: [(&str, &str); 12] = [
 ];
 
 impl Model {
-    /// The unit of time, where the units of coordinates and parameters agree on one; else nothing.
+    /// The unit of time on which the units of coordinates and parameters agree; empty if they do
+    /// not.
     pub fn time_unit(&self) -> &'static str {
         let coordinates = self.coordinates.iter().map(|c| &c.unit);
         let units = coordinates.chain(self.parameters.iter().map(|p| &p.unit));

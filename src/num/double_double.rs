@@ -1,6 +1,7 @@
-//! Double-double arithmetic: a real number as the unevaluated sum of two `f64`, some 31 decimal
-//! digits. Where rounding must not be seen: the lowest orders of a Taylor step, constants and
-//! parameters, what is shown of a state. No fused multiply-add, so every machine agrees.
+//! Double-double arithmetic: a real number as the unevaluated sum of two `f64`, with about 31
+//! decimal digits. It is used where rounding must not be visible: the lowest orders of a Taylor
+//! step, constants and parameters, displayed values of a state. It uses no fused multiply-add, so
+//! results are the same on every machine.
 //!
 //! Sources: T. J. Dekker, Numer. Math. 18 (1971) 224 (products); D. E. Knuth, The Art of Computer
 //! Programming 2, 4.2.2 (sums); Y. Hida, X. S. Li, D. H. Bailey, 15th IEEE Symposium on Computer
@@ -10,13 +11,13 @@ mod elementary;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `high + low`, with `low` at most half a unit in the last place of `high`. Good for magnitudes
-/// below 1e290.
+/// `high + low`, with `low` at most half a unit in the last place of `high`. It is accurate for
+/// magnitudes below 1e290.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct DoubleDouble {
     /// The nearest `f64`.
     pub high: f64,
-    /// What it leaves over.
+    /// The remainder.
     pub low: f64,
 }
 
@@ -25,7 +26,7 @@ impl DoubleDouble {
     pub const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
     /// One.
     pub const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };
-    /// The circle constant.
+    /// The number π.
     pub const PI: DoubleDouble =
         DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
@@ -49,14 +50,14 @@ impl DoubleDouble {
         DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 
-    /// An integer, exactly.
+    /// An integer, converted exactly.
     pub fn integer(n: i64) -> DoubleDouble {
         let low = n & 0xFFFF_FFFF;
         DoubleDouble::sum((n - low) as f64, low as f64)
     }
 
-    /// The number that the shortest decimal which reads as `x` stands for: what a user meant by
-    /// 0.1, which no `f64` is. `x` itself is its nearest `f64`.
+    /// The decimal number that the shortest literal for `x` denotes: what a user means by 0.1,
+    /// which no `f64` equals. `x` is the nearest `f64` to it.
     pub fn written(x: f64) -> DoubleDouble {
         if (x.fract() == 0.0 && x.abs() < 9e15) || !x.is_finite() {
             return DoubleDouble::from(x);
@@ -84,7 +85,7 @@ impl DoubleDouble {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// Whether it is finite.
+    /// Returns whether it is finite.
     pub fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()
     }
@@ -107,7 +108,7 @@ impl DoubleDouble {
     }
 }
 
-/// Ten to a power, to the last digits.
+/// A power of ten, accurate to the last digits.
 fn power_of_ten(n: i32) -> DoubleDouble {
     let (mut result, mut base, mut n) = (DoubleDouble::ONE, DoubleDouble::from(10.0), n);
     while n > 0 {
@@ -120,7 +121,7 @@ fn power_of_ten(n: i32) -> DoubleDouble {
     result
 }
 
-/// Two halves of 26 bits each whose sum is `a` (Veltkamp).
+/// Splits `a` into two halves of 26 bits each (Veltkamp).
 fn split(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a;
     let high = t - (t - a);

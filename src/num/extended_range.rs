@@ -1,8 +1,8 @@
-//! A double-double with an exponent of its own: numbers far beyond the range of `f64`, for where
-//! something on the way to a moderate result is too large or too small for it, as `exp(x)` is in
-//! `1/(1 + exp(x))` far out.
+//! A double-double with a separate exponent: numbers far beyond the range of `f64`, for moderate
+//! results whose intermediate values overflow or underflow, such as `exp(x)` in `1/(1 + exp(x))`
+//! for large `x`.
 //!
-//! In and out: [`Real`]. Slower than both other precisions; meant for what these cannot do.
+//! In and out: [`Real`]. It is slower than both other precisions and meant for what they cannot do.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -21,16 +21,16 @@ pub struct ExtendedRange {
 const LN_2: DoubleDouble =
     DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
-/// Numbers whose exponents lie further apart do not add up to anything new.
+/// Adding numbers whose exponents differ by more than this leaves the larger one unchanged.
 const DIGITS: i64 = 220;
 
-/// Exponents beyond this are infinity, or zero.
+/// Exponents beyond this count as infinity, or zero.
 const LARGEST: i64 = 1 << 60;
 
-/// An argument this large leaves nothing of e^−x beside e^x, to all digits.
+/// For an argument of this size e^−x is negligible against e^x, to all digits.
 const LOPSIDED: f64 = 80.0;
 
-/// The exponent below which x and sin x are the same to all digits.
+/// The exponent below which x and sin x agree to all digits.
 const TINY: i64 = -120;
 
 /// `2^n` for |n| ≤ 1022.
@@ -81,12 +81,12 @@ impl ExtendedRange {
         ExtendedRange { mantissa, exponent }
     }
 
-    /// An exponent lower than that of any other number, for zero.
+    /// The exponent, or for zero one lower than that of any other number.
     fn order(self) -> i64 {
         if self.mantissa.high == 0.0 { i64::MIN / 4 } else { self.exponent }
     }
 
-    /// Itself in units of `2^exponent`.
+    /// The number in units of `2^exponent`.
     fn in_units(self, exponent: i64) -> DoubleDouble {
         let shift = self.order() - exponent;
         if shift < -DIGITS && self.mantissa.high.is_finite() {
@@ -97,12 +97,12 @@ impl ExtendedRange {
         DoubleDouble { high, low }
     }
 
-    /// A function that takes moderate numbers only.
+    /// Applies a function that accepts moderate numbers only.
     fn by(self, function: impl Fn(DoubleDouble) -> DoubleDouble) -> ExtendedRange {
         ExtendedRange::new(function(self.double()), 0)
     }
 
-    /// Whether it is so small that odd functions of slope 1 leave it as it is.
+    /// Returns whether it is so small that odd functions of slope 1 leave it unchanged.
     fn is_tiny(self) -> bool {
         self.order() < TINY
     }

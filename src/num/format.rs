@@ -1,11 +1,12 @@
-//! Numbers in words of ours: rounded to be read, not to be read back.
+//! Numbers in sentences: rounded for reading, not for parsing back.
 //!
-//! In: any `f64`. Out: short text in ASCII. Never here: numbers that are computed with again, the glyphs of a screen.
+//! In: any `f64`. Out: short ASCII text. Never here: numbers that are used in computations again,
+//! the glyphs of a screen.
 
 use std::ops::Range;
 
-/// A number in so many significant digits at most, without zeros at the end; with a power of ten where its size lies
-/// outside a range.
+/// A number with at most this many significant digits and without trailing zeros; with a power of
+/// ten if its magnitude lies outside a range.
 pub fn significant(x: f64, digits: usize, plain: Range<f64>) -> String {
     let text = format!("{x:.*e}", digits.max(1) - 1);
     let rounded: f64 = text.parse().unwrap_or(x);

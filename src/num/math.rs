@@ -1,12 +1,13 @@
-//! The elementary functions of `f64`, by the same arithmetic on every machine.
+//! The elementary functions of `f64`, with the same arithmetic on every machine.
 //!
-//! `std`'s own are those of the platform's C library and may differ in their last bit from one to the
-//! next; a chaotic motion makes of that bit another motion, and a demo recorded here would not be the
-//! one recorded there. These are `libm`'s, which are written out in operations that IEEE 754 fixes to
-//! the bit; so are `sqrt`, `mul_add`, `floor`, … of `std`, which are used as they are.
+//! The functions in `std` come from the platform's C library and may differ in the last bit between
+//! platforms. A chaotic motion turns that bit into a different motion, so a demo recorded on one
+//! machine would differ from one recorded on another. The functions here come from `libm`, which
+//! uses only operations that IEEE 754 defines to the bit. `sqrt`, `mul_add`, `floor`, … of `std`
+//! are defined to the bit as well and are used directly.
 //!
-//! In and out: numbers. Never here: other precisions (`double`), expressions. Everywhere else `std`'s
-//! elementary functions are refused, by `clippy.toml` and by a test.
+//! In and out: numbers. Never here: other precisions (`double_double`), expressions. Elsewhere
+//! `clippy.toml` and a test forbid the elementary functions of `std`.
 
 /// The sine.
 pub fn sin(x: f64) -> f64 {
@@ -63,12 +64,12 @@ pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
 
-/// e to this power.
+/// The exponential function.
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// 2 to this power.
+/// 2 raised to this power.
 pub fn exp2(x: f64) -> f64 {
     libm::exp2(x)
 }
@@ -78,7 +79,7 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// The natural logarithm of 1 + `x`, without loss where `x` is small.
+/// The natural logarithm of 1 + `x`, accurate for small `x`.
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)
 }
@@ -93,12 +94,13 @@ pub fn log2(x: f64) -> f64 {
     libm::log2(x)
 }
 
-/// `x` to a real power.
+/// `x` raised to a real power.
 pub fn powf(x: f64, n: f64) -> f64 {
     libm::pow(x, n)
 }
 
-/// `x` to an integer power, by squaring; a negative one is the reciprocal of the positive.
+/// `x` raised to an integer power, by squaring; a negative power is the reciprocal of the positive
+/// one.
 ///
 /// `std` leaves the order of the products, and so their rounding, to the compiler.
 pub fn powi(x: f64, n: i32) -> f64 {
@@ -120,7 +122,7 @@ pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
-/// √(x² + y²), without overflow on the way.
+/// √(x² + y²), without overflow in intermediate results.
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
@@ -129,8 +131,8 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Bits that must come out on every machine, of arguments where C libraries are known to differ;
-    /// each lies within two units of the last place of the true value.
+    /// These bits must come out on every machine, for arguments where C libraries are known to
+    /// differ; each result lies within two units of the last place of the true value.
     #[test]
     fn the_bits_are_the_same_everywhere() {
         let check = |name: &str, found: f64, expected: u64| {

@@ -1,5 +1,5 @@
-//! A number as it stands in an expression: an exact rational where it fits 64 bits, else an
-//! `f64`. Arithmetic stays exact as long as it can and falls back to `f64` on overflow.
+//! A constant in an expression: an exact rational if it fits 64 bits, else an `f64`. Arithmetic is
+//! exact as long as possible and falls back to `f64` on overflow.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -8,14 +8,15 @@ use std::ops::{Add, Mul, Neg};
 use super::double_double::DoubleDouble;
 use crate::num::math;
 
-/// A sum of two reals below this part of them is what rounding left of 0: each went through several
-/// operations.
+/// A sum of two reals below this fraction of them counts as rounding error of 0, because each went
+/// through several operations.
 const CANCELLED: f64 = 32.0 * f64::EPSILON;
 
-/// An exact rational `numerator / denominator` (lowest terms, positive denominator) or a real.
+/// An exact rational `numerator / denominator` (in lowest terms, with positive denominator) or a
+/// real.
 #[derive(Clone, Copy, Debug)]
 pub enum Number {
-    /// `numerator / denominator`, in lowest terms, the denominator positive.
+    /// `numerator / denominator`, in lowest terms, with a positive denominator.
     Rational(i64, i64),
     /// A number that does not fit a 64-bit rational.
     Real(f64),
@@ -36,7 +37,7 @@ impl Number {
         Number::Rational(n, 1)
     }
 
-    /// `numerator / denominator`; not a number where the denominator is zero.
+    /// `numerator / denominator`; NaN if the denominator is zero.
     pub fn ratio(numerator: i128, denominator: i128) -> Number {
         if denominator == 0 {
             return Number::Real(f64::NAN);
@@ -50,8 +51,8 @@ impl Number {
         }
     }
 
-    /// Reads a literal of the file syntax (`3`, `.5`, `1.`, `2.5e-3`): exact where it fits.
-    /// `None` where it is not such a literal or overflows an `f64`.
+    /// Reads a literal of the file syntax (`3`, `.5`, `1.`, `2.5e-3`), exactly if it fits. Returns
+    /// `None` if it is not such a literal or overflows an `f64`.
     pub fn from_literal(text: &str) -> Option<Number> {
         let real: f64 = text.parse().ok()?;
         if !real.is_finite() {
@@ -81,8 +82,8 @@ impl Number {
         Some(exact.unwrap_or(Number::Real(real)))
     }
 
-    /// A real that a short decimal literal writes exactly becomes that rational, so that every
-    /// number has one form.
+    /// Converts a real that equals a short decimal literal to that rational, so that every number
+    /// has one form.
     #[must_use]
     pub fn canonical(self) -> Number {
         match self {
@@ -102,7 +103,7 @@ impl Number {
         }
     }
 
-    /// The number to twice the digits of an `f64`; a real stands for the decimal it is read from.
+    /// The number with twice the digits of an `f64`; a real stands for the decimal it is read from.
     pub fn double(self) -> DoubleDouble {
         match self {
             Number::Rational(n, d) => DoubleDouble::integer(n) / DoubleDouble::integer(d),
@@ -110,7 +111,7 @@ impl Number {
         }
     }
 
-    /// The integer this is, if it is one.
+    /// The number as an integer, if it is one.
     pub fn as_integer(self) -> Option<i64> {
         match self {
             Number::Rational(n, 1) => Some(n),
@@ -118,7 +119,7 @@ impl Number {
         }
     }
 
-    /// Whether it is exactly zero.
+    /// Returns whether it is exactly zero.
     pub fn is_zero(self) -> bool {
         match self {
             Number::Rational(n, _) => n == 0,
@@ -126,12 +127,12 @@ impl Number {
         }
     }
 
-    /// Whether it is exactly one.
+    /// Returns whether it is exactly one.
     pub fn is_one(self) -> bool {
         self == Number::ONE
     }
 
-    /// Whether it is below zero.
+    /// Returns whether it is negative.
     pub fn is_negative(self) -> bool {
         self.value() < 0.0
     }
@@ -142,7 +143,7 @@ impl Number {
         if self.is_negative() { -self } else { self }
     }
 
-    /// `1 / self`; not a number for zero.
+    /// `1 / self`; NaN for zero.
     #[must_use]
     pub fn recip(self) -> Number {
         match self {
@@ -177,8 +178,8 @@ impl Number {
         result
     }
 
-    /// `self ^ exponent` if the result is an exact rational: integer exponents, and perfect
-    /// powers such as `(4/9)^(1/2)`.
+    /// `self ^ exponent`, if the result is an exact rational: integer exponents, and perfect powers
+    /// such as `(4/9)^(1/2)`.
     pub fn exact_power(self, exponent: Number) -> Option<Number> {
         let (Number::Rational(n, d), Number::Rational(en, ed)) = (self, exponent) else {
             return None;
@@ -196,7 +197,7 @@ impl Number {
         root.exact_power(Number::integer(en))
     }
 
-    /// The greatest common divisor of two rationals (positive), 1 where either is real or zero.
+    /// The greatest common divisor of two rationals (positive), or 1 if either is real or zero.
     #[must_use]
     pub fn common_divisor(self, other: Number) -> Number {
         match (self, other) {
@@ -209,7 +210,7 @@ impl Number {
         }
     }
 
-    /// Whether it is a finite number.
+    /// Returns whether it is finite.
     pub fn is_finite(self) -> bool {
         self.value().is_finite()
     }
@@ -238,7 +239,7 @@ impl Add for Number {
             }
             (Number::Real(a), Number::Real(b)) => {
                 let total = a + b;
-                // what rounding left of two that cancel
+                // the rounding error of two terms that cancel
                 let noise = total.abs() <= CANCELLED * f64::max(a.abs(), b.abs());
                 if noise { Number::ZERO } else { Number::Real(total) }
             }
@@ -288,7 +289,7 @@ impl PartialOrd for Number {
 }
 
 impl Ord for Number {
-    /// By value; a rational and a real of the same value are told apart.
+    /// Compares by value; a rational and a real of the same value are distinct.
     fn cmp(&self, other: &Number) -> Ordering {
         match (self, other) {
             (Number::Rational(a, b), Number::Rational(c, d)) => {

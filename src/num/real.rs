@@ -1,6 +1,6 @@
-//! The arithmetic an expression is evaluated in: `f64`, or [`DoubleDouble`] where twice its digits are
-//! wanted, or [`ExtendedRange`] where something leaves the range of both.
-//! Every rule that is written for a [`Real`] serves all three.
+//! The arithmetic in which an expression is evaluated: `f64`, [`DoubleDouble`] for twice its
+//! digits, or [`ExtendedRange`] for values outside the range of both. Every rule that is written
+//! for a [`Real`] serves all three.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,9 +8,9 @@ use super::double_double::DoubleDouble;
 use super::extended_range::ExtendedRange;
 use crate::num::math;
 
-/// Sets the coefficients of order `k` of a function's series. It is given `k`, the series of the
-/// arguments up to `k`, the function's own series `y` up to `k − 1` and that of a companion `w`
-/// (cos beside sin, 1 + u² beside atan, …); it sets `y[k]` and `w[k]`.
+/// Sets the coefficients of order `k` of a function's series. Its arguments are `k`, the series of
+/// the function's arguments up to `k`, the function's own series `y` up to `k − 1`, and that of a
+/// companion `w` (cos for sin, 1 + u² for atan, …). It sets `y[k]` and `w[k]`.
 pub type RecurrenceStep<R> = fn(usize, &[&[R]], &mut [R], &mut [R]);
 
 /// A recurrence for normalised Taylor coefficients, in every precision.
@@ -43,22 +43,22 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
-    /// Whether its range has no end in practice.
+    /// Whether its range is practically unlimited.
     const UNBOUNDED: bool = false;
 
     /// The number nearest to a [`DoubleDouble`].
     fn of(x: DoubleDouble) -> Self;
     /// The nearest `f64`.
     fn value(self) -> f64;
-    /// Itself as a [`DoubleDouble`].
+    /// The number as a [`DoubleDouble`].
     fn double(self) -> DoubleDouble;
-    /// A rule's form in this precision.
+    /// The recurrence in this precision.
     fn step_of(rule: &Recurrence) -> RecurrenceStep<Self>;
 
     /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// e to this power.
+    /// The exponential function.
     #[must_use]
     fn exp(self) -> Self;
     /// The natural logarithm.
@@ -74,7 +74,7 @@ pub trait Real:
     /// The hyperbolic tangent.
     #[must_use]
     fn tanh(self) -> Self;
-    /// The angle of the point with this ordinate and abscissa `x`.
+    /// The angle of the point with ordinate `self` and abscissa `x`.
     #[must_use]
     fn atan2(self, x: Self) -> Self;
     /// The inverse sine.
@@ -83,7 +83,7 @@ pub trait Real:
     /// The inverse cosine.
     #[must_use]
     fn acos(self) -> Self;
-    /// This number to a fixed real power.
+    /// This number raised to a fixed real power.
     #[must_use]
     fn power(self, exponent: DoubleDouble) -> Self;
 }

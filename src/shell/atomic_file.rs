@@ -1,8 +1,10 @@
-//! Atomic files: filled under another name beside their place, then renamed, so that nobody ever finds half of one.
+//! Atomic files: written under a temporary name in the same folder, then renamed, so that nobody ever sees a
+//! partial file.
 //!
-//! In: a path and bytes. Out: the file, complete or as it was before. An [`AtomicFile`] replaces what stands in its
-//! place, a [`NewFile`] never does: it takes the first free name (`pendulum.cast`, else `pendulum-2.cast`, …). Unfinished
-//! files go with their writer; those of a killed process are found and swept. Never here: what the bytes mean.
+//! In: a path and bytes. Out: the file, complete or as it was before. An [`AtomicFile`] replaces an existing file,
+//! a [`NewFile`] never does: it takes the first free name (`pendulum.cast`, else `pendulum-2.cast`, …). Unfinished
+//! files are removed with their writer; those of a killed process are detected and removed later. Never here: what
+//! the bytes mean.
 
 use std::collections::BTreeSet;
 use std::fs::{self, DirEntry, File, OpenOptions};
@@ -18,47 +20,47 @@ use tempfile::{Builder, NamedTempFile};
 
 use crate::printable;
 
-/// What the name of an unfinished file ends in: `.pendulum.cast.1234-k3W….partial`, with the process that writes it.
+/// The suffix of an unfinished file's name: `.pendulum.cast.1234-k3W….partial`, which contains the writing process.
 const PARTIAL: &str = ".partial";
 
-/// So many bytes of the file's own name stand in that; with the rest they stay shorter than any system's limit.
+/// The maximum number of bytes of the file's own name in that name; the whole stays below any system's limit.
 const LONGEST: usize = 60;
 
-/// Who may read an unfinished file: its owner alone, or whoever the process lets.
+/// The permissions of an unfinished file: for its owner alone, or as the process's umask allows.
 const PRIVATE: u32 = 0o600;
 const USUAL: u32 = 0o666;
 
-/// How many links are followed to the place where a file is to be made.
+/// The maximum number of links followed to the place where a file is to be created.
 const MOST_LINKS: usize = 40;
 
-/// No more files of a folder are looked at for unfinished ones.
+/// The maximum number of files of a folder that are searched for unfinished ones.
 const LOOKED_AT: usize = 100_000;
 
-/// How many names are tried.
+/// The maximum number of names tried.
 const NAMES: u32 = 10_000;
 
-/// So many bytes are written at once.
+/// The number of bytes written at once.
 const CHUNK: usize = 32 * 1024;
 
-/// What a file without a line is called.
+/// The name reported for a file without a line.
 pub(super) const NOTHING: &str = "nothing";
 
-/// Whether a file has to be on the disk before it gets its name.
+/// Whether a file must be on the disk before it gets its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Durability {
-    /// It and its name are on the disk when it is finished.
+    /// The file and its name are on the disk when it is finished.
     OnDisk,
-    /// The system writes it when it likes.
+    /// The system writes it back at a time of its choice.
     Cached,
 }
 
 /// The unfinished files of this process.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Removes the unfinished files of this process, which ends before they can be complete.
+/// Removes the unfinished files of this process, which ends before they can be completed.
 pub(crate) fn remove_unfinished() {
     for path in mem::take(&mut *unfinished()) {
-        // there is nobody left to tell
+        // There is no one left to report an error to.
         let _ = fs::remove_file(path);
     }
 }
@@ -67,7 +69,7 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// An unfinished file's place among those of the process.
+/// An unfinished file, registered with the process until it is dropped.
 #[derive(Debug)]
 struct Registered(PathBuf);
 
@@ -77,7 +79,7 @@ impl Drop for Registered {
     }
 }
 
-/// Opens an unfinished file beside `place`, under a name that cannot be foreseen and that nobody has.
+/// Opens an unfinished file beside `place`, under an unpredictable and unused name.
 fn begin(place: &Path, mode: u32) -> io::Result<(NamedTempFile, Registered)> {
     let prefix = format!("{}.{}-", lead(place), std::process::id());
     let open = |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
@@ -91,7 +93,7 @@ fn begin(place: &Path, mode: u32) -> io::Result<(NamedTempFile, Registered)> {
     Ok((temporary, Registered(path)))
 }
 
-/// How the names of a place's unfinished files begin.
+/// Returns the start of the names of unfinished files for a place.
 fn lead(place: &Path) -> String {
     let name = place.file_name().unwrap_or_default().to_string_lossy();
     let mut ends = (0..=name.len().min(LONGEST)).rev();
@@ -103,14 +105,14 @@ fn folder(place: &Path) -> &Path {
     place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes a file that replaces what stands in its place.
+/// Writes a file, replacing an existing one.
 pub(super) fn write(place: &Path, bytes: &[u8], durability: Durability) -> io::Result<()> {
     let mut file = AtomicFile::begin(place)?;
     file.write_all(bytes)?;
     file.finish(durability)
 }
 
-/// A file that replaces what stands in its place. Dropped before it is finished it leaves nothing behind.
+/// A file that replaces an existing one. If it is dropped before it is finished, nothing is left behind.
 #[derive(Debug)]
 pub(crate) struct AtomicFile {
     temporary: NamedTempFile,
@@ -119,12 +121,12 @@ pub(crate) struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Begins a file. What a link points to will be replaced, not the link; who may read it stays so, and one that is
-    /// read-only is refused. What killed processes left of it is removed.
+    /// Begins a file. If `place` is a link, its target is replaced, not the link. The permissions are kept, and a
+    /// read-only file is refused. Unfinished files left by killed processes are removed.
     pub(crate) fn begin(place: &Path) -> io::Result<Self> {
         let place = followed(place);
         let old = fs::metadata(&place).ok();
-        // its folder would let it be replaced all the same
+        // The permissions of the folder alone would allow the replacement.
         if old.as_ref().is_some_and(|old| {
             old.permissions().readonly() || access(&place, Access::WRITE_OK).is_err()
         }) {
@@ -136,7 +138,7 @@ impl AtomicFile {
         Ok(Self { temporary, place, _registered: registered })
     }
 
-    /// Puts it in its place.
+    /// Renames it to its final name.
     pub(crate) fn finish(self, durability: Durability) -> io::Result<()> {
         let file = self.temporary.as_file();
         if durability == Durability::OnDisk {
@@ -144,7 +146,7 @@ impl AtomicFile {
         }
         if let Ok(old) = fs::metadata(&self.place) {
             if file.metadata().is_ok_and(|new| (new.uid(), new.gid()) != (old.uid(), old.gid())) {
-                // only some may give a file away; the others own what they write
+                // Only a privileged process may change the owner; otherwise the file belongs to its writer.
                 let _ = fchown(file, Some(old.uid()), Some(old.gid()));
             }
             file.set_permissions(old.permissions())?;
@@ -167,18 +169,18 @@ impl Write for AtomicFile {
     }
 }
 
-/// Has the disk know the names in a file's folder.
+/// Syncs the names in a file's folder to the disk.
 pub(super) fn sync_folder(place: &Path) -> io::Result<()> {
-    // one that may be written to need not be readable
+    // A writable folder need not be readable.
     let Ok(folder) = File::open(folder(place)) else { return Ok(()) };
     match folder.sync_all() {
-        // there are file systems whose folders cannot be synced
+        // Some file systems cannot sync folders.
         Err(error) if error.kind() == io::ErrorKind::InvalidInput => Ok(()),
         synced => synced,
     }
 }
 
-/// Where a file is or will be, once links are followed; also one that points to nothing yet.
+/// Resolves links to the place where a file is or will be, even if a link's target does not exist yet.
 fn followed(place: &Path) -> PathBuf {
     let mut place = place.to_owned();
     for _ in 0..MOST_LINKS {
@@ -196,19 +198,19 @@ fn followed(place: &Path) -> PathBuf {
 pub(super) struct NewFile {
     temporary: NamedTempFile,
     registered: Registered,
-    /// What is not written yet.
+    /// The bytes not written yet.
     pending: Vec<u8>,
-    /// How many bytes are in the file for good: whole lines, but at its end.
+    /// The number of bytes in the file that form whole lines (or the end of the file).
     whole: u64,
     folder: PathBuf,
     stem: String,
     ending: &'static str,
 }
 
-/// Writes `heavy-top.toml` or, where there is one, `heavy-top-2.toml`, … and returns its path.
+/// Writes `heavy-top.toml` or, if that exists, `heavy-top-2.toml`, …, and returns its path.
 ///
 /// # Errors
-/// Where it cannot be written; the error names the file, and nothing is left of it.
+/// Returns an error that names the file if it cannot be written; nothing is left of it.
 pub(super) fn write_new(
     folder: &Path,
     stem: &str,
@@ -217,13 +219,13 @@ pub(super) fn write_new(
 ) -> io::Result<PathBuf> {
     let mut file = NewFile::begin(folder, stem, ending)?;
     file.write_all(bytes)?;
-    // not finished before it is complete, or it would get its name all the same
+    // It must be complete before it is finished, since finishing also names a partial file.
     file.sync()?;
     Ok(folder.join(file.finish()?))
 }
 
 impl NewFile {
-    /// Begins a file; `stem` is a preset's name or a path, of which the name before its ending counts.
+    /// Begins a file; `stem` is a preset's name or a path, whose file stem is used.
     pub(super) fn begin(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Self> {
         let stem = plain(stem);
         let place = folder.join(format!("{stem}.{ending}"));
@@ -233,14 +235,14 @@ impl NewFile {
         Ok(Self { temporary, registered, pending: Vec::new(), whole: 0, folder, stem, ending })
     }
 
-    /// Waits until the disk has what was written.
+    /// Waits until all written bytes are on the disk.
     pub(super) fn sync(&mut self) -> io::Result<()> {
         self.flush()?;
         self.temporary.as_file().sync_all().map_err(|why| named(&self.place(1), &why))
     }
 
-    /// Gives it its name, which is returned. Where not all of it can be written it holds the whole lines that were, and
-    /// the error says so; only a file without a line is none.
+    /// Gives it its name, which is returned. If not everything can be written, the file keeps the whole lines that
+    /// were, and the error says so; a file without a line is removed.
     pub(super) fn finish(mut self) -> io::Result<String> {
         let written = self.sync();
         if self.whole == 0 {
@@ -252,7 +254,7 @@ impl NewFile {
         })
     }
 
-    /// Gives it the first name that is free. Where none can be had it is kept under the one it has.
+    /// Gives it the first free name. If there is none, it is kept under its temporary name.
     fn persist(self) -> io::Result<String> {
         let mut place = self.place(1);
         let mut temporary = self.temporary;
@@ -260,13 +262,13 @@ impl NewFile {
         for number in 1..=NAMES {
             place = self.folder.join(numbered(&self.stem, number, self.ending));
             let persisted = match temporary.persist_noclobber(&place) {
-                // there are file systems on which a name can only be taken, not asked for
+                // Some file systems cannot rename without replacing, so that the check has to come first.
                 Err(failed) if fs::symlink_metadata(&place).is_err() => failed.file.persist(&place),
                 persisted => persisted,
             };
             match persisted {
                 Ok(_) => {
-                    // it is on the disk; that its name is too is a courtesy
+                    // The file is on the disk; syncing its name as well is optional.
                     let _ = sync_folder(&place);
                     return Ok(numbered(&self.stem, number, self.ending));
                 }
@@ -282,7 +284,7 @@ impl NewFile {
         Err(io::Error::new(why.kind(), told))
     }
 
-    /// The path of so manieth choice.
+    /// Returns the path with this number.
     fn place(&self, number: u32) -> PathBuf {
         self.folder.join(numbered(&self.stem, number, self.ending))
     }
@@ -297,8 +299,7 @@ impl Write for NewFile {
         Ok(bytes.len())
     }
 
-    /// Writes what is pending. Where that fails what was written of the last line is taken away again, and what comes is
-    /// not to be written any more.
+    /// Writes what is pending. If that fails, the partial last line is removed, and nothing more is to be written.
     fn flush(&mut self) -> io::Result<()> {
         let bytes = mem::take(&mut self.pending);
         let file = self.temporary.as_file_mut();
@@ -310,7 +311,7 @@ impl Write for NewFile {
         let written = &bytes[..bytes.len().min(written as usize)];
         self.whole +=
             written.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1) as u64;
-        // the error that matters is the one on its way
+        // The error that matters is the one about to be returned.
         let _ = file.set_len(self.whole);
         Err(named(&self.place(1), &why))
     }
@@ -320,8 +321,8 @@ fn numbered(stem: &str, number: u32, ending: &str) -> String {
     if number == 1 { format!("{stem}.{ending}") } else { format!("{stem}-{number}.{ending}") }
 }
 
-/// What files made of a preset or file are called: its name without folders and ending, and without what a file's name
-/// should not hold.
+/// Returns the stem for files made from a preset or file: its name without folders, extension, and characters that
+/// do not belong in a file name.
 fn plain(name: &str) -> String {
     let last = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     let kept: String =
@@ -329,13 +330,14 @@ fn plain(name: &str) -> String {
     if kept.is_empty() { "phaselab".to_owned() } else { kept }
 }
 
-/// The error with the file's name.
+/// Adds the file's name to an error.
 pub(super) fn named(path: &Path, why: &io::Error) -> io::Error {
     let told = format!("cannot write {}: {}", printable::path(path), printable::why(why));
     io::Error::new(why.kind(), told)
 }
 
-/// Unfinished files in a folder whose writers have ended, killed or without power; with the beginnings of their names.
+/// Returns the unfinished files in a folder whose writers have ended (killed, or by a power failure), with the
+/// starts of their names.
 fn abandoned(folder: &Path) -> impl Iterator<Item = (String, DirEntry)> {
     let listing = fs::read_dir(folder).into_iter().flatten().take(LOOKED_AT).flatten();
     listing.filter_map(|entry| {
@@ -348,20 +350,20 @@ fn abandoned(folder: &Path) -> impl Iterator<Item = (String, DirEntry)> {
     })
 }
 
-/// The same in the order of their names, to be mentioned.
+/// Returns the same files sorted by name, to be reported.
 pub(super) fn left_behind(folder: &Path) -> Vec<PathBuf> {
     let mut left: Vec<PathBuf> = abandoned(folder).map(|(_, entry)| entry.path()).collect();
     left.sort();
     left
 }
 
-/// Removes those of one place that are ours.
+/// Removes those for one place that belong to this user.
 fn sweep(place: &Path) {
     let lead = lead(place);
     for (_, entry) in abandoned(folder(place)).filter(|(other, _)| *other == lead) {
         let about = entry.metadata();
         if about.is_ok_and(|about| about.is_file() && about.uid() == geteuid().as_raw()) {
-            // what cannot be removed harms nobody
+            // A file that cannot be removed does not matter.
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -418,7 +420,7 @@ mod tests {
         assert_eq!(mode(file.temporary.path()), PRIVATE, "private until it is complete");
         file.finish(Durability::Cached).expect("finished");
         assert_eq!(mode(&place), 0o640);
-        // a file that nobody had before is open to whomever the process lets
+        // The permissions of a new file are those the umask allows.
         let usual = folder.path().join("usual");
         fs::write(&usual, "").expect("it is written");
         write(&folder.path().join("b.txt"), b"", Durability::Cached).expect("written");
@@ -430,7 +432,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (place, link) = (folder.path().join("a.txt"), folder.path().join("link"));
         symlink("a.txt", &link).expect("a link");
-        // to nothing yet, then to a file
+        // First the link's target does not exist, then it is a file.
         for text in ["one", "two"] {
             write(&link, text.as_bytes(), Durability::Cached).expect("written");
             assert_eq!(read(&place), text);
@@ -479,7 +481,7 @@ mod tests {
     #[test]
     fn what_the_dead_left_is_found_and_swept_and_what_the_living_write_is_not() {
         let folder = tempfile::tempdir().expect("a folder");
-        // no process has so large a number
+        // No process has so large a number.
         let (dead, living) = (i32::MAX, std::process::id());
         let left = [
             ".a.csv.DEAD-0123456789abcdef.partial",

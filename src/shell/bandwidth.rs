@@ -1,28 +1,28 @@
-//! Bandwidth: how many bytes a second may be sent to the terminal.
+//! Bandwidth: how many bytes per second may be sent to the terminal.
 //!
-//! In: what a person writes, `16k`. Out: bytes in a second. Never here: keeping to it.
+//! In: the user's notation, `16k`. Out: bytes per second. Never here: enforcing the limit.
 
 use std::str::FromStr;
 
-/// How much may be sent.
+/// A limit on the bytes sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bandwidth {
     /// As much as the terminal takes.
     Unlimited,
-    /// So many bytes in a second.
+    /// This many bytes per second.
     Bytes(u32),
 }
 
-/// The least that can be asked for, in bytes a second: what two frames in a second with a few changed cells need.
+/// The minimum, in bytes per second: two frames per second with a few changed cells need this much.
 const LEAST: u32 = 1024;
 
-/// Why a bandwidth is none.
+/// The error for an invalid bandwidth.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is no bandwidth: write bytes a second from 1k on, such as `16k` or `1M`, or `off`")]
 pub struct BandwidthError(String);
 
 impl Bandwidth {
-    /// Bytes in a second; `None` for no limit.
+    /// Returns the bytes per second, or `None` if there is no limit.
     pub fn bytes(self) -> Option<u32> {
         match self {
             Self::Unlimited => None,
@@ -34,7 +34,7 @@ impl Bandwidth {
 impl FromStr for Bandwidth {
     type Err = BandwidthError;
 
-    /// Bytes in a second, with `k` for 1024 and `M` for 1024² of them, or `off`.
+    /// Parses bytes per second, with `k` for 1024 and `M` for 1024² of them, or `off`.
     fn from_str(text: &str) -> Result<Self, BandwidthError> {
         if text == "off" {
             return Ok(Self::Unlimited);

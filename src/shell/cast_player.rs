@@ -1,8 +1,8 @@
-//! The projector: a tape held up on the terminal, at its own pace or another.
+//! The cast player: shows a cast on the terminal, at its own speed or another.
 //!
-//! In: a [`RecordedCast`], keys, time. Out: cells. A tape may be anybody's, so what is on it is written to a terminal that only
-//! exists in memory, and nothing of it but characters and colours goes on from there; and it is given a little time a
-//! frame, so that no tape keeps the keys from being read. Never here: files, or the form of a cast.
+//! In: a [`RecordedCast`], keys, time. Out: cells. A cast may be an untrusted file, so its output goes to a
+//! terminal in memory, and only characters and colours leave that terminal. Its processing time per frame is
+//! limited, so that no cast blocks the keys. Never here: files, or the format of a cast.
 
 use std::time::{Duration, Instant};
 
@@ -17,50 +17,51 @@ use crate::view::RenderStyle;
 use crate::view::colour::{ColourDepth, Rgb};
 use crate::view::theme::Role;
 
-/// A tape being shown.
+/// A cast being shown.
 pub struct CastPlayer {
     tape: RecordedCast,
     look: RenderStyle,
     screen: avt::Vt,
-    /// The next event, and how many bytes of it are written already.
+    /// The index of the next event, and how many bytes of it have been written.
     next: (usize, usize),
-    /// Where on the tape it stands, in microseconds.
+    /// The time in the cast, in microseconds.
     time: f64,
-    /// Its place among [`SPEEDS`].
+    /// An index into [`SPEEDS`].
     speed: usize,
     held: bool,
-    /// Whether the line of controls is wanted or not, where that was said.
+    /// Whether the user has shown or hidden the control line, if so.
     wanted: Option<bool>,
-    /// For how long it is still shown otherwise.
+    /// How much longer the control line is shown by default.
     awake: Duration,
-    /// The window.
+    /// The size of the window.
     size: Size,
-    /// What the line says, as far as it changes by itself: the second, whether the tape is over, whether it is shown.
+    /// The parts of the control line that change by themselves: the second, whether the cast is over, whether the
+    /// line is shown.
     told: (u64, bool, bool),
 }
 
-/// For how long the line of controls stands over the last row after a key; and at first, where it is to be read.
+/// How long the control line covers the last row after a key, and at the start.
 const AWAKE: Duration = Duration::from_secs(3);
 const AT_FIRST: Duration = Duration::from_secs(5);
 
-/// Seconds of the tape in a second.
+/// Seconds of the cast per second.
 const SPEEDS: [f64; 9] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0];
 
-/// The place of the tape's own pace among them.
+/// The index of the cast's own speed.
 const EVEN: usize = 3;
 
-/// What a frame may spend on the tape, and how many characters are written between two looks at the time.
+/// The time that a frame may spend on the cast, and the number of characters written between two checks of it.
 const SPENT: Duration = Duration::from_millis(15);
 const CHARACTERS: usize = 64;
 
-/// Who goes back within this of a chapter's beginning means the chapter before, in microseconds.
+/// Within this many microseconds of a chapter's start, going back leads to the previous chapter.
 const AT_ONCE: f64 = 1e6;
 
-/// How far the arrows go, in microseconds.
+/// How far the arrow keys seek, in microseconds.
 const LEAP: f64 = 5e6;
 
 impl CastPlayer {
-    /// A tape at its beginning.
+    /// Creates a player at the start of a cast.
     pub fn new(tape: RecordedCast, look: RenderStyle) -> Self {
         let screen = blank(tape.size);
         Self {
@@ -78,18 +79,18 @@ impl CastPlayer {
         }
     }
 
-    /// Whether a row of the window is left below the tape's screen.
+    /// Whether there is a free row of the window below the cast's screen.
     fn has_room(&self) -> bool {
         usize::from(self.size.height) > self.screen.size().1
     }
 
-    /// Whether the line of controls is shown.
+    /// Whether the control line is shown.
     fn is_reported(&self) -> bool {
         let by_itself = self.has_room() || self.held || self.is_over() || !self.awake.is_zero();
         self.wanted.unwrap_or(by_itself)
     }
 
-    /// What is to be said where the window does not show all.
+    /// Returns a warning if the window does not show the whole cast.
     fn cut_off(&self) -> Option<String> {
         let (columns, rows) = self.screen.size();
         let Size { width, height } = self.size;
@@ -102,12 +103,12 @@ impl CastPlayer {
         })
     }
 
-    /// Whether the tape is at its end.
+    /// Whether the cast is over.
     pub fn is_over(&self) -> bool {
         self.next.0 == self.tape.events.len() && self.time >= self.tape.end as f64
     }
 
-    /// Goes to a time; back is from the beginning on.
+    /// Seeks to a time; seeking backwards replays the cast from the start.
     fn go(&mut self, time: f64) {
         let time = time.clamp(0.0, self.tape.end as f64);
         if time < self.time {
@@ -117,7 +118,7 @@ impl CastPlayer {
         self.time = time;
     }
 
-    /// Goes on to the next event that shows something, and holds there.
+    /// Advances to the next event and pauses there.
     fn step(&mut self) {
         self.held = true;
         let later = |(time, _): &&(u64, CastEvent)| *time as f64 > self.time;
@@ -125,7 +126,7 @@ impl CastPlayer {
         self.go(next.unwrap_or(self.tape.end as f64));
     }
 
-    /// The chapters, by time.
+    /// Returns the chapters, ordered by time.
     fn chapters(&self) -> impl DoubleEndedIterator<Item = (f64, &str)> {
         self.tape.events.iter().filter_map(|(time, turn)| match turn {
             CastEvent::Marker(name) => Some((*time as f64, name.as_str())),
@@ -158,7 +159,7 @@ impl CastPlayer {
                 KeyCode::End => self.go(self.tape.end as f64),
                 KeyCode::Tab | KeyCode::BackTab => {
                     let to = if code == KeyCode::BackTab {
-                        // shortly after a chapter's beginning the one before is meant
+                        // Shortly after a chapter's start, go to the previous one.
                         let before = self.time - AT_ONCE;
                         let found = self.chapters().rfind(|(time, _)| *time < before);
                         Some(found.map_or(0.0, |(time, _)| time))
@@ -176,7 +177,8 @@ impl CastPlayer {
         ScreenRequest::Nothing
     }
 
-    /// Writes what is due to the terminal in memory, for as long as a frame may take; whether anything was written.
+    /// Writes the events that are due to the terminal in memory, within the time limit of a frame. Returns whether
+    /// anything was written.
     fn write(&mut self) -> bool {
         let began = Instant::now();
         let mut written = false;
@@ -212,7 +214,7 @@ impl CastPlayer {
         written
     }
 
-    /// The line of controls: where on the tape it stands, and the keys, the most needed first.
+    /// Draws the control line: the time in the cast, then the keys, the most important first.
     fn tell(&self, row: Rect, buffer: &mut Buffer) {
         let glyphs = self.look.glyphs;
         let (sign, role) = match (self.is_over(), self.held) {
@@ -248,7 +250,7 @@ impl CastPlayer {
         }
     }
 
-    /// Writes pieces over a row, whatever was there; the column behind them.
+    /// Writes pieces over a cleared row. Returns the column after them.
     fn write_over(&self, row: Rect, pieces: &[(Role, String)], buffer: &mut Buffer) -> u16 {
         for x in row.left()..row.right() {
             buffer[(x, row.y)].reset();
@@ -279,7 +281,7 @@ impl Screen for CastPlayer {
     fn input(&mut self, event: Event) -> ScreenRequest {
         match event {
             Event::Key(key) => self.press(key),
-            // it may not show all any more
+            // The window may no longer show the whole cast.
             Event::Resize(..) => {
                 self.awake = self.awake.max(AWAKE);
                 ScreenRequest::Nothing
@@ -289,7 +291,7 @@ impl Screen for CastPlayer {
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
-        // what is not yet written must be before time goes on
+        // All events up to the current time must be written before time advances.
         let behind =
             self.tape.events.get(self.next.0).is_some_and(|(t, _)| (*t as f64) < self.time);
         if !self.held && !behind {
@@ -310,7 +312,7 @@ impl Screen for CastPlayer {
         for (y, line) in (area.top()..area.bottom()).zip(self.screen.view()) {
             let mut x = area.left();
             for cell in line.cells() {
-                // the second half of a wide character
+                // This is the second half of a wide character.
                 if cell.width() == 0 {
                     continue;
                 }
@@ -345,18 +347,18 @@ fn blank((columns, rows): (u16, u16)) -> avt::Vt {
     avt::Vt::builder().size(wide(columns), rows.into()).scrollback_limit(0).build()
 }
 
-/// At least two columns: the terminal in memory has no room for a wide character in one.
+/// Returns at least two columns, since the terminal in memory has no room for a wide character in one.
 fn wide(columns: u16) -> usize {
     columns.max(2).into()
 }
 
-/// `1:05`.
+/// Formats a time as `1:05`.
 fn clock(time: f64) -> String {
     let seconds = (time / 1e6) as u64;
     format!("{}:{:02}", seconds / 60, seconds % 60)
 }
 
-/// One ASCII character in the place of another.
+/// Returns an ASCII replacement of a character.
 fn spelt(character: char) -> char {
     let text = crate::view::glyphs::Glyphs::Ascii.text(&character.to_string()).into_owned();
     match (character, text.as_str()) {
@@ -385,7 +387,7 @@ fn style(pen: &avt::Pen, depth: ColourDepth) -> Style {
     style
 }
 
-/// A colour as far as this terminal has it.
+/// Reduces a colour to what this terminal supports.
 fn colour(colour: avt::Color, depth: ColourDepth) -> Option<Color> {
     match (depth, colour) {
         (ColourDepth::None, _) => None,

@@ -1,7 +1,7 @@
-//! The checker: from a text being edited to an experiment, on the side, so that no key waits for it.
+//! The checker: builds an experiment from a text being edited, in the background, so that no key waits for it.
 //!
-//! In: a text. Out: what was made of it, or its mistakes, and how long that took. One text at a time: the next one stops
-//! the one before. Never here: the stages themselves.
+//! In: a text. Out: the experiment or the text's mistakes, and the time taken. Only one text is checked at a time:
+//! a new check cancels the previous one. Never here: the stages themselves.
 
 use std::time::{Duration, Instant};
 
@@ -17,31 +17,31 @@ pub(super) struct Checker {
     begun: Instant,
 }
 
-/// What became of a text.
+/// The result of a check.
 pub(super) struct Answer {
-    /// Which check it was.
+    /// The ticket of the check.
     pub(super) ticket: u64,
-    /// The experiment it makes, or what is wrong with it.
+    /// The experiment, or what is wrong with the text.
     pub(super) outcome: Result<Box<Prepared>, Vec<Diagnostic>>,
-    /// How long that took.
+    /// How long the check took.
     pub(super) took: Duration,
 }
 
 impl Checker {
-    /// A checker with nothing to do.
+    /// Creates an idle checker.
     pub(super) fn new() -> Self {
         Self { side: Side::new("checker"), begun: Instant::now() }
     }
 
-    /// The check under way is no longer wanted.
+    /// Cancels the check under way.
     pub(super) fn stop(&mut self) {
         self.side.stop();
     }
 
-    /// Begins to check a text, and stops the check before.
+    /// Starts to check a text, and cancels the previous check.
     pub(super) fn check(&mut self, ticket: u64, document: Document) {
         self.begun = Instant::now();
-        // the token is the system's once it is there
+        // The token passes to the system once that exists.
         let check = Job::new("checking", move |progress| {
             let ready = Prepared::with(&document, progress.token());
             ready.map(Box::new).map_err(|unready| unready.mistakes)
@@ -49,7 +49,7 @@ impl Checker {
         self.side.begin(ticket, check);
     }
 
-    /// An answer, once it is there.
+    /// Returns a result as soon as there is one.
     pub(super) fn take(&mut self) -> Option<Answer> {
         let (ticket, outcome) = self.side.take()?;
         let outcome = match outcome {

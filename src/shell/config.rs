@@ -1,7 +1,7 @@
-//! The configuration: a file of the user's with what the laboratory is to be opened with.
+//! The configuration: a file of the user's with default options for the laboratory.
 //!
-//! In: `phaselab/config.toml` where XDG keeps configuration, if it is there. Out: [`Words`], or every mistake in its
-//! place. Never here: what an option does.
+//! In: `phaselab/config.toml` in the XDG configuration folder, if it exists. Out: [`Words`], or every mistake with
+//! its position. Never here: what an option does.
 
 use std::fmt::Write as _;
 use std::io;
@@ -15,15 +15,16 @@ use super::regular;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{Plain, Setting};
 
-/// Where the configuration stands, whether it is there or not; `None` without a home.
+/// Returns the path of the configuration, whether or not the file exists. Returns `None` if there is no home
+/// folder.
 pub fn path() -> Option<PathBuf> {
     Xdg::new().ok().map(|xdg| xdg.config_dir().join("phaselab").join("config.toml"))
 }
 
-/// The file there is.
+/// Reads the configuration file if it exists.
 ///
 /// # Errors
-/// Where it is there and cannot be read.
+/// Returns an error if the file exists but cannot be read.
 pub fn find() -> io::Result<Option<Document>> {
     let Some(path) = path() else { return Ok(None) };
     match regular::document(&path) {
@@ -35,10 +36,10 @@ pub fn find() -> io::Result<Option<Document>> {
     }
 }
 
-/// What a configuration asks for.
+/// Parses a configuration.
 ///
 /// # Errors
-/// All its mistakes, in the order of their places.
+/// Returns all its mistakes, ordered by position.
 pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
     let mut words = Words::new();
     let names: Vec<&str> = rows().iter().map(|row| row.name.as_str()).collect();
@@ -54,10 +55,10 @@ pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
     if mistakes.is_empty() { Ok(words) } else { Err(mistakes) }
 }
 
-/// The value as a word that the option accepts.
+/// Returns the value as a word that the option accepts.
 fn word(row: &Row, entry: &Setting) -> Result<String, Diagnostic> {
     let at = |message: String| Diagnostic::error(entry.place.clone(), message);
-    // `color = 256` and `color = true` mean what they say
+    // `color = 256` and `color = true` are accepted too.
     let word = match &entry.value {
         Plain::Flag(flag) => flag.to_string(),
         Plain::Number(number) => number.clone(),
@@ -81,7 +82,7 @@ fn word(row: &Row, entry: &Setting) -> Result<String, Diagnostic> {
     })
 }
 
-/// The configuration that says what is so without one, with a comment on each key.
+/// Returns a configuration with the default values and a comment on each key.
 pub fn default_text() -> String {
     let mut text = "\
 # The configuration of phaselab: what the laboratory opens with.

@@ -1,13 +1,13 @@
 //! The decoder: the bytes a terminal sends, as crossterm's events.
 //!
-//! In: bytes, in pieces of any size, and the news that no more came for a while; which reports were asked for.
+//! In: bytes, in pieces of any size, and timeouts without input; which reports are enabled.
 //! Out: [`Event`]s. Never here: what a key does. No byte string makes it panic or get stuck.
 //!
-//! The sequences are taken apart by `vte`, which alacritty's terminal lives on; what a lone Esc is, time tells.
+//! The sequences are parsed by `vte`, the parser of alacritty's terminal; a timeout distinguishes a lone Esc.
 //!
-//! It stands where crossterm's own reader would, because of what that does in version 0.29. Each row was seen on a
-//! pseudo-terminal, and has its thread upstream (crossterm-rs/crossterm) and the test that holds it here. When all
-//! are mended upstream this file goes: `event::poll` and `event::read` fit behind [`EventSource`].
+//! It replaces crossterm's own reader because of that reader's defects in version 0.29. Each row was observed on a
+//! pseudo-terminal, and has its upstream thread (crossterm-rs/crossterm) and the test that covers it here. Once all
+//! of them are fixed upstream, this file can go: `event::poll` and `event::read` fit behind [`EventSource`].
 //!
 //! | crossterm's reader | thread | test |
 //! |---|---|---|
@@ -32,28 +32,30 @@ use super::events::EventSource;
 use super::terminal::{Mode, Terminal};
 use crate::app::{LONGEST_PASTE, key};
 
-/// The most that one paste brings, in bytes: a character more than is taken of it, so that it is reported where it was cut.
+/// The maximum size of a paste, in bytes: a character more than the application accepts, so that the cut is
+/// reported there.
 pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
 
 const ESC: u8 = 0x1b;
 
-/// How long the rest of a sequence may take: longer than a line's jitter, shorter than a person notices.
+/// How long the rest of a sequence may take: longer than a connection's jitter, shorter than a user notices.
 const SEQUENCE: Duration = Duration::from_millis(50);
 
-/// The same for the rest of a paste, which may be long.
+/// How long the rest of a paste may take, which may be long.
 const PASTE: Duration = Duration::from_secs(1);
 
-/// How many times as long it may take in all, where more keeps coming and nothing is finished.
+/// The factor by which it may take longer in total if more input keeps coming but nothing is completed.
 const IN_ALL: u32 = 10;
 
-/// Reads in a row before what came is looked at, each of [`READ`] bytes; a flood must not keep the screen still.
+/// The number of consecutive reads, each of [`READ`] bytes, before the input is processed; a flood must not stall
+/// the screen.
 const READS: usize = 64;
 const READ: usize = 4096;
 
-/// The longest sequence that is waited for, in bytes; what is longer is noise.
+/// The maximum length of a sequence, in bytes; anything longer is noise.
 const SEQUENCE_LIMIT: usize = 16 * 1024;
 
-/// What bytes mean that come in pieces without a pause, and then nothing more, where every report was asked for.
+/// Decodes bytes that come in pieces without a pause, followed by silence, with all reports enabled.
 pub fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Event> {
     let (mut decoder, now) = (Decoder::default(), Instant::now());
     for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
@@ -71,11 +73,11 @@ pub fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Event> {
 pub(super) struct Decoder {
     parser: Parser,
     sink: Sink,
-    /// The last byte was Esc: a key of its own, or the beginning of a sequence.
+    /// Whether the last byte was Esc: a key of its own, or the start of a sequence.
     escaped: bool,
-    /// Bytes of the sequence begun, 0 where none is.
+    /// The number of bytes of the unfinished sequence, 0 if there is none.
     begun: usize,
-    /// When what is unfinished began, and when the last of it came.
+    /// When the unfinished input began, and when its last byte came.
     times: Option<(Instant, Instant)>,
 }
 
@@ -121,7 +123,7 @@ impl EventSource for Decoder {
 }
 
 impl Decoder {
-    /// Takes bytes in that came at that time.
+    /// Takes in bytes that came at this time.
     fn feed(&mut self, bytes: &[u8], now: Instant) {
         self.parse(bytes);
         let first = self.times.map_or(now, |(first, _)| first);
@@ -139,7 +141,7 @@ impl Decoder {
                 continue;
             }
             if self.escaped && !(0x20..=0x7e).contains(&byte) {
-                // Alt with a control or non-ASCII character, which the parser would lose.
+                // The parser would lose Alt with a control or non-ASCII character.
                 self.parser = Parser::new();
                 self.sink.alt = true;
             }
@@ -157,7 +159,7 @@ impl Decoder {
         }
     }
 
-    /// How long to wait for more of what is unfinished.
+    /// Returns how long to wait for the rest of unfinished input.
     fn patience(&self) -> Option<Duration> {
         if self.sink.paste.is_some() {
             Some(PASTE)
@@ -168,7 +170,7 @@ impl Decoder {
         }
     }
 
-    /// Nothing more came: what is unfinished is a key of its own, or noise.
+    /// Ends unfinished input after a timeout: it is a complete key, or noise.
     fn expire(&mut self) {
         if let Some(text) = self.sink.paste.take() {
             self.sink.events.push_back(Event::Paste(text));
@@ -187,7 +189,7 @@ impl Decoder {
     }
 }
 
-/// A sequence that the parser takes for finished, while one character is still to come.
+/// A sequence that the parser considers finished although one more character is to come.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Prefix {
     #[default]
@@ -198,30 +200,30 @@ enum Prefix {
     Console,
 }
 
-/// What the terminal was told to send.
+/// The reports that the terminal was told to send.
 #[derive(Clone, Copy, Default)]
 struct Expected {
-    /// Pastes in brackets.
+    /// Bracketed pastes.
     pastes: bool,
-    /// Reports of the mouse.
+    /// Mouse reports.
     mouse: bool,
-    /// Reports of the window's focus.
+    /// Focus reports.
     focus: bool,
 }
 
-/// What the parser has found.
+/// The output of the parser.
 #[derive(Default)]
 struct Sink {
     events: VecDeque<Event>,
     prefix: Prefix,
-    /// Alt goes with the next key.
+    /// Whether Alt applies to the next key.
     alt: bool,
     paste: Option<String>,
-    /// What is no noise.
+    /// The reports that are not noise.
     expects: Expected,
-    /// Bytes still to come of a mouse report of the old form, which is not understood.
+    /// The remaining bytes of a mouse report in the old form, which is not supported.
     skip: usize,
-    /// The parser has finished something since it was last asked.
+    /// Whether the parser has completed something since this was last cleared.
     settled: bool,
 }
 
@@ -230,7 +232,7 @@ impl Sink {
         self.press_with(code, 1);
     }
 
-    /// A key with modifiers as xterm counts them: one more than shift 1, alt 2, ctrl 4.
+    /// Emits a key with modifiers in xterm's encoding: one more than the sum of shift 1, alt 2, ctrl 4.
     fn press_with(&mut self, code: KeyCode, modifiers: u16) {
         let bits = modifiers.saturating_sub(1);
         let held = [
@@ -259,7 +261,7 @@ impl Sink {
         }
     }
 
-    /// Keys that end in `~`, by their number.
+    /// Handles keys that end in `~`, by their number.
     fn numbered(&mut self, number: u16, modifiers: u16) {
         let code = match number {
             1 | 7 => KeyCode::Home,
@@ -283,7 +285,7 @@ impl Sink {
         self.press_with(code, modifiers);
     }
 
-    /// A mouse report of xterm's mode 1006: button and modifiers, column and row from 1.
+    /// Handles a mouse report of xterm's mode 1006: button and modifiers, column and row counted from 1.
     fn report(&mut self, [button, column, row]: [u16; 3], released: bool) {
         let kind = match (button & !0b1_1100, released) {
             (0, false) => MouseEventKind::Down(MouseButton::Left),
@@ -309,7 +311,7 @@ impl Sink {
         }
     }
 
-    /// Keys that end in a letter of their own.
+    /// Handles keys that end in a letter.
     fn lettered(&mut self, letter: char, modifiers: u16) {
         let code = match letter {
             'A' => KeyCode::Up,
@@ -375,14 +377,14 @@ impl Perform for Sink {
                     self.report([button, column, row], action == 'm');
                 }
             }
-            // Answers to questions nobody here asks.
+            // These are answers to queries, which this program never sends.
             _ if !intermediates.is_empty() => {}
-            // A terminal that knows the mouse only in its oldest form: three bytes more.
+            // A terminal that supports only the oldest mouse protocol sends three more bytes.
             'M' if self.expects.mouse => self.skip = 3,
             'I' | 'O' if self.expects.focus && first == 0 => self.focus(action == 'I'),
             '[' => self.prefix = Prefix::Console,
             '~' => self.numbered(first, modifiers),
-            // With another number it is an answer, such as the cursor's place.
+            // With another number it is an answer, such as the cursor position.
             letter if first <= 1 => self.lettered(letter, modifiers),
             _ => {}
         }
@@ -391,7 +393,7 @@ impl Perform for Sink {
     fn esc_dispatch(&mut self, intermediates: &[u8], _: bool, byte: u8) {
         self.settled = true;
         match byte {
-            // The end of a string that the parser has swallowed.
+            // This ends a string that the parser has skipped.
             b'\\' => {}
             _ if !intermediates.is_empty() => {}
             b'O' => self.prefix = Prefix::Keypad,
@@ -409,12 +411,12 @@ mod tests {
 
     use super::*;
 
-    /// What whole bytes, and then silence, mean.
+    /// Decodes complete input, followed by silence.
     fn decode(bytes: &[u8]) -> Vec<Event> {
         decode_with(Mode::Paste, bytes)
     }
 
-    /// The same where a mode is on.
+    /// Decodes the same with a mode enabled.
     fn decode_with(mode: Mode, bytes: &[u8]) -> Vec<Event> {
         let mut decoder = Decoder::default();
         decoder.expect(mode, true);
@@ -435,12 +437,12 @@ mod tests {
         assert_eq!(pieces, expected, "{bytes:?} in pieces");
     }
 
-    /// Keys by their names.
+    /// Parses keys by their names.
     fn keys(names: &str) -> Vec<KeyEvent> {
         names.split_whitespace().map(|name| key::named(name).expect("a key")).collect()
     }
 
-    /// What came of it so far.
+    /// Takes the events decoded so far.
     fn taken(decoder: &mut Decoder) -> Vec<Event> {
         decoder.sink.events.drain(..).collect()
     }
@@ -482,7 +484,7 @@ mod tests {
         assert_eq!(decoder.next(now + SEQUENCE), Some(Event::Key(KeyCode::Esc.into())));
     }
 
-    /// What is typed a while after something that has no end.
+    /// Decodes a `q` typed a while after an unfinished sequence.
     fn q_after(unfinished: &[u8], patience: Duration) -> Vec<Event> {
         let (mut decoder, now) = (Decoder::default(), Instant::now());
         for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
@@ -575,7 +577,7 @@ mod tests {
             "\x1b[<0;1M",
             "\x1b[<0;1;1;1M",
             "\x1b[<M",
-            // The middle and the right button, motion without a button, the wheel aside, more buttons.
+            // The middle and the right button, motion without a button, horizontal scrolling, extra buttons.
             "\x1b[<1;1;1M\x1b[<2;1;1m",
             "\x1b[<34;1;1M\x1b[<35;1;1M",
             "\x1b[<66;1;1M\x1b[<67;1;1M\x1b[<64;1;1m",
@@ -614,7 +616,7 @@ mod tests {
 
     #[test]
     fn a_hundred_thousand_strings_of_noise_do_no_harm() {
-        // Bytes that sequences are made of come often; the rest is anything.
+        // Bytes of escape sequences are frequent; the others are arbitrary.
         const OFTEN: &[u8] = b"\x1b\x1b\x1b[[<<;;0019MmO?]P_^X\\~200~201~\x07\x18\x9b\xc3\xff";
         let mut seed = 0x2545_f491_4f6c_dd1d_u64;
         let mut random = || {
@@ -664,7 +666,7 @@ mod tests {
             let mut now = Instant::now();
             decoder.feed(&bytes, now);
             decoder.feed(tail.as_bytes(), now);
-            // A key that repeats must not keep it waiting either.
+            // A repeating key must not keep it waiting either.
             for _ in 0..1000 {
                 if decoder.deadline().is_none_or(|deadline| deadline <= now) {
                     break;

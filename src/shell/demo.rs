@@ -1,7 +1,8 @@
-//! The demo: a script performed on the terminal while one watches, from its beginning to its end.
+//! The demo: performs a script on the terminal from start to end, for the user to watch.
 //!
-//! In: a [`ScriptRunner`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this terminal.
-//! It ends by itself, so that a program that records terminals can record it. Never here: what a script says.
+//! In: a [`ScriptRunner`], time, a few keys. Out: the laboratory's own screen, in the size and the colours of this
+//! terminal.
+//! It ends by itself, so that a program that records terminals can record it. Never here: the contents of a script.
 
 use std::time::Duration;
 
@@ -14,8 +15,8 @@ use crate::diagnostic::Diagnostic;
 use crate::record::ScriptRunner;
 use crate::view::{Detail, RenderStyle};
 
-/// The most that one frame lets pass. Where the terminal or the machine cannot keep up the demo waits for it, so that
-/// nothing is missed.
+/// The maximum time that one frame advances. If the terminal or the machine cannot keep up, the demo slows down, so
+/// that nothing is skipped.
 const LONGEST: Duration = Duration::from_secs(1);
 
 /// A script being performed on the terminal.
@@ -23,21 +24,21 @@ pub(super) struct Demo {
     performance: ScriptRunner,
     look: RenderStyle,
     detail: Detail,
-    /// Since its beginning, without what it was held.
+    /// The time since the start, without pauses.
     time: Duration,
     held: bool,
-    /// Nothing more comes, or it was left; with what is wrong with the script, if that is why.
+    /// How it ended, by itself or by the user; an error if the script is wrong.
     end: Option<Result<(), Diagnostic>>,
 }
 
 impl Demo {
-    /// At its beginning.
+    /// Creates a demo at its start.
     pub(super) fn new(performance: ScriptRunner, look: RenderStyle) -> Self {
         let (detail, time) = (Detail::default(), Duration::ZERO);
         Self { performance, look, detail, time, held: false, end: None }
     }
 
-    /// The last picture of a demo that was not left before; or what is wrong with the script.
+    /// Returns the last picture of a demo that was not ended by the user, or what is wrong with the script.
     pub(super) fn outcome(self) -> Result<Option<Buffer>, Diagnostic> {
         let Self { performance, look, end, .. } = self;
         Ok(end.transpose()?.map(|()| performance.picture(&look)))
@@ -79,7 +80,7 @@ impl Screen for Demo {
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         self.performance.draw(&self.look.reduced(self.detail), area, buffer);
-        // no cursor blinks over a demo
+        // A demo shows no blinking cursor.
         None
     }
 

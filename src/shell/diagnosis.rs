@@ -1,36 +1,36 @@
-//! The diagnosis: what the terminal is taken for, and what in the environment says so.
+//! The diagnosis: which capabilities the terminal is assumed to have, and which environment variables decide that.
 //!
-//! In: environment variables, the window's size. Out: findings. Never here: a question put to the terminal; how the
+//! In: environment variables, the window's size. Out: findings. Never here: queries to the terminal; how the
 //! findings are printed.
 
 use super::request::Request;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 
-/// One thing that was found out.
+/// One finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// What it is about.
+    /// Its subject.
     pub what: &'static str,
-    /// What was found.
+    /// Its result.
     pub found: String,
-    /// What says so; empty where it is a fact by itself.
+    /// The evidence; empty if none is needed.
     pub why: String,
 }
 
 /// The environment.
 type Variables<'a> = &'a dyn Fn(&str) -> Option<String>;
 
-/// What tells of colours.
+/// The variables that determine the colours.
 const OF_COLOUR: [&str; 6] = ["NO_COLOR", "COLORTERM", "TERM", "WT_SESSION", "STY", "TMUX"];
 
-/// What tells of characters.
+/// The variables that determine the characters.
 const OF_GLYPHS: [&str; 5] = ["LC_ALL", "LC_CTYPE", "LANG", "TERM", "WT_SESSION"];
 
-/// What tells of a line between the terminal and the program.
+/// The variables that indicate a remote connection.
 const OF_LINE: [&str; 2] = ["SSH_CONNECTION", "SSH_TTY"];
 
-/// What is found out of the environment, and of a window of so many columns and rows if there is one.
+/// Returns the findings about the environment, and about a window of this size (columns, rows) if there is one.
 pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Finding> {
     let set = |name: &str| variables(name).is_some_and(|value| !value.is_empty());
     let term = variables("TERM").filter(|term| !term.is_empty());
@@ -68,7 +68,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Find
     ]
 }
 
-/// The variables without which something else would be found.
+/// Returns the variables without which the finding would differ.
 fn why<T: PartialEq>(
     variables: Variables<'_>,
     names: &[&str],
@@ -85,10 +85,10 @@ fn why<T: PartialEq>(
         found(&without) != whole
     };
     let deciding: Vec<&str> = set.iter().copied().filter(decides).collect();
-    // Where several say the same, none of them decides alone.
+    // If several variables agree, none of them decides alone.
     let told = if deciding.is_empty() { set } else { deciding };
     let told = told.iter().map(|name| match variables(name) {
-        // Who is connected from where is nobody's business who gets to read this.
+        // The addresses of a connection are private and do not belong in a report.
         Some(value) if !OF_LINE.contains(name) => format!("{name}={value}"),
         _ => format!("{name} is set"),
     });

@@ -1,9 +1,9 @@
-//! Where events come from: the one thing the frame loop knows of reading a terminal.
+//! The source of events: all that the frame loop knows about reading a terminal.
 //!
-//! In: a terminal at which something was typed. Out: crossterm's [`Event`]s, without waiting for any. Never here: bytes.
+//! In: a terminal with input. Out: crossterm's [`Event`]s, without blocking. Never here: bytes.
 //!
-//! The reader behind it is [`super::decoder`]. crossterm's own would fit as well: `event::poll` and `event::read` for
-//! `read`, and no deadline.
+//! It is implemented by [`super::decoder`]. crossterm's own reader would fit as well: `event::poll` and
+//! `event::read` for `read`, and no deadline.
 
 use std::io;
 use std::time::Instant;
@@ -14,15 +14,15 @@ use super::terminal::{Mode, Terminal};
 
 /// A reader of a terminal.
 pub(super) trait EventSource {
-    /// Reads what has come; call it when there is something. `false` if the terminal is gone.
+    /// Reads the available input; call it when there is some. Returns `false` if the terminal is gone.
     fn read(&mut self, terminal: &Terminal) -> io::Result<bool>;
 
-    /// The next event of those that have come until now, in their order.
+    /// Returns the next of the events that have arrived, in order.
     fn next(&mut self, now: Instant) -> Option<Event>;
 
-    /// When there may be an event although nothing more has come; `None` where nothing is unfinished.
+    /// Returns when there may be an event even without further input, or `None` if no input is unfinished.
     fn deadline(&self) -> Option<Instant>;
 
-    /// Whether the terminal was told to send what a mode brings; if not, it is noise.
+    /// Sets whether the reports of a mode are enabled; if they are not, they are noise.
     fn expect(&mut self, mode: Mode, expected: bool);
 }

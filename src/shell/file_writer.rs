@@ -1,7 +1,7 @@
-//! The scribe: writes files whole and to the disk, one after the other, on a thread of its own, so that no frame waits
+//! The file writer: writes whole files to the disk, one after the other, on its own thread, so that no frame waits
 //! for a disk.
 //!
-//! In: what is to stand in a file, or that it is to go. Out: what became of it. Never here: what the texts mean.
+//! In: the contents of a file, or its removal. Out: the outcomes. Never here: what the texts mean.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use super::atomic_file::{self, Durability, named, sync_folder};
 
-/// What makes the text of a file; it may take its time.
+/// A closure that produces the text of a file; it may be slow.
 type Maker = Box<dyn FnOnce() -> io::Result<String> + Send>;
 
 /// Writes files.
@@ -23,14 +23,14 @@ type Maker = Box<dyn FnOnce() -> io::Result<String> + Send>;
 pub(super) struct FileWriter {
     tasks: Sender<(PathBuf, Option<Maker>)>,
     outcomes: Receiver<(PathBuf, io::Result<()>)>,
-    /// How often each file is still to be written.
+    /// How many writes of each file are outstanding.
     open: BTreeMap<PathBuf, usize>,
-    /// There is no time to wait for a disk.
+    /// Whether there is no time to wait for a disk.
     hurried: Arc<AtomicBool>,
 }
 
 impl FileWriter {
-    /// One with nothing to do.
+    /// Creates an idle writer.
     pub(super) fn new() -> io::Result<Self> {
         let (tasks, given) = channel::<(PathBuf, Option<Maker>)>();
         let (sender, outcomes) = channel();
@@ -55,13 +55,13 @@ impl FileWriter {
         Ok(Self { tasks, outcomes, open: BTreeMap::new(), hurried })
     }
 
-    /// From now on files get their names at once: the program is made to end, which they outlive, and the disk is left to
-    /// the system.
+    /// From now on gives files their names without waiting for the disk: the program is being terminated, the files
+    /// outlive it, and the system writes them back.
     pub(super) fn hurry(&self) {
         self.hurried.store(true, Ordering::Relaxed);
     }
 
-    /// Has a file written.
+    /// Queues the writing of a file.
     pub(super) fn write(
         &mut self,
         path: &Path,
@@ -70,7 +70,7 @@ impl FileWriter {
         self.give(path, Some(Box::new(text)));
     }
 
-    /// Has a file taken away; one that is not there is no mistake.
+    /// Queues the removal of a file; a missing file is not an error.
     pub(super) fn remove(&mut self, path: &Path) {
         self.give(path, None);
     }
@@ -81,7 +81,7 @@ impl FileWriter {
         }
     }
 
-    /// What has become of the files since this was asked last.
+    /// Returns the outcomes since the last call.
     pub(super) fn outcomes(&mut self) -> Vec<(PathBuf, io::Result<()>)> {
         let outcomes: Vec<_> = self.outcomes.try_iter().collect();
         for (path, _) in &outcomes {
@@ -90,8 +90,8 @@ impl FileWriter {
         outcomes
     }
 
-    /// The same of what was asked for so far, waited for no longer than that. What is not done by then is an error of
-    /// the kind [`ErrorKind::TimedOut`], and will perhaps be done.
+    /// Returns the outcomes of everything queued so far, waiting at most this long. Work not done by then yields an
+    /// error of the kind [`ErrorKind::TimedOut`], and may still be done later.
     pub(super) fn settle(&mut self, time: Duration) -> Vec<(PathBuf, io::Result<()>)> {
         let end = Instant::now() + time;
         let mut outcomes = self.outcomes();
@@ -118,7 +118,7 @@ impl FileWriter {
     }
 }
 
-/// Writes a file whole: it is on the disk before it gets its name, and has its name before this returns.
+/// Writes a whole file: it is on the disk before it gets its name, and has its name before this returns.
 pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
     put(path, text, Durability::OnDisk)
 }
@@ -170,7 +170,7 @@ mod tests {
         let mut file_writer = FileWriter::new().expect("a thread");
         let (go, slow) = channel::<()>();
         file_writer.write(&path, move || {
-            // as long as nobody lets it go on
+            // Blocks until the sender is used or dropped.
             let _ = slow.recv();
             Ok("late".to_owned())
         });

@@ -1,6 +1,6 @@
-//! Files of systems: read, written whole or not at all, and watched.
+//! System files: read, written atomically, and watched.
 //!
-//! In: texts and paths. Out: the same on disk; the news that a file has changed. Never here: what a text means.
+//! In: texts and paths. Out: the texts on disk; a report that a file has changed. Never here: what a text means.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -15,10 +15,10 @@ use crate::diagnostic::TEXT_LIMIT;
 use crate::preset::{Catalog, is_path};
 use crate::printable;
 
-/// How often a watched file is looked at.
+/// The interval between checks of a watched file.
 const LOOKS: Duration = Duration::from_millis(500);
 
-/// Writes a text over a file, if that still holds what is known of it. Returns the file.
+/// Writes a text over a file if the file still has the expected contents. Returns the file.
 pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), SaveError> {
     if let Some(known) = known {
         match regular::read(place, TEXT_LIMIT) {
@@ -26,7 +26,7 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
             Err(error) if error.kind() == io::ErrorKind::FileTooLarge => {
                 return Err(SaveError::Changed);
             }
-            // a file that is gone is written anew
+            // A file that has disappeared is created again.
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 return Err(refused("read", place, &error));
             }
@@ -41,7 +41,7 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
         .map_err(|error| refused("write", place, &error))
 }
 
-/// Writes a text to a file that is not there yet: a preset of the user's by its name, or a path. Returns the file.
+/// Writes a text to a new file: a user preset given by name, or a path. Returns the file.
 pub(super) fn save_copy(name: &str, text: &str) -> Result<PathBuf, SaveError> {
     let place = if is_path(name) {
         let toml = Path::new(name).extension().is_some();
@@ -64,10 +64,10 @@ fn refused(what: &str, place: &Path, error: &io::Error) -> SaveError {
     SaveError::Refused(format!("cannot {what} {}: {}", place.display(), printable::why(error)))
 }
 
-/// The text of a file.
+/// Reads the text of a file.
 ///
 /// # Errors
-/// Where it cannot be read now, is no file, no text or too long; the error names the file.
+/// Returns an error that names the file if it cannot be read, is not a regular file, is not text or is too long.
 pub(super) fn read(place: &Path) -> io::Result<String> {
     regular::read_text(place, TEXT_LIMIT).map_err(|error| {
         let told = format!("cannot read {}: {}", place.display(), printable::why(&error));
@@ -75,44 +75,45 @@ pub(super) fn read(place: &Path) -> io::Result<String> {
     })
 }
 
-/// A file that is looked at now and then.
+/// A file that is checked periodically.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     place: Option<PathBuf>,
     stamp: Option<Stamp>,
     since: Duration,
-    /// How often in a row it was not there.
+    /// The number of consecutive checks in which it was missing.
     missed: u32,
 }
 
-/// What has become of a watched file.
+/// A change of a watched file.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum FileChange {
-    /// It has changed, and holds this text now; or it was gone and is there again.
+    /// It has changed and now has this text, or it has reappeared.
     Text { text: String, back: bool },
-    /// It is not there any more.
+    /// It has disappeared.
     Gone,
 }
 
-/// One that is not there so often in a row is gone; some editors take a file away for a moment when they write it.
+/// The number of consecutive misses after which a file counts as gone; some editors remove a file briefly when they
+/// write it.
 const GONE: u32 = 2;
 
-/// What changes with a file.
+/// The metadata that changes with a file.
 type Stamp = (u64, Option<SystemTime>, u64);
 
 impl Watch {
-    /// A file is about to be read: what becomes of it from now on is news.
+    /// Starts to watch a file that is about to be read; later changes are reported.
     pub(super) fn follow(&mut self, place: &Path) {
         let stamp = stamp(place);
         *self = Self { place: Some(place.to_owned()), stamp, since: LOOKS, missed: 0 };
     }
 
-    /// Time has passed: what has become of the file since it was looked at last, each once.
+    /// Advances the time. Returns a change of the file since the last check; each is reported once.
     pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<FileChange> {
         if self.place.as_deref() != Some(place) {
             let place = place.to_owned();
             *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
-            // it may have changed between its loading and now
+            // It may have changed between its loading and now.
             let text = read(self.place.as_deref()?).ok()?;
             return Some(FileChange::Text { text, back: false });
         }
@@ -136,7 +137,7 @@ impl Watch {
     }
 }
 
-/// `None` where there is no file.
+/// Returns `None` if there is no file.
 fn stamp(place: &Path) -> Option<Stamp> {
     let about: Metadata = fs::metadata(place).ok().filter(Metadata::is_file)?;
     Some((about.len(), about.modified().ok(), about.ino()))
@@ -214,12 +215,12 @@ mod tests {
         assert_eq!(watch.look(&place, LOOKS / 2), None, "it is not looked at all the time");
         assert_eq!(watch.look(&place, LOOKS / 2), text("longer", false));
         assert_eq!(watch.look(&place, LOOKS), None);
-        // gone for a moment, and there again
+        // It is gone for a moment, and then there again.
         fs::remove_file(&place).expect("it goes");
         assert_eq!(watch.look(&place, LOOKS), None);
         fs::write(&place, "again").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS), text("again", false));
-        // gone for long
+        // It is gone for good.
         fs::remove_file(&place).expect("it goes");
         let looks: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
         assert_eq!(looks, [FileChange::Gone], "it is reported once");

@@ -1,10 +1,10 @@
-//! The stage: the frame loop, which holds a page up on the terminal until it is done.
+//! The frame loop, which shows a page on the terminal until the page is done.
 //!
-//! In: a [`Screen`], what is typed, signals. Out: frames, and how it ended. It waits in one place, for all there is to
-//! wait for. Never here: what the page is about.
+//! In: a [`Screen`], typed input, signals. Out: frames, and how it ended. It blocks in a single place, for
+//! everything that can happen. Never here: what the page is about.
 //!
-//! There is no writing thread: the terminal is written to without blocking, and while it has not taken the last frame
-//! none is drawn. So a stalled terminal costs pictures, never a key.
+//! There is no writing thread: writes to the terminal do not block, and no frame is drawn until the terminal has
+//! accepted the last one. So a stalled terminal costs pictures, but never a key.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -25,81 +25,81 @@ use super::terminal::{Mode, Ready, Terminal, TerminalError};
 use crate::view::Detail;
 use crate::view::frame::Frames;
 
-/// What can be held up on a terminal.
+/// A page that can be shown on a terminal.
 pub trait Screen {
-    /// Something was done at the terminal.
+    /// Handles an event of the terminal.
     fn input(&mut self, event: Event) -> ScreenRequest;
 
-    /// A frame is due and this much time has passed since the last; whether anything to be seen has changed.
+    /// Advances the time to the next frame. Returns whether anything visible has changed.
     fn advance(&mut self, elapsed: Duration) -> bool;
 
-    /// Draws on a blank area, and says where the terminal's cursor belongs, if it is to be seen.
+    /// Draws on a blank area. Returns the position of the terminal's cursor, or `None` to hide it.
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position>;
 
-    /// Whether text is being typed, so that a paste should come as one.
+    /// Whether text is being typed, so that a paste should arrive as one event.
     fn is_typing(&self) -> bool;
 
-    /// Whether nothing more will come; the last picture is then shown and the page ends.
+    /// Whether the page is finished; its last picture is then shown, and the loop ends.
     fn is_done(&self) -> bool {
         false
     }
 
-    /// It ends: what must not be lost is written down now, before anybody waits for the terminal; `hurried` where it is
-    /// made to, and there is little time.
+    /// Called at the end, before the terminal is waited for, to save what must not be lost; `hurried` says that the
+    /// program is being terminated and there is little time.
     fn on_exit(&mut self, _hurried: bool) {}
 
-    /// The line to the terminal carries only so much: the next pictures should be that much poorer.
+    /// Called if the connection to the terminal is too slow or fast again: sets the detail of the next pictures.
     fn reduce(&mut self, _detail: Detail) {}
 }
 
-/// What a page wants of the terminal.
+/// What a page requests of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScreenRequest {
-    /// Nothing but to be drawn anew.
+    /// Nothing except a redraw.
     Nothing,
-    /// Every cell painted, whatever the terminal shows.
+    /// Repaint every cell, whatever the terminal shows.
     Repaint,
-    /// The mouse reported, or left to the terminal.
+    /// Capture the mouse, or leave it to the terminal.
     Mouse(bool),
-    /// At most so many frames in a second.
+    /// Draw at most this many frames per second.
     Frames(u16),
-    /// To be stopped as by Ctrl-Z.
+    /// Suspend the process, as Ctrl-Z does.
     Suspend,
-    /// To end.
+    /// End the loop.
     Quit,
 }
 
 /// How frames are sent.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
-    /// The most frames in a second, at least one.
+    /// The maximum number of frames per second, at least one.
     pub frames: u16,
-    /// The most bytes in a second, if there is a limit.
+    /// The maximum number of bytes per second, if there is a limit.
     pub bytes: Option<u32>,
-    /// Whether they come between the marks of synchronized output.
+    /// Whether frames are enclosed in the marks of synchronized output.
     pub synchronized: bool,
-    /// Whether the mouse is reported from the beginning.
+    /// Whether the mouse is captured from the start.
     pub mouse: bool,
 }
 
-/// How a page came to its end.
+/// How a page ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// It wanted to.
+    /// The page requested it.
     Quit,
     /// The terminal has hung up.
     Gone,
-    /// This signal asked for it.
+    /// The program was asked to end by this signal.
     Signal(i32),
 }
 
-/// Frames that may fail one after the other before the terminal is given up.
+/// The number of consecutive failed frames after which the terminal is given up.
 const FAILURES: u32 = 20;
 
-/// Holds a page up on the terminal until it ends. The terminal is then as it was, whatever the way out.
+/// Shows a page on the terminal until it ends. The terminal is restored in every case.
 ///
 /// # Errors
-/// Where there is no terminal, or it can no longer be used.
+/// Returns an error if there is no terminal, or if it can no longer be used.
 pub fn perform(page: &mut impl Screen, pace: Pace) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let terminal = Arc::new(Terminal::open()?);
@@ -122,7 +122,7 @@ pub fn perform(page: &mut impl Screen, pace: Pace) -> Result<Ending, LabError> {
     Ok(ended?)
 }
 
-/// Restores the terminal when it goes.
+/// Restores the terminal when dropped.
 struct Guard(Arc<Terminal>);
 
 impl Drop for Guard {
@@ -139,7 +139,7 @@ struct Stage<'a, E> {
     queue: Queue,
     size: Option<Size>,
     governor: Governor,
-    /// The mouse is wanted.
+    /// Whether the mouse is to be captured.
     mouse: bool,
     failures: u32,
 }
@@ -159,7 +159,7 @@ impl<E: EventSource> Stage<'_, E> {
             } else if notes.resumed {
                 self.enter()?;
             } else if notes.resized {
-                // Even where the size is the same again, the terminal may have lost what it showed.
+                // Even if the size is the same again, the terminal may have lost its contents.
                 self.screen.forget();
             }
             while let Some(event) = self.events.next(Instant::now()) {
@@ -196,7 +196,7 @@ impl<E: EventSource> Stage<'_, E> {
         }
     }
 
-    /// Sets the terminal up, and knows nothing of what it shows.
+    /// Sets up the terminal, and assumes nothing about its contents.
     fn enter(&mut self) -> io::Result<()> {
         self.queue.clear();
         self.terminal.enter(&mut self.queue)?;
@@ -206,15 +206,15 @@ impl<E: EventSource> Stage<'_, E> {
         Ok(())
     }
 
-    /// Switches a mode, and knows what may then come in.
+    /// Switches a mode, and accepts or ignores its reports from now on.
     fn switch(&mut self, mode: Mode, on: bool) -> io::Result<()> {
         self.terminal.switch(mode, on, &mut self.queue)?;
         self.events.expect(mode, on);
         Ok(())
     }
 
-    /// Whether an event is for the page: what lies beyond the window is not. Who types or clicks looks here, even
-    /// where the terminal has not said so.
+    /// Whether an event is meant for the page; mouse events outside the window are not. Input implies that the
+    /// window is being watched, even if the terminal has not reported so.
     fn admits(&mut self, event: &Event) -> bool {
         match event {
             Event::FocusLost => self.governor.watched = false,
@@ -228,15 +228,16 @@ impl<E: EventSource> Stage<'_, E> {
         true
     }
 
-    /// Gives the terminal back until the program goes on.
+    /// Releases the terminal until the program is resumed.
     fn suspend(&mut self) -> io::Result<()> {
         self.terminal.leave();
         self.signals.stop()?;
-        // What ends in the background must not touch the terminal, or it is stopped again.
+        // A program ending in the background must not touch the terminal, or it is stopped again.
         if self.signals.is_fatal() { Ok(()) } else { self.enter() }
     }
 
-    /// Tells the page of a new size. It is asked for every time, which many resizes at once cannot outrun.
+    /// Reports a new size to the page. The size is queried every time, so that a burst of resizes cannot get ahead
+    /// of it.
     fn resize(&mut self, page: &mut impl Screen) -> bool {
         let size = Terminal::size();
         let changed = self.size.replace(size) != Some(size);
@@ -246,7 +247,7 @@ impl<E: EventSource> Stage<'_, E> {
         changed
     }
 
-    /// Draws, and puts what has changed in the queue; how many bytes that are.
+    /// Draws, and queues the changes. Returns the number of bytes.
     fn frame(&mut self, page: &mut impl Screen) -> io::Result<usize> {
         let size = self.size.unwrap_or_default();
         self.switch(Mode::Paste, page.is_typing())?;
@@ -258,7 +259,8 @@ impl<E: EventSource> Stage<'_, E> {
         Ok(frame.len())
     }
 
-    /// Has the bytes of a frame count, and says whether the next must be drawn because it is richer or poorer.
+    /// Accounts for the bytes of a frame. Returns whether the level of detail changed, so that the next frame must
+    /// be drawn.
     fn count(&mut self, bytes: usize, page: &mut impl Screen) -> bool {
         let before = self.governor.detail();
         self.governor.sent(bytes, Instant::now());
@@ -269,7 +271,7 @@ impl<E: EventSource> Stage<'_, E> {
         detail != before
     }
 
-    /// Sends what the terminal takes. One failed write costs a frame; then all is set up and painted anew.
+    /// Sends what the terminal accepts. After a failed write, the terminal is set up and painted again.
     fn send(&mut self) -> io::Result<()> {
         match self.queue.send(|bytes| self.terminal.write(bytes)) {
             Ok(()) => self.failures = 0,

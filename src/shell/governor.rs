@@ -1,56 +1,58 @@
-//! The governor: how often frames may come over a line of so many bytes a second, and how much may be in them.
+//! The governor: how often frames are sent over a connection of limited bandwidth, and how detailed they are.
 //!
-//! In: the bytes of each frame and when they were sent. Out: when the next is due, the most bytes it may have, and how
-//! much of the picture to leave out. Never here: a clock, the terminal, or what is left out.
+//! In: the bytes of each frame and when they were sent. Out: when the next frame is due, its maximum size in bytes,
+//! and how much of the picture to leave out. Never here: a clock, the terminal, or which details are left out.
 //!
-//! Where the line is too slow frames come less often, down to [`FEWEST`] a second. Where that is not enough there are
-//! fewer colours, then less in the picture; what is still too much comes in parts, a part a frame. Bytes are counted, not
-//! guessed: what was sent has to be paid for in time before the next frame.
+//! If the connection is too slow, frames come less often, down to [`FEWEST`] per second. If that is not enough,
+//! there are fewer colours, then less detail; a frame that is still too large is split over several frames. Bytes
+//! are counted, not estimated: the next frame has to wait until what was sent has been transmitted.
 
 use std::time::{Duration, Instant};
 
 use crate::view::Detail;
 
-/// The fewest frames in a second, however slow the line is.
+/// The minimum number of frames per second, however slow the connection is.
 const FEWEST: f64 = 2.0;
 
-/// A frame that takes longer than this on the line, in seconds, is too much; the picture has to become poorer.
+/// A frame whose transmission takes longer than this, in seconds, is too large; the detail is then reduced.
 const SLOW: f64 = 0.4;
 
-/// One that takes less leaves room for a richer picture, which may be three times as much.
+/// A frame that takes less than this leaves room for more detail, which may take three times as much.
 const EASY: f64 = 0.125;
 
-/// For how long it has to be too much.
+/// How long frames must be too large before the detail is reduced.
 const SLOWNESS: Duration = Duration::from_secs(1);
 
-/// For how long there has to be room; twice as long after every rise that was too much, up to the second time.
+/// How long there must be room before the detail is raised. The time doubles after every premature raise, up to the
+/// second value.
 const EASE: [Duration; 2] = [Duration::from_secs(3), Duration::from_secs(60)];
 
-/// A fall so soon after a rise says that the rise was too much.
+/// A reduction this soon after a raise means that the raise was premature.
 const SOON: Duration = Duration::from_secs(10);
 
-/// How long what a frame needs is remembered, in seconds.
+/// The averaging time for the need of a frame, in seconds.
 const MEMORY: f64 = 1.0;
 
-/// Between two frames while nobody looks: two in a second are enough to see that it lives.
+/// The interval between frames while the window has no focus: two per second are enough to show that the program
+/// runs.
 const ASIDE: Duration = Duration::from_millis(500);
 
-/// Watches over what is sent.
+/// Controls the rate and detail of frames.
 #[derive(Debug)]
 pub(super) struct Governor {
     frames: u16,
-    /// Bytes in a second; `None` where the line carries anything.
+    /// The bytes per second; `None` if there is no limit.
     budget: Option<f64>,
-    /// Whether somebody looks at the window.
+    /// Whether the window has the focus.
     pub(super) watched: bool,
     /// When the last frame was sent.
     at: Instant,
-    /// Bytes that were sent then and not paid for.
+    /// The bytes that had not been transmitted then.
     owed: f64,
-    /// Seconds that a frame takes on the line, on average.
+    /// The average transmission time of a frame, in seconds.
     need: f64,
     detail: Detail,
-    /// For how long frames have been too much, or small.
+    /// How long frames have been too large, or small.
     slow: Duration,
     easy: Duration,
     ease: Duration,
@@ -58,7 +60,7 @@ pub(super) struct Governor {
 }
 
 impl Governor {
-    /// So many frames in a second, and at most so many bytes.
+    /// Creates a governor for at most this many frames and this many bytes per second.
     pub(super) fn new(frames: u16, budget: Option<u32>, now: Instant) -> Self {
         Self {
             frames: frames.max(1),
@@ -75,22 +77,22 @@ impl Governor {
         }
     }
 
-    /// So many frames in a second are wanted from now on.
+    /// Sets the number of frames per second.
     pub(super) fn want(&mut self, frames: u16) {
         self.frames = frames.max(1);
     }
 
-    /// How much to leave out of the picture.
+    /// Returns the level of detail of the picture.
     pub(super) fn detail(&self) -> Detail {
         self.detail
     }
 
-    /// The most bytes that the next frame may have.
+    /// Returns the maximum size of the next frame in bytes.
     pub(super) fn most(&self) -> usize {
         self.budget.map_or(usize::MAX, |budget| (budget / FEWEST) as usize)
     }
 
-    /// A frame of so many bytes was sent, none if nothing had changed.
+    /// Registers a frame of this many bytes, zero if nothing had changed.
     pub(super) fn sent(&mut self, bytes: usize, now: Instant) {
         let passed = now.saturating_duration_since(self.at);
         self.at = now;
@@ -101,13 +103,13 @@ impl Governor {
         self.judge(passed, now);
     }
 
-    /// When the next frame is due.
+    /// Returns when the next frame is due.
     pub(super) fn due(&self) -> Instant {
         let interval = if self.watched { self.interval() } else { self.interval().max(ASIDE) };
         self.paid().max(self.at + interval)
     }
 
-    /// When it is due where something was typed that somebody waits to see.
+    /// Returns when it is due if the user has typed something and waits for the result.
     pub(super) fn soon(&self, now: Instant) -> Instant {
         self.paid().max(now + self.interval())
     }
@@ -116,12 +118,12 @@ impl Governor {
         Duration::from_secs(1) / u32::from(self.frames)
     }
 
-    /// When the line has carried all that was sent.
+    /// Returns when everything sent will have been transmitted.
     fn paid(&self) -> Instant {
         self.at + Duration::from_secs_f64(self.budget.map_or(0.0, |budget| self.owed / budget))
     }
 
-    /// Makes the picture poorer or richer where it has been too much, or little, for long enough.
+    /// Reduces or raises the detail if frames have been too large, or small, for long enough.
     fn judge(&mut self, passed: Duration, now: Instant) {
         self.slow = if self.need > SLOW { self.slow + passed } else { Duration::ZERO };
         self.easy = if self.need < EASY { self.easy + passed } else { Duration::ZERO };
@@ -130,7 +132,7 @@ impl Governor {
         if let Some(detail) = poorer {
             let soon = self.risen.is_some_and(|risen| now - risen < SOON);
             self.ease = if soon { (self.ease * 2).min(EASE[1]) } else { EASE[0] };
-            // What a poorer picture needs is to be seen.
+            // The need of a less detailed picture is still unknown.
             (self.detail, self.need, self.slow) =
                 (detail, f64::midpoint(EASY, SLOW), Duration::ZERO);
         } else if let Some(detail) = richer {
@@ -150,7 +152,7 @@ mod tests {
 
     const BUDGET: u32 = 16 * 1024;
 
-    /// What a line has carried: each frame's time in seconds and its bytes.
+    /// Simulates a connection: returns each frame's time in seconds and its bytes.
     fn carried(
         governor: &mut Governor,
         seconds: f64,
@@ -172,7 +174,7 @@ mod tests {
         frames.iter().map(|(_, bytes)| bytes).sum()
     }
 
-    /// The greatest gap between two frames, in seconds.
+    /// Returns the greatest gap between two frames, in seconds.
     fn gap(frames: &[(f64, usize)]) -> f64 {
         frames.windows(2).map(|pair| pair[1].0 - pair[0].0).fold(0.0, f64::max)
     }
@@ -181,7 +183,7 @@ mod tests {
         Governor::new(15, budget, Instant::now())
     }
 
-    /// A picture of which every cell changes with every frame, as bytes that `governor` lets through.
+    /// Simulates a picture of which every cell changes with every frame, within the limits of `governor`.
     fn heat(governor: &mut Governor, seconds: f64) -> Vec<(f64, usize)> {
         let mut screen = Frames::new(true).expect("memory");
         let mut turn = 0_usize;
@@ -237,7 +239,7 @@ mod tests {
         carried(&mut governor, 60.0, |_| 200);
         assert_eq!(governor.detail(), Detail::default());
 
-        // Rich pictures are too much and poor ones are little: it may try, but ever less often.
+        // Detailed pictures are too large and poor ones small: it may try, but less and less often.
         let mut changes = Vec::new();
         let mut last = governor.detail();
         carried(&mut governor, 600.0, |governor| {

@@ -1,15 +1,15 @@
-//! The matrix of an attitude in a state: a rotation, and put back to one after a step.
+//! The attitude matrix of a state, restored to a rotation after a step.
 //!
-//! In: a state that carries nine numbers A. Out: the same with A Aᵀ = 1 to rounding. Never here: how
-//! A changes in time.
+//! In: a state that carries the nine entries of A. Out: the same state with A Aᵀ = 1 to rounding.
+//! Never here: how A changes in time.
 
 use super::{State, System};
 use crate::num::DoubleDouble;
 
 impl System {
-    /// Moves the attitude a state carries, if it carries one, to the nearest rotation, by one step
-    /// of Newton's iteration for the polar factor, A ← ½ A (3 − AᵀA), which squares what is
-    /// missing (N. J. Higham, Functions of Matrices, SIAM 2008, §8.3).
+    /// Moves the attitude of a state, if it carries one, towards the nearest rotation by one step
+    /// of Newton's iteration for the polar factor, A ← ½ A (3 − AᵀA), which converges quadratically
+    /// (N. J. Higham, Functions of Matrices, SIAM 2008, §8.3).
     pub fn orthonormalise(&self, state: &mut State) {
         let Some(first) = self.attitude_place() else { return };
         let a = |i: usize, j: usize| state.exact(first + 3 * i + j);

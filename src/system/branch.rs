@@ -1,12 +1,13 @@
-//! The branch of velocities that a motion is on, where several belong to the same momenta.
+//! The branch of velocities that a motion is on, where several velocities give the same momenta.
 //!
 //! In: states (q, q̇). Out: whether they lie on the branch of the first. Two branches meet where
-//! det ∂²L/∂q̇² vanishes, and it has another sign beyond. Never here: velocities found from momenta.
+//! det ∂²L/∂q̇² vanishes, and its sign differs between them. Never here: finding velocities from
+//! momenta.
 
 use super::value::Evaluator;
 use super::{Form, State, System};
 
-/// The branch of the state it was asked for; holds its own registers.
+/// The branch of one state. It owns its registers.
 #[derive(Clone, Debug)]
 pub struct Branch {
     momenta: Evaluator<f64>,
@@ -16,8 +17,8 @@ pub struct Branch {
 }
 
 impl System {
-    /// The branch of a state (q, q̇); `None` where momenta have one velocity only, or where it
-    /// cannot be reported.
+    /// Returns the branch of a state (q, q̇), or `None` if each momentum has only one velocity or
+    /// the branch cannot be determined.
     pub fn branch(&self, state: &State, parameters: &[f64]) -> Option<Branch> {
         if !self.has_branches() || state.form != Form::Velocity {
             return None;
@@ -34,13 +35,13 @@ impl System {
 }
 
 impl Branch {
-    /// Whether a state lies on the branch; one of momenta always does.
+    /// Whether a state lies on the branch. Always true for a state given by momenta.
     pub fn holds(&mut self, state: &State) -> bool {
         state.form != Form::Velocity
             || self.determinant(state).is_none_or(|x| x == 0.0 || (x > 0.0) == self.positive)
     }
 
-    /// det ∂²L/∂q̇², by elimination.
+    /// Returns det ∂²L/∂q̇², by elimination.
     fn determinant(&mut self, state: &State) -> Option<f64> {
         let n = self.degrees;
         self.numbers.copy_from_slice(&state.values[..2 * n]);

@@ -1,24 +1,24 @@
-//! The channels of a system: everything that can be seen of a state, in one fixed order.
+//! The channels of a system: every observable quantity of a state, in one fixed order.
 
-/// One number that can be seen of a state.
+/// One observable quantity of a state.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Channel {
-    /// What it is.
+    /// What the channel measures.
     pub kind: ChannelKind,
-    /// As a column is called: `theta`, `theta'`, `p_theta`, `energy`, an observable's name, or
-    /// the expression as written.
+    /// The column name: `theta`, `theta'`, `p_theta`, `energy`, an observable's name, or the
+    /// expression as written.
     pub name: String,
-    /// As shown: `θ`, `θ̇`, `p_θ`, `E`.
+    /// The display name: `θ`, `θ̇`, `p_θ`, `E`.
     pub shown: String,
-    /// Its unit, empty where none is known.
+    /// The unit, empty if it is not known.
     pub unit: String,
-    /// Whether it is a coordinate that repeats: its period is [`System::period`]'s.
+    /// Whether the channel is a periodic coordinate. Its period is given by [`System::period`].
     ///
     /// [`System::period`]: super::System::period
     pub periodic: bool,
 }
 
-/// What a channel is.
+/// What a channel measures.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum ChannelKind {
     /// The coordinate of this index.
@@ -27,9 +27,9 @@ pub enum ChannelKind {
     Velocity(usize),
     /// A coordinate's momentum.
     Momentum(usize),
-    /// λ of the constraint of this index.
+    /// The multiplier λ of the constraint of this index.
     Multiplier(usize),
-    /// Jacobi's h, or H.
+    /// Jacobi's h for a Lagrangian system, or H.
     Energy,
     /// The Casimir of this index.
     Casimir(usize),
@@ -37,14 +37,14 @@ pub enum ChannelKind {
     Observable(usize),
     /// The extra channel of this index, as given to [`System::compile`](super::System::compile).
     Extra(usize),
-    /// The energy less the work done on it: constant by the law of the energy's change. There is
-    /// one only where the energy itself is not conserved.
+    /// The energy less the work done on the system, which is constant by the law of energy change.
+    /// The channel exists only where the energy itself is not conserved.
     Ledger,
-    /// An entry of the attitude's matrix, by rows.
+    /// An entry of the attitude matrix, in row-major order.
     Attitude(usize),
     /// The conserved quantity of this index in `Equations::conserved`.
     Conserved(usize),
-    /// Any other expression: of an expectation, a view, a shape. Found by
-    /// [`System::channel_of`](super::System::channel_of).
+    /// Any other expression: of an expectation, a view or a shape.
+    /// [`System::channel_of`](super::System::channel_of) finds it.
     Expression,
 }

@@ -20,8 +20,8 @@ use crate::mechanics::Equations;
 use crate::model::{self, Model};
 use crate::num::DoubleDouble;
 
-/// A model lowered to numbers. Immutable and cheap to clone: steppers and observers share it and
-/// hold their own registers.
+/// A model lowered to numbers. It is immutable and cheap to clone; steppers and observers share it
+/// and own their registers.
 #[derive(Clone, Debug)]
 pub struct System {
     pub(super) shared: Arc<Shared>,
@@ -32,7 +32,7 @@ pub struct System {
 #[derive(Debug)]
 pub(super) struct Shared {
     native: Form,
-    /// How many coordinates or variables there are.
+    /// The number of coordinates or variables.
     degrees: usize,
     quadratures: Quadratures,
     motion: MotionPrograms,
@@ -41,31 +41,32 @@ pub(super) struct Shared {
     discontinuities: Discontinuities,
     inertia: Option<Inertia>,
     legendre: Arc<Program>,
-    /// Where among the numbers carried along an attitude begins.
+    /// The index, among the auxiliary numbers, at which an attitude begins.
     attitude: Option<usize>,
-    /// Of a state in the native form: the numbers carried along, as they start.
+    /// Initial values of the auxiliary numbers, as functions of a state in the native form.
     pub(super) auxiliary: Arc<Program>,
-    /// Of the parameters alone: initial coordinates, rates, periods (zero where there is none).
+    /// Initial coordinates, rates and periods (zero for none), as functions of the parameters
+    /// alone.
     pub(super) initial: Arc<Program>,
     constraints: Option<Constrained>,
-    /// Which rates the file gives at the start.
+    /// Which initial rates the file gives.
     pub(super) known: Vec<Known>,
-    /// The energy of (q, native rates).
+    /// The energy as a function of (q, native rates).
     energy: Arc<Program>,
 }
 
-/// The equations of motion, in every form a method may ask for.
+/// The equations of motion, in every form a method may request.
 #[derive(Debug)]
 pub(super) struct MotionPrograms {
-    /// Of a state in the native form.
+    /// The rates as functions of a state in the native form.
     pub(super) native: Arc<Program>,
-    /// Of a state (q, p); where the flag is false, of (q, q̇).
+    /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
     pub(super) canonical: (Arc<Program>, bool),
-    /// The two halves of a separable system, or why it is none.
+    /// The two parts of a separable system, or the reason why it is not separable.
     pub(super) split: Result<Split, String>,
 }
 
-/// What the file says of a rate at the start.
+/// Returns what the file specifies about an initial rate.
 fn known(coordinate: &model::Coordinate) -> Known {
     if coordinate.rate_given { Known::InitialOverride } else { Known::LeftOut }
 }
@@ -73,17 +74,17 @@ fn known(coordinate: &model::Coordinate) -> Known {
 /// Why a model cannot be compiled.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum CompileError {
-    /// The equations have outgrown the pool.
+    /// The equations exceed the size of the pool.
     #[error("the equations of this system grow beyond a million nodes")]
     TooLarge,
-    /// A symbol stands for nothing where it is used.
+    /// A symbol has no meaning where it is used.
     #[error("`{0}` has no value where it is used")]
     Unknown(String),
 }
 
 impl System {
-    /// Compiles `equations`, which were derived from `model`. All expressions, those of the
-    /// `extra` channels included, are of `equations.pool`.
+    /// Compiles `equations`, which were derived from `model`. All expressions, including those of
+    /// the `extra` channels, belong to `equations.pool`.
     pub fn compile(
         model: &Model,
         equations: &Equations,
@@ -120,7 +121,8 @@ impl System {
         Ok(System { shared: Arc::new(Shared { inertia, ..shared }), holding, cancel })
     }
 
-    /// The token by which work with this system is stopped: that of the pool it was made from.
+    /// The token that cancels work with this system. It is the token of the pool the system was
+    /// compiled from.
     pub fn cancel(&self) -> &Cancel {
         &self.cancel
     }
@@ -178,52 +180,51 @@ impl System {
         self.shared.degrees
     }
 
-    /// How many numbers of a state say where the motion is: coordinates and as many rates, or the
+    /// The number of dynamical variables of a state: coordinates and as many rates, or the
     /// variables of a Poisson system.
     pub fn moving(&self) -> usize {
         if self.form() == Form::Variables { self.degrees() } else { 2 * self.degrees() }
     }
 
-    /// The same and the numbers that are carried along beside the motion: all that rates of change
+    /// The number of dynamical variables and auxiliary numbers: everything that the rates of change
     /// depend on.
     pub fn driven_len(&self) -> usize {
         self.moving() + self.shared.auxiliary.outputs()
     }
 
-    /// How many numbers a state has: those that rates depend on, and the integrals.
+    /// The length of a state: the numbers that rates depend on, and the integrals.
     pub fn state_len(&self) -> usize {
         self.driven_len() + self.shared.quadratures.count()
     }
 
-    /// Whether the rates of change have kinks or jumps: of `abs`, `sign`, `min`, `max`.
+    /// Whether the rates of change have kinks or jumps, from `abs`, `sign`, `min` or `max`.
     pub fn has_kinks(&self) -> bool {
         self.shared.motion.native.switches() > 0
     }
 
-    /// The form its states have where no method asks for another: velocities for a Lagrangian,
-    /// momenta for a Hamiltonian.
+    /// The native form of its states: velocities for a Lagrangian, momenta for a Hamiltonian.
     pub fn form(&self) -> Form {
         self.shared.native
     }
 
-    /// What can be seen of a state, in the order of [`Observer::observe`].
+    /// The channels, in the order of [`Observer::observe`].
     pub fn channels(&self) -> &[Channel] {
         &self.shared.watch.channels
     }
 
-    /// The first so many channels are the columns of a run: coordinates, velocities, momenta,
-    /// energy, declared observables, extra channels.
+    /// The number of leading channels that are the columns of a run: coordinates, velocities,
+    /// momenta, energy, declared observables, extra channels.
     pub fn columns(&self) -> usize {
         self.shared.watch.columns
     }
 
-    /// The channel of an expression of the model (a view's, a shape's, an observable's) or of the
-    /// equations (a conserved quantity's), if it is watched.
+    /// The channel of an expression of the model (of a view, a shape or an observable) or of the
+    /// equations (of a conserved quantity), if it is observed.
     pub fn channel_of(&self, expression: Expr) -> Option<usize> {
         self.shared.watch.index.get(&expression).copied()
     }
 
-    /// After what a channel repeats at these parameters, if it does.
+    /// The period of a channel at these parameters, if it is periodic.
     pub fn period(&self, channel: usize, parameters: &[f64]) -> Option<f64> {
         if !self.channels().get(channel)?.periodic {
             return None;
@@ -233,8 +234,8 @@ impl System {
         (period.high > 0.0 && period.is_finite()).then_some(period.high)
     }
 
-    /// The inputs of programs that look at states: a state in the system's own form, then action
-    /// and work, zero where they are not carried.
+    /// Writes the inputs of the observing programs: a state in the system's native form, then
+    /// action and work, which are zero if the state does not carry them.
     pub(super) fn inputs_of(&self, state: &State, out: &mut [DoubleDouble]) {
         let driven_len = self.driven_len();
         for (i, x) in out[..driven_len].iter_mut().enumerate() {
@@ -253,24 +254,24 @@ impl System {
         }
     }
 
-    /// Whether a state carries the action and the work.
+    /// Whether a state carries the action and the work, in this order.
     pub(super) fn carries(&self) -> [bool; 2] {
         let quadratures = self.quadratures();
         [quadratures.action, quadratures.work]
     }
 
-    /// Where a state carries the nine numbers of an attitude, by rows.
+    /// The index in a state of the nine entries of an attitude, in row-major order.
     pub(crate) fn attitude_place(&self) -> Option<usize> {
         self.shared.attitude.map(|place| self.moving() + place)
     }
 
-    /// Where a state carries the work done on it.
+    /// The index in a state of the work done on it.
     pub(super) fn work_place(&self) -> Option<usize> {
         let quadratures = self.quadratures();
         quadratures.work.then(|| self.driven_len() + usize::from(quadratures.action))
     }
 
-    /// The energy of a state in the system's own form.
+    /// The energy of a state in the system's native form.
     pub(super) fn energy_of(
         &self,
         state: &State,
@@ -285,8 +286,8 @@ impl System {
         Ok(values.output(0))
     }
 
-    /// A fault where a state in the system's own form has no finite energy: where its Lagrangian
-    /// or Hamiltonian has no value, though its derivatives may have.
+    /// Returns an error if a state in the system's native form has no finite energy, that is where
+    /// its Lagrangian or Hamiltonian has no value, though its derivatives may have one.
     pub(crate) fn check_energy(
         &self,
         state: &State,
@@ -299,17 +300,17 @@ impl System {
         Err(self.fault(kind, state.time, &state.values))
     }
 
-    /// What may happen to its motions.
+    /// The events and impulses of the system.
     pub fn discontinuities(&self) -> &Discontinuities {
         &self.shared.discontinuities
     }
 
-    /// What looks at states of this system.
+    /// Returns an observer of this system's states.
     pub fn observer(&self, parameters: &[f64]) -> Observer {
         Observer::new(self.clone(), parameters)
     }
 
-    /// Looks at the terms of what is conserved, at these parameters.
+    /// Returns an evaluator of the terms of the conserved quantities at these parameters.
     pub fn term_watch(&self, parameters: &[f64]) -> TermWatch {
         TermWatch::new(self.clone(), &self.shared.terms, parameters)
     }
@@ -322,13 +323,13 @@ impl System {
         &self.holding
     }
 
-    /// The same system with other constraints held.
+    /// The same system with another set of enforced constraints.
     pub(super) fn with_holding(&self, holding: ActiveSet) -> System {
         System { shared: Arc::clone(&self.shared), holding, cancel: self.cancel.clone() }
     }
 
-    /// What programs are given for parameters: their values as the decimals they are written as,
-    /// and what follows from them.
+    /// The parameter inputs of the programs: the values, read as the decimals they are written as,
+    /// and the quantities derived from them.
     pub fn inputs(&self, parameters: &[f64]) -> Vec<DoubleDouble> {
         let mut inputs: Vec<DoubleDouble> =
             parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
@@ -341,8 +342,7 @@ impl System {
         inputs
     }
 
-    /// What the names of the file's body stand for at these parameters; nothing where there is no
-    /// body.
+    /// The values of the body's symbols at these parameters, empty if there is no body.
     pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
         let Some(inertia) = &self.shared.inertia else { return Vec::new() };
         let written: Vec<DoubleDouble> =
@@ -378,7 +378,7 @@ impl System {
         legendre
     }
 
-    /// The same before parameters are set.
+    /// The same relation before parameters are set.
     pub(super) fn blank_legendre(&self) -> Legendre {
         Legendre::new(Arc::clone(&self.shared.legendre), self.form())
     }
@@ -397,7 +397,7 @@ impl System {
         state
     }
 
-    /// A fault where a number of a state is not finite.
+    /// Returns an error if a number of a state is not finite.
     pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
         match state.values.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
@@ -408,7 +408,7 @@ impl System {
         }
     }
 
-    /// How a number of a state is shown.
+    /// The display name of a number of a state.
     fn name_of(&self, i: usize, form: Form) -> String {
         let n = self.degrees();
         let channel = match form {
@@ -422,14 +422,14 @@ impl System {
         }
     }
 
-    /// A fault at a state, told with its coordinates.
+    /// An error at a state, reported with its coordinates.
     pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
         let named = self.channels().iter().zip(values).take(self.degrees().min(4));
         let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
         MotionError { time, kind, place: place.collect() }
     }
 
-    /// The fault of a singular matrix, told with the coordinates the matrix depends on.
+    /// The error for a singular matrix, reported with the coordinates the matrix depends on.
     pub(super) fn singular(
         &self,
         program: &Program,
@@ -448,8 +448,7 @@ impl System {
         MotionError { time, kind, place: place.take(4).collect() }
     }
 
-    /// The fault of given momenta (or velocities) that do not say with which rates the motion
-    /// starts.
+    /// The error for given momenta (or velocities) that do not determine the initial rates.
     pub(super) fn several(
         &self,
         time: f64,
@@ -469,7 +468,7 @@ impl System {
         MotionError { time, kind, place: Vec::new() }
     }
 
-    /// The fault of a relation between velocities and momenta that was not solved.
+    /// The error for a relation between velocities and momenta that could not be solved.
     pub(super) fn unsolved(
         &self,
         why: LegendreError,

@@ -1,7 +1,8 @@
-//! Constraints as numbers: how far a state is from keeping them, and which of them are independent.
+//! Constraints as numbers: how far a state is from satisfying them, and which of them are
+//! independent.
 //!
-//! In: a state (q, q̇). Out: residuals of f(q, t) and A q̇ + A₀, each beside the size of its
-//! terms. Never here: what is done about them; that is in `kept`.
+//! In: a state (q, q̇). Out: residuals of f(q, t) and A q̇ + A₀, each with the size of its terms.
+//! Never here: corrections of a state; see `projection`.
 
 use std::sync::Arc;
 
@@ -12,26 +13,28 @@ use super::value::Evaluator;
 use crate::expr::{Expr, Symbol};
 use crate::num::DoubleDouble;
 
-/// A row whose part independent of the rows before it is smaller than this, measured by the row,
-/// says nothing new.
+/// A row counts as dependent if its component orthogonal to the rows before it is smaller than
+/// this, relative to the row.
 const INDEPENDENT: f64 = 1e-9;
 
-/// Rows with a smaller part of their own have no orientation that could be trusted.
+/// The orientation of rows is not trusted if an orthogonal component is smaller than this.
 const SPANS: f64 = 1e-12;
 
-/// How often rows and columns are scaled to make entries comparable; each time brings them closer.
+/// The number of passes that scale rows and columns to make entries comparable. Each pass brings
+/// them closer.
 const SCALINGS: usize = 3;
 
-/// What an initial value or a parameter is off by, as a part of itself, where it was rounded to an
-/// `f64` a few times on its way from the file or the command line.
+/// The relative error of an initial value or a parameter that was rounded to an `f64` a few times
+/// between the file or the command line and here.
 const ROUNDING_OF_INPUTS: f64 = 4.0 * f64::EPSILON;
 
 /// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
-    /// Of each constraint A, A₀ and f.
+    /// A, A₀ and f of each constraint.
     values: Arc<Program>,
-    /// Of each of these the size of its terms, then how much its inputs move it: Σ |s ∂/∂s|.
+    /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
+    /// ∂/∂s|.
     sizes: Arc<Program>,
 }
 
@@ -61,25 +64,26 @@ fn program(builder: &mut ProgramBuilder<'_>, outputs: &[Expr]) -> Result<Arc<Pro
     lowering.finish(outputs)
 }
 
-/// A residual, and what it is to be measured by.
+/// A residual, and the sizes it is measured by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residual {
     pub(super) value: DoubleDouble,
-    /// The size of the terms it is the sum of.
+    /// The size of the terms of the sum.
     pub(super) size: f64,
-    /// How much its inputs move it, by as much as they are: Σ |s ∂/∂s|. It is large also where all
-    /// terms vanish, as those of sin θ do at π.
+    /// The sensitivity to the inputs relative to their sizes, Σ |s ∂/∂s|. It is also large where
+    /// all terms vanish, as those of sin θ do at π.
     pub(super) inputs: f64,
 }
 
 impl Residual {
-    /// The residual measured by its terms and its inputs; zero where there is none.
+    /// The residual relative to its terms and inputs; zero if the residual is zero.
     pub(super) fn relative(self) -> f64 {
         let value = self.value.high.abs();
         if value == 0.0 { 0.0 } else { value / (self.size + self.inputs) }
     }
 
-    /// The part of its terms by which given values miss, beyond what their rounding explains.
+    /// The residual of given values relative to its terms, beyond what rounding of the values
+    /// explains.
     pub(super) fn missed(self) -> f64 {
         let beyond = self.value.high.abs() - ROUNDING_OF_INPUTS * self.inputs;
         if beyond <= 0.0 { 0.0 } else { beyond / self.size }
@@ -113,21 +117,21 @@ impl Conditions {
         self.sizes.set_parameters(parameters);
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub(super) fn degrees(&self) -> usize {
         self.degrees
     }
 
-    /// How many constraints there are.
+    /// The number of constraints.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// Looks at a time and coordinates; all else is reported of these.
+    /// Evaluates the constraints at a time and coordinates, which all other methods then refer to.
     pub(super) fn look(&mut self, time: DoubleDouble, positions: &[DoubleDouble]) {
         let positions = &positions[..self.degrees];
         self.rounded.iter_mut().zip(positions).for_each(|(rounded, x)| *rounded = x.high);
-        // the programs hold no equations to be solved, so they cannot meet a singular matrix
+        // the programs contain no equations to solve, so they cannot meet a singular matrix
         let _regular = self.values.evaluate(time, positions);
         let _regular = self.sizes.evaluate(time.high, &self.rounded);
     }
@@ -136,19 +140,19 @@ impl Conditions {
         self.values.output(constraint * (self.degrees + 2) + place)
     }
 
-    /// The size of the terms of what stands at this place.
+    /// The size of the terms of the value at this place.
     fn size(&self, constraint: usize, place: usize) -> f64 {
         self.sizes.output(2 * (constraint * (self.degrees + 2) + place))
     }
 
-    /// How much the inputs of what stands at this place move it; zero where that cannot be reported, as
-    /// at the tip of a root.
+    /// The sensitivity to its inputs of the value at this place; zero where it cannot be computed,
+    /// as at the branch point of a root.
     fn inputs(&self, constraint: usize, place: usize) -> f64 {
         let inputs = self.sizes.output(2 * (constraint * (self.degrees + 2) + place) + 1);
         if inputs.is_finite() { inputs } else { 0.0 }
     }
 
-    /// A of one constraint and one coordinate.
+    /// The entry of A for one constraint and one coordinate.
     pub(super) fn entry(&self, constraint: usize, coordinate: usize) -> DoubleDouble {
         self.output(constraint, coordinate)
     }
@@ -158,7 +162,7 @@ impl Conditions {
         self.output(constraint, self.degrees)
     }
 
-    /// f of a holonomic constraint, zero of others.
+    /// f of a holonomic constraint; zero for others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
         let place = self.degrees + 1;
         Residual {
@@ -182,8 +186,8 @@ impl Conditions {
         Residual { value, size, inputs }
     }
 
-    /// The multipliers of least norm of all `active` constraints that do what those of the `held`
-    /// ones do: λ = B (BᵀB)⁻¹ G ν, as in `kkt`.
+    /// The multipliers of least norm of all `active` constraints that are equivalent to those of
+    /// the `held` ones: λ = B (BᵀB)⁻¹ G ν, as in `kkt`.
     pub(super) fn least(
         &self,
         active: &[bool],
@@ -219,14 +223,14 @@ impl Conditions {
         least
     }
 
-    /// Which of the `active` constraints are independent of those before them, by Gram and
-    /// Schmidt's construction.
+    /// Returns which of the `active` constraints are independent of those before them, by the
+    /// Gram–Schmidt process.
     pub(super) fn independent(&self, active: &[bool]) -> Vec<bool> {
         let units = self.units(active);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
         let mut chosen = vec![false; self.count];
         for k in (0..self.count).filter(|&k| active[k]) {
-            // a row of zeros is a singular place, not a repetition
+            // a row of zeros means a singular configuration, not a redundant constraint
             chosen[k] = basis.add(self.row(k, &units)).is_none_or(|left| left > INDEPENDENT);
             if !chosen[k] {
                 basis.drop_last();
@@ -235,8 +239,8 @@ impl Conditions {
         chosen
     }
 
-    /// So many of the `active` constraints, each the one with the largest part of its own beside
-    /// those chosen before; `None` where there are not so many.
+    /// Selects `count` of the `active` constraints, each the one with the largest component
+    /// orthogonal to those selected before. Returns `None` if there are not enough.
     pub(super) fn most_independent(&self, active: &[bool], count: usize) -> Option<Vec<bool>> {
         let mut chosen = vec![false; self.count];
         for _ in 0..count {
@@ -255,8 +259,8 @@ impl Conditions {
         Some(chosen)
     }
 
-    /// The least part of its own that a row of the `held` constraints has beside those before it,
-    /// measured by the largest row of the `active` ones.
+    /// The smallest component that a row of the `held` constraints has orthogonal to those before
+    /// it, relative to the largest row of the `active` ones.
     pub(super) fn strength(&self, active: &[bool], held: &[bool]) -> f64 {
         let units = self.units(active);
         let rows = |which: &[bool]| -> Vec<Vec<f64>> {
@@ -271,8 +275,8 @@ impl Conditions {
         own.fold(1.0, f64::min)
     }
 
-    /// How far the `held` constraints are from depending on each other: the least sine of the angle
-    /// between the row of one and those before it; zero where a row vanishes.
+    /// How independent the `held` constraints are: the least sine of the angle between a row and
+    /// the span of those before it; zero if a row vanishes.
     pub(super) fn independence(&self, held: &[bool]) -> f64 {
         let units = self.units(held);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
@@ -280,9 +284,9 @@ impl Conditions {
         rows.map(|row| basis.add(row).unwrap_or(0.0)).fold(1.0, f64::min)
     }
 
-    /// The space that the rows of the `held` constraints span, with its orientation; `None` where
-    /// they do not span one. In given units of the coordinates, else in units that make the entries
-    /// comparable.
+    /// The space spanned by the rows of the `held` constraints, with its orientation, or `None` if
+    /// the rows are dependent. Uses the given units of the coordinates, or else units that make the
+    /// entries comparable.
     pub(super) fn span(&self, held: &[bool], units: Option<&[f64]>) -> Option<Span> {
         let units = units.map_or_else(|| self.units(held), <[f64]>::to_vec);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
@@ -292,20 +296,21 @@ impl Conditions {
         Some(Span { rows: basis.rows, volume: basis.volume, units })
     }
 
-    /// The row of a constraint in units of the coordinates, without what is only rounding.
+    /// The row of a constraint in units of the coordinates, with rounding errors set to zero.
     fn row(&self, constraint: usize, units: &[f64]) -> Vec<f64> {
         (0..self.degrees).map(|i| self.clean(constraint, i) * units[i]).collect()
     }
 
-    /// An entry of A, zero where the rounding of its inputs explains it.
+    /// An entry of A, or zero if rounding of its inputs explains its value.
     fn clean(&self, constraint: usize, coordinate: usize) -> f64 {
         let entry = self.entry(constraint, coordinate).high;
         let rounding = ROUNDING_OF_INPUTS * self.inputs(constraint, coordinate);
         if entry.abs() <= rounding { 0.0 } else { entry }
     }
 
-    /// Units of the coordinates in which the entries of the rows are comparable, so that neither
-    /// metres nor radians decide (D. Ruiz, RAL-TR-2001-034: rows and columns are scaled in turn).
+    /// Units of the coordinates in which the entries of the rows are comparable, so that the choice
+    /// of metres or radians does not matter (D. Ruiz, RAL-TR-2001-034: rows and columns are scaled
+    /// in turn).
     fn units(&self, which: &[bool]) -> Vec<f64> {
         let rows: Vec<Vec<f64>> = (0..self.count)
             .filter(|&k| which[k])
@@ -327,16 +332,17 @@ impl Conditions {
     }
 }
 
-/// Rows made orthonormal one after the other.
+/// Rows orthonormalised one after the other.
 #[derive(Clone, Debug)]
 struct Basis {
     rows: Vec<Vec<f64>>,
-    /// The volume they spanned before.
+    /// The volume spanned by the rows before normalisation.
     volume: f64,
 }
 
 impl Basis {
-    /// Adds a row; gives the sine of its angle to those before it, `None` where it vanishes.
+    /// Adds a row. Returns the sine of its angle to the span of those before it, or `None` if the
+    /// row vanishes.
     fn add(&mut self, mut rest: Vec<f64>) -> Option<f64> {
         let size = norm(&rest);
         if size == 0.0 || !size.is_finite() {
@@ -346,7 +352,7 @@ impl Basis {
         for x in &mut rest {
             *x /= size;
         }
-        // twice is enough (Golub & Van Loan, Matrix Computations, 5.2.9)
+        // two passes are enough (Golub & Van Loan, Matrix Computations, 5.2.9)
         for other in self.rows.iter().chain(&self.rows) {
             let part: f64 = rest.iter().zip(other).map(|(x, y)| x * y).sum();
             rest.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
@@ -366,15 +372,15 @@ impl Basis {
 /// The space spanned by the rows of constraints, with its orientation.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Span {
-    /// Orthonormal, oriented as the constraints' own rows.
+    /// Orthonormal rows, with the orientation of the constraints' own rows.
     rows: Vec<Vec<f64>>,
-    /// The volume that the constraints' own rows span.
+    /// The volume spanned by the constraints' own rows.
     volume: f64,
     units: Vec<f64>,
 }
 
 impl Span {
-    /// The units of the coordinates it was taken in.
+    /// The units of the coordinates the span was computed in.
     pub(super) fn units(&self) -> &[f64] {
         &self.units
     }
@@ -384,7 +390,7 @@ impl Span {
         self.volume
     }
 
-    /// The cosine of the angle between two such spaces: 1 where they are one, −1 where they are one
+    /// The cosine of the angle between two such spaces: 1 if they are equal, −1 if they are equal
     /// with the opposite orientation. It is the determinant of the rows' inner products.
     pub(super) fn cosine(&self, other: &Span) -> f64 {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();

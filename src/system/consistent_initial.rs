@@ -1,49 +1,50 @@
-//! The velocities a constrained motion begins with: those the file gives, those it leaves out, and
-//! those that belong to given momenta.
+//! The initial velocities of a constrained motion: those the file gives, those it omits, and those
+//! that follow from given momenta.
 //!
-//! In: what is known of each velocity. Out: all of them. Never here: coordinates, which are always
-//! given.
+//! In: what is known of each velocity. Out: all velocities. Never here: coordinates, which are
+//! always given.
 
 use super::conditions::Conditions;
 use super::legendre::LegendreError;
 use super::value::Evaluator;
 use crate::num::{DoubleDouble, math};
 
-/// Given values may miss a constraint by this part of the size of its terms.
+/// The tolerance of a constraint for given values, relative to the size of its terms.
 pub(super) const GIVEN_WITHIN: f64 = 1e-9;
 
-/// A pivot smaller than this part of its equation is none.
+/// A pivot smaller than this, relative to its equation, counts as zero.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
-/// How many corrections may be made, and how often one may be halved.
+/// The maximal number of corrections, and of halvings of one correction.
 const CORRECTIONS: usize = 60;
 const HALVINGS: u32 = 60;
 
 /// What is known of a velocity.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Known {
-    /// Its value, which stands in the state.
+    /// Its value, which the state contains.
     InitialOverride,
-    /// Nothing: the constraints are to say.
+    /// Nothing; the constraints determine it.
     LeftOut,
-    /// The momentum that goes with it.
+    /// The momentum conjugate to it.
     Momentum(DoubleDouble),
 }
 
-/// Why there is no beginning.
+/// Why there is no consistent initial state.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum InconsistentStart {
-    /// The values given miss this constraint by this part of its terms.
+    /// The given values violate this constraint by this part of its terms.
     Missed(usize, f64),
-    /// The constraints leave these velocities free.
+    /// The constraints do not determine these velocities.
     Free(Vec<usize>),
-    /// What is given says more than the constraints allow.
+    /// The given values contradict the constraints.
     Contradiction,
-    /// The velocities of given momenta were not found.
+    /// No velocities were found for the given momenta.
     LegendreError(LegendreError),
 }
 
-/// Finds the velocities that are not given. `conditions` has looked at the coordinates.
+/// Finds the velocities that are not given. `conditions` must have been evaluated at the
+/// coordinates.
 pub(super) fn begin(
     conditions: &Conditions,
     momenta: &mut Evaluator<DoubleDouble>,
@@ -78,7 +79,7 @@ pub(super) fn begin(
                 state[n + i] = before[n + i] + x * part;
             }
             let better = problem.missing(state).is_ok_and(|(_, new)| new < size || new < 1e-20);
-            // what cannot be met is reported below, by its name
+            // an equation that cannot be satisfied is reported below, by its name
             if better || problem.is_linear() {
                 break;
             }
@@ -110,7 +111,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The coordinates whose momenta are given, with these.
+    /// The coordinates whose momenta are given, with these momenta.
     fn targets(&self) -> Vec<(usize, DoubleDouble)> {
         let target = |(i, known): (usize, &Known)| match known {
             Known::Momentum(p) => Some((i, *p)),
@@ -123,7 +124,7 @@ impl Problem<'_> {
         self.targets().is_empty()
     }
 
-    /// What each equation misses, constraints first, and the largest measured by its terms.
+    /// The residual of each equation, constraints first, and the largest one relative to its terms.
     fn missing(
         &mut self,
         state: &[DoubleDouble],
@@ -154,9 +155,9 @@ impl Problem<'_> {
         Ok((missing, size))
     }
 
-    /// The step by which the unknown velocities meet the equations, as far as these can be met;
-    /// and the coordinates whose velocities they leave free. Elimination on the largest entry of
-    /// the equations that are left (Golub & Van Loan, Matrix Computations, 3.4.8).
+    /// The step of the unknown velocities that satisfies the equations as far as possible, and the
+    /// coordinates whose velocities remain undetermined. Uses elimination with the largest
+    /// remaining entry as pivot (Golub & Van Loan, Matrix Computations, 3.4.8).
     fn step(&self, missing: &[DoubleDouble]) -> (Vec<DoubleDouble>, Vec<usize>) {
         let n = self.known.len();
         let mut rows: Vec<Vec<DoubleDouble>> = Vec::new();

@@ -1,8 +1,8 @@
-//! The constraints of a compiled system: which are held, and states that keep them.
+//! The constraints of a compiled system: which are enforced, and states that satisfy them.
 //!
-//! In: states, impulses, the wish to let a constraint go. Out: states on the constraints, reactions,
-//! residuals. Never here: the forces of constraint along the motion; these are outputs of the
-//! programs.
+//! In: states, impulses, requests to release a constraint. Out: states on the constraints,
+//! reactions, residuals. Never here: the constraint forces along the motion, which are outputs of
+//! the programs.
 
 use super::conditions::{Conditions, Programs, Span};
 use super::consistent_initial::{self, InconsistentStart, Known};
@@ -22,23 +22,23 @@ use crate::num::DoubleDouble;
 pub(super) struct Constrained {
     programs: Programs,
     pub(super) names: Vec<String>,
-    /// Whether any constraint speaks of each coordinate's velocity.
+    /// Whether any constraint involves each coordinate's velocity.
     touched: Vec<bool>,
     /// Whether the programs take two switches for each constraint.
     pub(super) switched: bool,
 }
 
-/// Which constraints are held.
+/// Which constraints are enforced.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct ActiveSet {
-    /// Those that were not released.
+    /// The constraints that have not been released.
     active: Vec<bool>,
-    /// Those of them whose multipliers are solved for; the others repeat what these say.
+    /// The active constraints whose multipliers are solved for. The others depend on these.
     held: Vec<bool>,
 }
 
 impl ActiveSet {
-    /// The switches of the programs: held and active, of each constraint.
+    /// The switches of the programs: enforced and active, for each constraint.
     pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = DoubleDouble> {
         let number = |on: bool| if on { DoubleDouble::ONE } else { DoubleDouble::ZERO };
         (0..count).flat_map(move |k| [number(self.held[k]), number(self.active[k])])
@@ -46,7 +46,7 @@ impl ActiveSet {
 }
 
 impl Constrained {
-    /// Looks at the constraints where the file starts the motion, and has `builder` write their
+    /// Evaluates the constraints at the file's initial state and makes `builder` write their
     /// multipliers accordingly.
     pub(super) fn of(
         model: &Model,
@@ -80,7 +80,7 @@ impl Constrained {
     }
 }
 
-/// Which constraints are independent of those before them where the file starts the motion.
+/// Returns which constraints are independent of those before them at the file's initial state.
 fn independent_at_start(
     model: &Model,
     builder: &mut ProgramBuilder<'_>,
@@ -106,30 +106,31 @@ fn independent_at_start(
     Ok(conditions.independent(&vec![true; count]))
 }
 
-/// Where the sine between constraints' directions is smaller, a failure is that of a singular
-/// configuration nearby: beside a regular one corrections converge from much farther away.
+/// Where the sine between the constraints' directions is smaller than this, a failure is attributed
+/// to a singular configuration nearby: near a regular one corrections converge from much farther
+/// away.
 const NEARLY_SINGULAR: f64 = 1e-3;
 
-/// Where the rows of the constraints that are held have a smaller part of their own, others of those
-/// that repeat each other are looked for …
+/// If the orthogonal components of the enforced rows fall below this, another choice among the
+/// redundant constraints is tried …
 const DEPENDENT: f64 = 0.03;
 
-/// … and taken where theirs is so many times larger.
+/// … and taken if its components are larger by this factor.
 const GAINED: f64 = 4.0;
 
-/// The directions in which the constraints hold a state, all together, with their orientation.
+/// The space of the constraints' directions at a state, with its orientation.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Directions(Span);
 
 impl Directions {
-    /// The cosine of the angle between two: it changes smoothly along a motion, and turns from 1 to
-    /// −1 where the motion passes a singular configuration.
+    /// The cosine of the angle between two spaces of directions. It changes smoothly along a
+    /// motion, and jumps from 1 to −1 where the motion passes a singular configuration.
     pub fn cosine(&self, other: &Directions) -> f64 {
         self.0.cosine(&other.0)
     }
 }
 
-/// Keeps the states of one system on its constraints, at one set of parameters; holds its own
+/// Projects the states of one system onto its constraints, at one set of parameters. It owns its
 /// registers.
 #[derive(Clone, Debug)]
 pub struct ConstraintProjector {
@@ -139,7 +140,7 @@ pub struct ConstraintProjector {
 }
 
 impl ConstraintProjector {
-    /// Takes these parameters from now on.
+    /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.kept.set_parameters(&self.system.inputs(parameters));
     }
@@ -150,11 +151,11 @@ impl ConstraintProjector {
         }
     }
 
-    /// Moves a state (q, q̇) back on the constraints by the least amount, measured by the mass
+    /// Moves a state (q, q̇) back onto the constraints by the least amount, measured by the mass
     /// matrix.
     ///
     /// # Errors
-    /// Where no state nearby keeps them, or their directions coincide.
+    /// Returns an error if no state nearby satisfies them, or if their directions are dependent.
     pub fn project(&mut self, state: &mut State) -> Result<(), MotionError> {
         self.load(state);
         let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
@@ -163,7 +164,7 @@ impl ConstraintProjector {
             let why = if singular { ProjectionError::Singular } else { why };
             return Err(self.system.lost(why, state));
         }
-        // one that repeated the others where the motion began may have come to contradict them
+        // a constraint that was redundant at the start may have come to contradict the others
         let ActiveSet { active, held } = self.system.holding();
         let conditions = self.kept.conditions();
         let velocities = &self.numbers[self.system.degrees()..];
@@ -180,9 +181,9 @@ impl ConstraintProjector {
         Ok(())
     }
 
-    /// Whether a state lies at a singular configuration of the constraints or close by: their
-    /// directions nearly depend on each other, or one nearly vanishes, measured by what it is at
-    /// another state.
+    /// Whether a state lies at or near a singular configuration of the constraints: their
+    /// directions are nearly dependent, or one nearly vanishes relative to its size at another
+    /// state.
     pub fn is_nearly_singular(&mut self, state: &State, beside: Option<&State>) -> bool {
         let beside = beside.and_then(|beside| self.directions(beside, None));
         let Some(here) = self.directions(state, beside.as_ref()) else { return true };
@@ -191,7 +192,7 @@ impl ConstraintProjector {
         self.kept.conditions().independence(&held) < NEARLY_SINGULAR || beside.is_some_and(shrunk)
     }
 
-    /// The directions of the constraints at a state, in the units of others where some are given;
+    /// The directions of the constraints at a state, in the units of `like` if it is given. Returns
     /// `None` at a singular configuration.
     pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
         self.load(state);
@@ -202,8 +203,9 @@ impl ConstraintProjector {
         conditions.span(&held, units).map(Directions)
     }
 
-    /// How far a state (q, q̇) is from keeping each constraint, measured by the size of its terms:
-    /// of f(q, t) where it is holonomic (else zero), and of A q̇ + A₀. Released ones count zero.
+    /// The residuals of each constraint at a state (q, q̇), relative to the size of its terms: of
+    /// f(q, t) if it is holonomic (else zero), and of A q̇ + A₀. Released constraints count as
+    /// zero.
     pub fn residuals(&mut self, state: &State) -> Vec<[f64; 2]> {
         self.load(state);
         let n = self.system.degrees();
@@ -223,13 +225,13 @@ impl ConstraintProjector {
 }
 
 impl System {
-    /// How many constraints there are.
+    /// The number of constraints.
     pub fn constraints(&self) -> usize {
         self.constrained().map_or(0, |c| c.names.len())
     }
 
-    /// The names of the constraints that repeat what those before them say, where the file starts
-    /// the motion. Their multipliers are those of least norm.
+    /// The names of the constraints that depend on those before them at the file's initial state.
+    /// Their multipliers are those of least norm.
     pub fn redundant(&self) -> Vec<&str> {
         let Some(constrained) = self.constrained() else { return Vec::new() };
         let ActiveSet { active, held } = self.holding();
@@ -237,7 +239,7 @@ impl System {
         names.filter(|&(k, _)| active[k] && !held[k]).map(|(_, name)| name.as_str()).collect()
     }
 
-    /// Whether a constraint has been let go.
+    /// Whether a constraint has been released.
     pub fn is_released(&self, constraint: usize) -> bool {
         self.holding().active.get(constraint).is_some_and(|active| !active)
     }
@@ -263,8 +265,8 @@ impl System {
         self.with_holding(ActiveSet { active, held })
     }
 
-    /// The same system with others of its constraints held, where those that are have come to
-    /// depend on each other and others do not; `None` where there is nothing to be gained.
+    /// The same system with another choice of enforced constraints, if the current ones have become
+    /// dependent and others have not. Returns `None` if no choice is better.
     #[must_use]
     pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
         let ActiveSet { active, held } = self.holding();
@@ -292,7 +294,7 @@ impl System {
         Some(conditions)
     }
 
-    /// What keeps states on the constraints; `None` where there are none.
+    /// The projector onto the constraints, or `None` if there are none.
     pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
         let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
         let momenta = Evaluator::new(self.legendre_program());
@@ -309,8 +311,8 @@ impl System {
         conditions.map_or(Vec::new(), |c| (0..c.count()).map(|k| c.rate(k)).collect())
     }
 
-    /// The state that momenta `target` and the constraints give, with q kept and q̇ of `state` as
-    /// the first guess, and the reactions Λ of the constraints (none where there are none).
+    /// The state determined by the momenta `target` and the constraints, and the reactions Λ of the
+    /// constraints (empty if there are none). q is unchanged, and q̇ of `state` is the first guess.
     pub(super) fn impulse_outcome(
         &self,
         state: &State,
@@ -335,7 +337,7 @@ impl System {
         Ok((after, reactions.iter().map(|x| x.high).collect()))
     }
 
-    /// The velocities of a state that begins under constraints, by what is known of them.
+    /// The velocities of an initial state under constraints, from what is known of them.
     pub(super) fn begin_on_constraints(
         &self,
         mut state: State,
@@ -361,7 +363,7 @@ impl System {
         momenta.set_parameters(&self.inputs(parameters));
         let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let time = state.exact_time();
-        // what no constraint speaks of rests, as it would without any
+        // a coordinate that no constraint involves starts at rest, as it would without constraints
         let known: Vec<Known> = known
             .iter()
             .zip(&constrained.touched)

@@ -1,6 +1,7 @@
-//! States made, and turned from one form into the other: velocities and momenta, values of the parameters before and after.
+//! Creates states and converts them between forms: velocities and momenta, and the parameters
+//! before and after a change.
 //!
-//! In: what is given at the start, or a state. Out: a state of the form asked for. Never here: steps.
+//! In: initial values, or a state. Out: a state of the requested form. Never here: steps.
 
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ impl System {
         values
     }
 
-    /// The initial state at these parameters; `given` values take the place of the file's.
+    /// The initial state at these parameters; `given` values replace those of the file.
     pub fn initial(
         &self,
         start: f64,
@@ -49,7 +50,7 @@ impl System {
         Ok(state)
     }
 
-    /// The initial state but for the numbers carried along.
+    /// The initial state without its auxiliary numbers.
     fn begin(
         &self,
         start: f64,
@@ -97,8 +98,8 @@ impl System {
         Ok(state)
     }
 
-    /// The same state in another form. Where several velocities belong to the momenta, those are
-    /// looked for that the file's lead to; who knows better asks [`System::convert_near`].
+    /// The same state in another form. If several velocities belong to the momenta, the search
+    /// starts from the file's initial velocities; [`System::convert_near`] takes a better guess.
     pub fn convert(
         &self,
         state: &State,
@@ -115,7 +116,7 @@ impl System {
         self.convert_by(&mut legendre, state, form, None)
     }
 
-    /// To the native form, from a guess of the rates that need not be near.
+    /// Converts to the native form from a guess of the rates, which need not be close.
     fn convert_from(
         &self,
         legendre: &mut Legendre,
@@ -136,15 +137,15 @@ impl System {
         Ok(result)
     }
 
-    /// Whether velocities are found from momenta by iteration only: several may belong to the
-    /// same.
+    /// Whether velocities are found from momenta by iteration only, so that several may belong to
+    /// the same momenta.
     pub(super) fn has_branches(&self) -> bool {
         self.form() == Form::Velocity && !self.motion().canonical.1
     }
 
-    /// Carries a state through a jump of the parameters: q and p are kept, and so q̇ may change.
-    /// Where the constraints change with them, q is moved by the least amount that keeps them, and
-    /// p by their reactions.
+    /// Transfers a state across a jump of the parameters. q and p are unchanged, so q̇ may change.
+    /// If the constraints change with the parameters, q moves by the least amount that satisfies
+    /// them, and p changes by their reactions.
     pub fn change_parameters(
         &self,
         state: &State,
@@ -167,7 +168,7 @@ impl System {
         self.convert_by(&mut legendre, &canonical, Form::Velocity, Some(state))
     }
 
-    /// Converts with a relation at hand; `guess` is a state near the result.
+    /// Converts with the given relation; `guess` is a state near the result.
     pub(super) fn convert_by(
         &self,
         legendre: &mut Legendre,
@@ -206,8 +207,8 @@ impl System {
         Ok(result)
     }
 
-    /// The same in the system's own form, near a state that has it already: on the same branch,
-    /// where several velocities belong to the momenta.
+    /// The same state in the system's native form, near a state that already has it: on the same
+    /// branch, if several velocities belong to the momenta.
     pub fn convert_near(
         &self,
         state: &State,

@@ -1,9 +1,9 @@
-//! Events and impulses as numbers: the functions whose zeros are looked for, when impulses fall, and what
-//! they do to a state.
+//! Events and impulses as numbers: the functions whose zeros are located, the times of the
+//! impulses, and their effect on a state.
 //!
 //! In: a model's impulses and events. Out: values of `when`, times, states after an impulse. Never
-//! here: how zeros are found, and what follows from them.
-//! Source of the impulses: *The Principles of Dynamics*, § 1.3.3.
+//! here: how zeros are found, and what follows from them. Source of the impulses: *The Principles
+//! of Dynamics*, § 1.3.3.
 
 use std::sync::Arc;
 
@@ -19,20 +19,21 @@ use crate::expr::{Expr, Symbol};
 use crate::model::{Action, Direction, Model};
 use crate::num::DoubleDouble;
 
-/// What may happen to a motion.
+/// The events and impulses of a motion.
 #[derive(Clone, Debug)]
 pub struct Discontinuities {
     /// Events, in the order of the file.
     pub events: Vec<CompiledEvent>,
     /// Impulses, in the order of the file.
     pub impulses: Vec<CompiledImpulse>,
-    /// Of (q, native rates, action, work): each event's function.
+    /// The functions of the events, of (q, native rates, action, work).
     when: Arc<Program>,
-    /// Of the same: what tells how fast these functions change.
+    /// Quantities that show how fast these functions change, of the same inputs.
     pace: Arc<Program>,
-    /// Of the same: Q̂ of every impulse.
+    /// Q̂ of every impulse, of the same inputs.
     change: Arc<Program>,
-    /// Of the parameters: the times of every impulse, its interval last (zero for none).
+    /// The times of every impulse, followed by its interval (zero for none), as functions of the
+    /// parameters.
     schedule: Arc<Program>,
     /// Whether L is quadratic in the velocities.
     quadratic: bool,
@@ -41,41 +42,41 @@ pub struct Discontinuities {
 /// An event without its function.
 #[derive(Clone, Debug)]
 pub struct CompiledEvent {
-    /// As in the file.
+    /// The name in the file.
     pub name: String,
-    /// Which crossings of zero count.
+    /// The direction in which zeros count.
     pub direction: Direction,
-    /// What follows.
+    /// The action that an event triggers.
     pub action: Action,
 }
 
 /// An impulse without its formulas.
 #[derive(Clone, Debug)]
 pub struct CompiledImpulse {
-    /// As in the file.
+    /// The name in the file.
     pub name: String,
-    /// What it is, in words.
+    /// The description in words.
     pub about: String,
     times: usize,
-    /// Whether it strikes again and again.
+    /// Whether the impulse recurs.
     periodic: bool,
-    /// Whether it falls at times of its own; one that does not waits for an event or a key.
+    /// Whether the impulse is applied at scheduled times. If not, an event or a key triggers it.
     pub scheduled: bool,
 }
 
-/// When one impulse falls.
+/// The times of one impulse.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Schedule {
-    /// At these times.
+    /// Single times.
     pub times: Vec<DoubleDouble>,
-    /// And at every multiple of this interval after the start.
+    /// The interval at whose multiples after the start the impulse is applied, too.
     pub interval: Option<DoubleDouble>,
-    /// The interval as it was computed, which may be none: zero, negative or not finite.
+    /// The interval as computed, which may be invalid: zero, negative or not finite.
     given: DoubleDouble,
 }
 
 impl Schedule {
-    /// The time of an impulse beyond the last digit of an `f64`, by its nearest one.
+    /// The time of an impulse beyond the precision of an `f64`, given its nearest `f64`.
     pub fn exactly(&self, start: f64, time: f64) -> DoubleDouble {
         let periodic = || {
             let interval = self.interval?;
@@ -88,7 +89,7 @@ impl Schedule {
     }
 }
 
-/// What an impulse did.
+/// The effect of an impulse.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ImpulseOutcome {
     /// The state after it.
@@ -152,16 +153,16 @@ pub struct EventFunctions {
     quick: Evaluator<f64>,
     exact: Evaluator<DoubleDouble>,
     resolution: Resolution,
-    /// What expands the functions along a step whose series is known, once there was one.
+    /// Expands the functions along a step whose series is known. Created at the first such step.
     expansion: Option<Expansion>,
     rounded: Vec<f64>,
     inputs: Vec<DoubleDouble>,
-    /// The state looked at last, in the native form, where momenta alone do not tell it.
+    /// The last state evaluated, in the native form, if momenta alone do not determine it.
     near: Option<State>,
 }
 
 impl EventFunctions {
-    /// Takes these parameters from now on.
+    /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
@@ -172,9 +173,9 @@ impl EventFunctions {
         self.expansion = None;
     }
 
-    /// Expands the functions along a step whose series is known, about a time `x` after the series' origin, in its unit,
-    /// and gives how far after it these expansions tell the functions but for a part `cut_off` of their size; `None`
-    /// where there are none.
+    /// Expands the functions along a step whose series is known, about a time `x` after the series'
+    /// origin, in its unit. Returns how far beyond it the expansions represent the functions up to
+    /// a part `cut_off` of their size, or `None` if there are none.
     pub fn expand(&mut self, series: &Series, x: f64, cut_off: f64) -> Option<f64> {
         let order = series.order();
         let (system, parameters) = (&self.system, &self.parameters);
@@ -193,19 +194,20 @@ impl EventFunctions {
         Some(expansion.reach(cut_off)).filter(|reach| !reach.is_nan())
     }
 
-    /// The coefficients of an event's function as it was last [expanded](Triggers::expand).
+    /// The coefficients of an event's function from the last [expansion](EventFunctions::expand).
     pub fn expanded(&self, event: usize) -> Vec<f64> {
         self.expansion.iter().flat_map(|known| known.function(event)).collect()
     }
 
-    /// The coefficients of what decides between the branches of the functions that were expanded.
+    /// The coefficients of the switches of the expanded functions.
     pub fn expanded_switches(&self) -> impl Iterator<Item = &[f64]> {
         self.expansion.iter().flat_map(Expansion::switches)
     }
 
-    /// How far after a state the functions are so simple that looks at the ends, and at what these
-    /// do not foretell, see every turn; infinite for polynomials, `None` where it cannot be reported.
-    /// `near` is some length of time that is not far from the motion's own.
+    /// The time after a state over which the functions are simple enough that samples at the ends,
+    /// and at the points where these do not predict them, detect every turning point. It is
+    /// infinite for polynomials, and `None` if it cannot be estimated. `near` is a time comparable
+    /// to the time scale of the motion.
     pub fn resolved(&mut self, state: &State, near: f64) -> Option<f64> {
         let form = self.system.form();
         if state.form == form {
@@ -215,7 +217,7 @@ impl EventFunctions {
         self.resolution.after(&own, near)
     }
 
-    /// The inputs for a state, which may have either form.
+    /// Sets the inputs from a state, which may have either form.
     fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
         let form = self.system.form();
         if state.form == form {
@@ -231,7 +233,7 @@ impl EventFunctions {
         Ok(())
     }
 
-    /// The value of every event's function at a state.
+    /// Evaluates every event's function at a state.
     pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.take_in(state)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
@@ -248,7 +250,7 @@ impl EventFunctions {
         Ok(())
     }
 
-    /// The value of one event's function, in all digits.
+    /// The value of one event's function, in double-double.
     pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
         self.take_in(state)?;
         let found = self.exact.evaluate(state.exact_time(), &self.inputs);
@@ -261,7 +263,7 @@ impl EventFunctions {
 }
 
 impl System {
-    /// What evaluates the events' functions; `None` where there are no events.
+    /// Returns the evaluator of the events' functions, or `None` if there are no events.
     pub fn event_functions(&self, parameters: &[f64]) -> Option<EventFunctions> {
         let program = &self.discontinuities().when;
         if program.outputs() == 0 {
@@ -287,7 +289,7 @@ impl System {
         Some(event_functions)
     }
 
-    /// When each impulse falls, at these parameters.
+    /// The times of each impulse at these parameters.
     pub fn schedule(&self, parameters: &[f64]) -> Vec<Schedule> {
         let discontinuities = self.discontinuities();
         let mut values: Evaluator<DoubleDouble> =
@@ -307,10 +309,10 @@ impl System {
         discontinuities.impulses.iter().map(of).collect()
     }
 
-    /// The impulse whose interval is none at these parameters, if there is one, as a fault.
+    /// Checks the intervals of the impulses at these parameters.
     ///
     /// # Errors
-    /// The fault, at this time.
+    /// Returns an error at this time if an interval is zero, negative or not finite.
     pub fn check_intervals(&self, parameters: &[f64], time: f64) -> Result<(), MotionError> {
         let schedule = self.schedule(parameters);
         for (impulse, schedule) in self.discontinuities().impulses.iter().zip(schedule) {
@@ -322,10 +324,11 @@ impl System {
         Ok(())
     }
 
-    /// Strikes a state in the system's own form: Δp = Q̂ + AᵀΛ̂ with A q̇ + A₀ = 0 after it, q kept.
+    /// Applies an impulse to a state in the system's native form: Δp = Q̂ + AᵀΛ̂ with A q̇ + A₀ = 0
+    /// after it and q unchanged.
     ///
-    /// Where a state carries the work done on the motion, the impulse's is added by its law,
-    /// Δh = ½(q̇⁻ + q̇⁺)·Q̂ − Λ̂·A₀ for an L that is quadratic in q̇, else by the energies.
+    /// If a state carries the work done on the motion, the impulse's work is added by its law, Δh =
+    /// ½(q̇⁻ + q̇⁺)·Q̂ − Λ̂·A₀ for an L that is quadratic in q̇, and from the energies otherwise.
     pub fn apply_impulse(
         &self,
         impulse: usize,
@@ -372,7 +375,7 @@ impl System {
         Ok(ImpulseOutcome { after, jump, reaction })
     }
 
-    /// Adds to the work of a state what an impulse did.
+    /// Adds the work of an impulse to the work of a state.
     fn add_work(
         &self,
         before: &State,

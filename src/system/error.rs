@@ -1,26 +1,26 @@
-//! Why a motion cannot go on, or not begin: what happened, when and where.
+//! Why a motion cannot continue or begin: what happened, when and where.
 
 use std::fmt;
 
 use crate::printable;
 
-/// Something on the way that no number can stand for.
+/// An error of a motion, where its equations have no valid numerical solution.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub struct MotionError {
-    /// When.
+    /// The time of the error.
     pub time: f64,
     /// What happened.
     pub kind: MotionErrorKind,
-    /// Where: coordinates as shown, with their values.
+    /// The place of the error: coordinates by their display names, with their values.
     pub place: Vec<(String, f64)>,
 }
 
-/// A method that was seen to lead past a place where another one stops.
+/// Another method that was seen to pass a place where this one stops.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Passage {
     /// The method's name.
     pub method: &'static str,
-    /// The step it was tried with, where its step is fixed.
+    /// The step size of the trial, if the method has fixed steps.
     pub step: Option<f64>,
 }
 
@@ -34,49 +34,49 @@ impl fmt::Display for Passage {
 /// What happened.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MotionErrorKind {
-    /// This, at a place that another method passes.
+    /// An error at a place that another method passes.
     Passable(Box<MotionErrorKind>, Passage),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
-    /// The constraints are dependent there, or together with the mass matrix singular; how it is
-    /// passed, where that is known.
+    /// The constraints are dependent, or singular together with the mass matrix. Contains how to
+    /// pass the place, if known.
     SingularConstraints(Option<Passage>),
-    /// This constraint repeated the others where the motion began, and contradicts them here.
+    /// This constraint was redundant at the start and contradicts the others here.
     ConstraintParted(String),
-    /// No state nearby keeps this constraint.
+    /// No state nearby satisfies this constraint.
     ConstraintLost(String),
-    /// The values at the start miss this constraint, by this part of the size of its terms.
+    /// The initial values violate this constraint, by this part of the size of its terms.
     ConstraintMissed(String, f64),
-    /// The velocities and momenta given at the start contradict the constraints.
+    /// The given initial velocities and momenta contradict the constraints.
     Contradiction,
-    /// The constraints leave these velocities at the start free.
+    /// The constraints do not determine these initial velocities.
     FreeVelocities(Vec<String>),
-    /// What is given of the momenta at the start belongs to each of these velocities (or the
-    /// reverse).
+    /// The given initial momenta belong to each of these velocities (or the reverse).
     SeveralStarts(Vec<String>),
-    /// A number of the state or of its rate of change is not finite; the name says which.
+    /// A number of the state or of its rate of change, given by its name, is not finite.
     NotFinite(String),
-    /// The velocities that belong to given momenta (or the reverse) were not found.
+    /// No velocities were found for the given momenta (or the reverse).
     NoVelocities,
-    /// A step led to velocities on another branch of those that belong to the momenta.
+    /// A step led to velocities on another branch for the same momenta.
     BranchLeft,
-    /// The equations of an implicit step were not solved; the step's size.
+    /// The equations of an implicit step were not solved. Contains the step size.
     NoConvergence(f64),
-    /// The step became too small for the clock to move; the size it would have.
+    /// The step became too small to advance the time. Contains the step size.
     StepUnderflow(f64),
-    /// The clock has no digits for the next step or impulse; the distance of two times it can show.
+    /// The time has too few digits for the next step or impulse. Contains the spacing of
+    /// representable times.
     ClockStands(f64),
-    /// This impulse is to strike again after an interval that is none: zero, negative or not finite.
+    /// This recurring impulse has an invalid interval: zero, negative or not finite.
     NoInterval(String, f64),
-    /// There are more fixed steps of this size up to this time than can be counted.
+    /// There are too many fixed steps of this size up to this time.
     TooManySteps(f64, f64),
-    /// This event comes ever faster and would come without end.
+    /// This event occurs at ever shorter intervals, without end.
     PilesUp(String),
-    /// Somebody asked that it stop.
+    /// The computation was cancelled.
     Cancelled,
-    /// The motion comes to a place from which no series leads on.
+    /// The motion reaches a point from which no series continues it.
     Rough,
-    /// The motion comes to rest on a kink where both sides push back, and cannot be followed.
+    /// The motion sticks on a kink where both sides push back, and cannot be followed.
     Sticks,
 }
 
@@ -197,11 +197,11 @@ impl fmt::Display for MotionError {
     }
 }
 
-/// A number in no more digits than it has.
+/// Formats a number with no more digits than it has.
 fn short(value: f64) -> String {
     let plain = value.to_string();
     if plain.len() <= LONGEST { plain } else { format!("{value:e}") }
 }
 
-/// A number written out is no longer than this; an `f64` has 17 digits, a sign and a point.
+/// The maximal length of a number written out: an `f64` has 17 digits, a sign and a point.
 const LONGEST: usize = 24;

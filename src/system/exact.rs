@@ -1,6 +1,6 @@
-//! Rates of change in double-double at any one state, and with them on which side of each switch
-//! and on which branch of each root the state lies: for the places where a series has to end, and
-//! for holding a series against what it stands for.
+//! Rates of change in double-double at any single state, together with the side of each switch and
+//! the branch of each root on which the state lies. They serve where a series has to end, and to
+//! check a series against the function it represents.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::value::Evaluator;
 use super::{MotionError, System};
 use crate::num::DoubleDouble;
 
-/// The rates of change of states in the native form of a system. Holds its own registers.
+/// The rates of change of states in the native form of a system. It owns its registers.
 #[derive(Clone, Debug)]
 pub struct ExactRates {
     system: System,
@@ -18,7 +18,7 @@ pub struct ExactRates {
 }
 
 impl System {
-    /// Rates of change of states in [`System::form`], in double-double.
+    /// Returns the rates of change of states in [`System::form`], in double-double.
     pub fn exact_rates(&self) -> ExactRates {
         let program = Arc::clone(&self.motion().native);
         let values = Evaluator::new(Arc::clone(&program));
@@ -27,7 +27,7 @@ impl System {
 }
 
 impl ExactRates {
-    /// Sets the parameters; to be called once at least.
+    /// Sets the parameters. Must be called before the first evaluation.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.values.set_parameters(parameters);
     }
@@ -45,7 +45,7 @@ impl ExactRates {
         })
     }
 
-    /// Whether any rate depends on the time itself.
+    /// Whether any rate depends explicitly on time.
     pub fn depends_on_time(&self) -> bool {
         self.program.depends_on_time()
     }

@@ -1,7 +1,7 @@
 //! The Taylor series of the events' functions along a motion whose own series is known.
 //!
-//! In: the series of the motion, a time within its step. Out: the coefficients of every function about that time, and
-//! how far they tell it. Never here: zeros.
+//! In: the series of the motion, a time within its step. Out: the coefficients of every function
+//! about that time, and how far they represent it. Never here: zeros.
 //!
 //! The estimate is that of a step by Taylor series: À. Jorba, M. Zou, Experimental Mathematics 14
 //! (2005) 99, section 3.
@@ -17,17 +17,18 @@ use super::series::Series;
 use crate::expr::{Expr, FunctionId, Node, Symbol};
 use crate::num::{DoubleDouble, math};
 
-/// How many of the last orders are looked at: those of even and of odd functions vanish in turn.
+/// The number of last orders that enter the estimate: those of even and of odd functions vanish in
+/// turn.
 const LAST: usize = 3;
 
-/// The argument of an exponential may change by this, …
+/// The argument of an exponential may change by this amount, …
 const FARTHEST_ARGUMENT: f64 = 3.0;
 
-/// … or by this part of itself: far out in its tail nothing happens.
+/// … or by this part of itself: far out in the tail nothing happens.
 const PART_OF_ARGUMENT: f64 = 0.5;
 
-/// The program of the functions whose series are looked at: those of the events, then the arguments
-/// of the exponentials in them, which may vanish far away and not nearby.
+/// The program of the functions that are expanded: those of the events, then the arguments of the
+/// exponentials in them, which may underflow far away but not nearby.
 pub(super) fn program(
     builder: &mut ProgramBuilder<'_>,
     functions: &[Option<Expr>],
@@ -47,15 +48,15 @@ pub(super) fn program(
     observables::program(builder, &all)
 }
 
-/// The series of the functions, to one order.
+/// The series of the functions, up to one order.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     system: System,
     jet: Jet<f64>,
-    /// How many outputs are functions of events; the others are arguments.
+    /// The number of outputs that are functions of events; the others are arguments.
     functions: usize,
     outputs: usize,
-    /// A series of the motion moved to another time.
+    /// A series of the motion shifted to another time.
     moved: Vec<f64>,
 }
 
@@ -83,8 +84,8 @@ impl Expansion {
         self.jet.order()
     }
 
-    /// Expands the functions about a time `x` after the origin of the motion's series, in its unit; false where one is
-    /// not finite.
+    /// Expands the functions about a time `x` after the origin of the motion's series, in its unit.
+    /// Returns false if a coefficient is not finite.
     pub(super) fn about(&mut self, series: &Series, x: f64) -> bool {
         self.take_in(series, x);
         let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
@@ -100,7 +101,7 @@ impl Expansion {
         !turned || self.grow(time, series.scale())
     }
 
-    /// The coefficients of what the functions depend on.
+    /// Sets the coefficients of what the functions depend on.
     fn take_in(&mut self, series: &Series, x: f64) {
         let driven_len = self.system.driven_len();
         let mut next = driven_len;
@@ -117,7 +118,7 @@ impl Expansion {
         }
     }
 
-    /// Σ cₖ (x + y)ᵏ by powers of y, by repeated division.
+    /// Expands Σ cₖ (x + y)ᵏ in powers of y, by repeated division.
     fn take_in_one(&mut self, place: usize, coefficients: &[f64], x: f64) {
         let order = self.order();
         self.moved.copy_from_slice(&coefficients[..=order]);
@@ -144,20 +145,20 @@ impl Expansion {
         (0..=self.order()).map(move |k| self.jet.output(event, k))
     }
 
-    /// The series of what decides between branches: beyond a zero of one the functions are others.
+    /// The series of the switches: beyond a zero of one, other branches of the functions apply.
     pub(super) fn switches(&self) -> impl Iterator<Item = &[f64]> {
         (0..self.jet.switches()).map(|i| self.jet.switch(i))
     }
 
-    /// How far the series tell their functions but for a part `cut_off` of them, in their unit; infinite for
-    /// polynomials.
+    /// How far the series represent their functions up to a part `cut_off` of them, in their unit;
+    /// infinite for polynomials.
     pub(super) fn reach(&self, cut_off: f64) -> f64 {
         let mut series = vec![0.0; self.order() + 1];
         let mut reach = f64::INFINITY;
         for i in 0..self.outputs {
             series.iter_mut().enumerate().for_each(|(k, c)| *c = self.jet.output(i, k));
             let own = if i < self.functions { told(&series, cut_off) } else { moving(&series) };
-            // what is not a number is not lost
+            // a NaN must not be lost
             reach = if own < reach || own.is_nan() { own } else { reach };
         }
         self.switches().map(|c| told(c, cut_off)).fold(reach, f64::min)
@@ -172,7 +173,7 @@ pub(super) fn side(c: &[f64]) -> Side {
     }
 }
 
-/// How far a series cut off at its last order tells its function, in its own unit.
+/// How far a truncated series represents its function, in its own unit.
 fn told(c: &[f64], cut_off: f64) -> f64 {
     let mut length = f64::INFINITY;
     for k in c.len() - LAST..c.len() {
@@ -188,7 +189,7 @@ fn told(c: &[f64], cut_off: f64) -> f64 {
     length
 }
 
-/// How far the argument of an exponential stays where its value is of one kind.
+/// How far the argument of an exponential stays in one range of its values.
 fn moving(c: &[f64]) -> f64 {
     let bound = FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs());
     let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);

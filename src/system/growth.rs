@@ -1,7 +1,7 @@
-//! The Taylor series of a motion in one precision, growing order by order.
+//! The Taylor series of a motion in one precision, built order by order.
 //!
-//! In: the numbers of a state, the sides of its switches. Out: coefficients; or why there are none. Never here: which
-//! precision is wanted for which orders, time.
+//! In: the numbers of a state, the sides of its switches. Out: coefficients, or why there are none.
+//! Never here: the choice of precision for each order, time.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::solve::Factored;
 use crate::cancel::Cancel;
 use crate::num::{DoubleDouble, ExtendedRange, Real};
 
-/// When the origin is, and the unit of time.
+/// The time of the origin, and the unit of time.
 #[derive(Clone, Copy)]
 pub(super) struct Clock {
     pub(super) time: DoubleDouble,
@@ -23,7 +23,7 @@ pub(super) enum Halt {
     Singular(Singular),
     /// No weights keep the switches at zero.
     Sticks,
-    /// Somebody asked that it stop.
+    /// The computation was cancelled.
     Cancelled,
 }
 
@@ -33,19 +33,19 @@ impl From<Singular> for Halt {
     }
 }
 
-/// The series in one precision, growing order by order.
+/// The series in one precision, built order by order.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesBuilder<R> {
     pub(super) jet: Jet<R>,
     /// The highest order of the state's series.
     pub(super) order: usize,
     pub(super) inputs: usize,
-    /// For each number of the state its coefficients, `order + 1` of them.
+    /// The coefficients of each number of the state, `order + 1` of them.
     state: Vec<R>,
     /// The switches that are kept at zero.
     pub(super) kept: Vec<usize>,
-    /// How many orders later these feel a weight: one where it acts on what they are made of, two
-    /// where it acts on its rate of change.
+    /// The number of orders after which a weight affects these switches: one if it acts on the
+    /// numbers they depend on, two if it acts on the rates of these.
     pub(super) depth: usize,
 }
 
@@ -88,7 +88,7 @@ impl<R: Real> SeriesBuilder<R> {
         }
     }
 
-    /// Takes over all orders known in another precision.
+    /// Copies all orders known in another precision.
     pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
         for i in 0..self.len() {
             for (k, &c) in other.series(i).iter().enumerate() {
@@ -100,7 +100,7 @@ impl<R: Real> SeriesBuilder<R> {
         self.jet.take_over(&other.jet, other.order)
     }
 
-    /// All orders that are known in a wider range, to be read and not to be continued.
+    /// Copies all orders known in a wider range, for reading only.
     pub(super) fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>) {
         for i in 0..self.len() {
             for k in 0..=self.order {
@@ -110,7 +110,7 @@ impl<R: Real> SeriesBuilder<R> {
         self.jet.copy(&wide.jet, self.order + 1);
     }
 
-    /// From order `k` of the state to order `k + 1`.
+    /// Computes order `k + 1` of the state from order `k`.
     pub(super) fn grow(&mut self, k: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
         if cancel.is_cancelled() {
             return Err(Halt::Cancelled);
@@ -135,7 +135,7 @@ impl<R: Real> SeriesBuilder<R> {
         Ok(())
     }
 
-    /// The highest order of everything but the state.
+    /// Computes the highest order of everything but the state.
     pub(super) fn watch(&mut self, clock: Clock) -> Result<(), Singular> {
         let k = self.order;
         for i in 0..self.inputs {
@@ -148,7 +148,7 @@ impl<R: Real> SeriesBuilder<R> {
     }
 
     /// Finds the coefficients of order `k` of the weights that make those of order `k + 1` of the
-    /// kept switches vanish. These depend linearly on them.
+    /// kept switches vanish. The latter depend linearly on the former.
     fn keep(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
@@ -174,7 +174,7 @@ impl<R: Real> SeriesBuilder<R> {
             if factored.factor(|i, j| matrix[i * n + j]) {
                 break rest;
             }
-            // at rest on the surface a force may hold them there
+            // a body at rest on the surface may be held there by a force
             let still = rest.iter().all(|x| x.value() == 0.0);
             if k > 0 || self.depth > 1 || !still {
                 return Err(Halt::Sticks);
@@ -189,7 +189,8 @@ impl<R: Real> SeriesBuilder<R> {
         Ok(())
     }
 
-    /// The kept switches `depth` orders on, where one weight of order `k` is 1 and the others 0.
+    /// The kept switches `depth` orders later, with one weight of order `k` set to 1 and the others
+    /// to 0.
     fn probe(
         &mut self,
         k: usize,

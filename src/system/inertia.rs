@@ -1,5 +1,5 @@
-//! What follows from a body at one set of parameters: its tensor, principal moments, mass and
-//! centre of mass, in double-double. Programs take these numbers as further parameters.
+//! The inertia of a body at one set of parameters: its tensor, principal moments, mass and centre
+//! of mass, in double-double. Programs take these numbers as further parameters.
 //!
 //! In: parameters. Out: the values of the body's names. Never here: how the tensor was derived.
 
@@ -13,17 +13,17 @@ use crate::mechanics::principal;
 use crate::model::Model;
 use crate::num::DoubleDouble;
 
-/// The numbers of one body.
+/// The inertia of one body.
 #[derive(Clone, Debug)]
 pub(super) struct Inertia {
-    /// Of the parameters alone: six components, mass, three coordinates.
+    /// Six tensor components, mass and three coordinates, as functions of the parameters alone.
     program: Arc<Program>,
     names: Vec<Symbol>,
 }
 
 impl Inertia {
-    /// Those of a model's body, if it has one. To be called while the writer knows the parameters
-    /// only.
+    /// The inertia of a model's body, if it has one. Must be called while the builder knows only
+    /// the parameters.
     pub(super) fn of(
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
@@ -39,18 +39,18 @@ impl Inertia {
         Ok(Some(Inertia { program, names: body.names.all() }))
     }
 
-    /// The symbols that stand for the numbers, in their order.
+    /// The symbols of these numbers, in order.
     pub(super) fn names(&self) -> &[Symbol] {
         &self.names
     }
 
-    /// The numbers.
+    /// The values of these numbers.
     pub(super) fn values(&self, parameters: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&self.program));
         values.set_parameters(parameters);
         let inertia = [0, 1, 2, 3, 4, 5].map(|i| values.output(i));
-        let (inertia, _) = principal(&inertia);
+        let (moments, _) = principal(&inertia);
         let others = (6..10).map(|i| values.output(i));
-        inertia.into_iter().chain(inertia).chain(others).collect()
+        inertia.into_iter().chain(moments).chain(others).collect()
     }
 }

@@ -1,8 +1,8 @@
 //! The second evaluator of a program: normalised Taylor coefficients in time, order by order.
 //!
-//! Whoever drives it sets the coefficients of order k of the inputs (and of the time), asks for
-//! order k, and reads the outputs of order k, from which those of order k + 1 of the inputs
-//! follow. A register that depends on parameters only keeps zeros above order 0.
+//! The caller sets the coefficients of order k of the inputs (and of the time), evaluates order k,
+//! and reads the outputs of order k, from which the inputs of order k + 1 follow. A register that
+//! depends on parameters only stays zero above order 0.
 //!
 //! Rules: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
 
@@ -13,14 +13,14 @@ use super::solve::Factored;
 use crate::expr::{FunctionId, Rule};
 use crate::num::{DoubleDouble, Real};
 
-/// Which branch the functions with a kink take while a series is built.
+/// The branch that functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Side {
-    /// The one where the switch is positive.
+    /// The branch where the switch is positive.
     Positive,
-    /// The one where the switch is negative.
+    /// The branch where the switch is negative.
     Negative,
-    /// Between: the mean, plus half the difference of the branches times a weight in [−1, 1] that
+    /// Between the branches: their mean, plus half their difference times a weight in [−1, 1] that
     /// keeps the switch at zero.
     Between,
 }
@@ -34,12 +34,13 @@ pub struct Jet<R> {
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
     sides: Vec<Side>,
-    /// The weights of the sides [`Side::Between`], a series for each switch.
+    /// The weights of the sides [`Side::Between`], one series for each switch.
     weights: Vec<R>,
 }
 
 impl<R: Real> Jet<R> {
-    /// Registers for a program, up to an order; parameters are to be set before it is evaluated.
+    /// Allocates registers for a program, up to an order. The parameters must be set before it is
+    /// evaluated.
     pub fn new(program: Arc<Program>, order: usize) -> Jet<R> {
         let stride = order + 1;
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
@@ -89,7 +90,7 @@ impl<R: Real> Jet<R> {
         self.sides[switch]
     }
 
-    /// How many switches there are.
+    /// The number of switches.
     pub fn switches(&self) -> usize {
         self.sides.len()
     }
@@ -99,8 +100,8 @@ impl<R: Real> Jet<R> {
         self.weights[switch * self.stride + order] = coefficient;
     }
 
-    /// Evaluates all registers at order `k`, at a time, which is counted on in units of `scale`;
-    /// the orders below are done, the inputs' coefficients of order `k` set.
+    /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
+    /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
     pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
         let program = Arc::clone(&self.program);
         for &r in &program.body {
@@ -131,7 +132,7 @@ impl<R: Real> Jet<R> {
         &self.weights[i * self.stride..][..self.stride]
     }
 
-    /// The series of the arguments of all functions that vary.
+    /// The series of the arguments of all functions that are not constant.
     pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[R])> {
         self.program.body.iter().filter_map(|&r| match self.program.ops[r as usize] {
             Op::Call(function, [u, _]) => Some((function, self.series(u))),
@@ -144,15 +145,15 @@ impl<R: Real> Jet<R> {
         &self.coefficients[register as usize * self.stride..][..self.stride]
     }
 
-    /// Takes over the orders below `orders` from a jet of the same program in another precision,
-    /// and factors what it has factored.
+    /// Copies the orders below `orders` from a jet of the same program in another precision, and
+    /// factors the matrices that it has factored.
     pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
         self.copy(other, orders);
         let program = Arc::clone(&self.program);
         (0..program.blocks.len()).try_for_each(|block| self.factor(&program, block))
     }
 
-    /// Takes over the orders below `orders`, to be read and not to be continued.
+    /// Copies the orders below `orders`, for reading only.
     pub fn copy<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
         let program = Arc::clone(&self.program);
         for register in 0..program.ops.len() {
@@ -318,9 +319,9 @@ fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
     a[..=k].iter().all(|c| c.value() == 0.0)
 }
 
-/// `y = a^n` with `n` known at run time. An integer is taken by repeated squares, which is good
-/// at the zeros of `a` too: behind `y` stand, bit by bit of the exponent, the square and the
-/// product of those wanted so far.
+/// `y = a^n` with `n` known at run time. An integer power uses repeated squaring, which also works
+/// at the zeros of `a`: the registers after `y` contain, for each bit of the exponent, the square
+/// and the product of the factors so far.
 fn live_power<R: Real>(
     a: &[R],
     exponent: DoubleDouble,

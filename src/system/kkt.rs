@@ -1,9 +1,9 @@
 //! Constraints in the compiled programs: accelerations and multipliers as one system of linear
-//! equations, with a switch for each constraint that may be let go, and the multipliers of least
-//! norm where constraints say the same thing twice.
+//! equations, with a switch for each constraint that may be released, and the multipliers of least
+//! norm for redundant constraints.
 //!
-//! In: M, f and the constraints' rows as expressions. Out: registers. Never here: which
-//! constraints hold; that is decided by numbers, in `conditions`.
+//! In: M, f and the constraints' rows as expressions. Out: registers. Never here: which constraints
+//! are enforced; `conditions` decides that numerically.
 
 use super::lower::Lowering;
 use super::program::Register;
@@ -11,28 +11,28 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{ConstraintRow, Equations, Flow};
 use crate::num::Number;
 
-/// The matrices of M q̈ − Aᵀν = f, A q̈ = γ, for the constraints that are held.
+/// The matrices of M q̈ − Aᵀν = f, A q̈ = γ, for the enforced constraints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConstraintSystem {
-    /// What the switches stand for; none where all constraints are always held.
+    /// The switches of the constraints; empty if all constraints are always enforced.
     pub(super) switches: Vec<Switch>,
     /// The matrix of the whole system.
     matrix: Vec<Vec<Expr>>,
-    /// γ, zero where a constraint is not held.
+    /// γ, zero if a constraint is not enforced.
     bias: Vec<Expr>,
     least: Option<LeastNorm>,
 }
 
-/// Two numbers of each constraint, 1 or 0.
+/// Two numbers for each constraint, 1 or 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switch {
-    /// Whether it is among the independent ones that are held.
+    /// Whether it is one of the independent, enforced constraints.
     pub(super) held: Symbol,
     /// Whether it has not been released.
     pub(super) active: Symbol,
 }
 
-/// The multipliers of least norm: with ν those of the independent constraints, Aᵀλ = A_indᵀν has
+/// The multipliers of least norm. If ν are those of the independent constraints, Aᵀλ = A_indᵀν has
 /// the least solution λ = B (BᵀB)⁻¹ G ν, where B = A A_indᵀ and G = A_ind A_indᵀ (λ lies in the
 /// range of A; Golub & Van Loan, Matrix Computations, 5.5).
 #[derive(Clone, Debug)]
@@ -43,8 +43,8 @@ struct LeastNorm {
 }
 
 impl ConstraintSystem {
-    /// Writes the matrices; `switched` says that a constraint may be let go or is redundant,
-    /// `redundant` that some are.
+    /// Builds the matrices. `switched` means that a constraint may be released or is redundant,
+    /// `redundant` that some are redundant.
     pub(super) fn of(
         pool: &mut Pool,
         equations: &Equations,
@@ -90,7 +90,7 @@ impl ConstraintSystem {
         ConstraintSystem { switches, matrix, bias, least }
     }
 
-    /// The accelerations; binds them and the multipliers to their symbols.
+    /// Returns the accelerations and binds them and the multipliers to their symbols.
     pub(super) fn bind(
         &self,
         lowering: &mut Lowering<'_>,
@@ -121,7 +121,7 @@ impl ConstraintSystem {
 
 fn switch(pool: &mut Pool, row: &ConstraintRow) -> Switch {
     let name = pool.symbol_info(row.multiplier).name.clone();
-    // a blank cannot stand in a name of the file
+    // a name in a file cannot contain a space
     let [held, active] = ["held", "active"].map(|word| pool.symbol(&format!("{word} {name}")));
     Switch { held, active }
 }
@@ -140,7 +140,7 @@ fn transposed(a: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
     (0..a.first().map_or(0, Vec::len)).map(|j| a.iter().map(|row| row[j]).collect()).collect()
 }
 
-/// A matrix times a column of registers.
+/// The product of a matrix and a column of registers.
 fn times(lowering: &mut Lowering<'_>, a: &[Vec<Expr>], x: &[Register]) -> Vec<Register> {
     a.iter().map(|row| lowering.inner_product(row, x)).collect()
 }

@@ -1,8 +1,8 @@
-//! Between velocities and momenta, by Newton's method: p = ∂L/∂q̇ solved for q̇, or q̇ = ∂H/∂p
-//! solved for p. Where the relation is linear the first step is the last; where it is not
-//! one-to-one, several solutions belong to the same momenta.
+//! The Legendre transformation by Newton's method: p = ∂L/∂q̇ solved for q̇, or q̇ = ∂H/∂p solved
+//! for p. If the relation is linear, the first step solves it; if it is not one-to-one, several
+//! solutions belong to the same momenta.
 //!
-//! What an equation misses is measured by the size of its terms, so that a velocity that is
+//! The residual of an equation is measured relative to the size of its terms, so that a velocity of
 //! exactly zero is found like any other.
 
 use std::sync::Arc;
@@ -16,39 +16,40 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::Flow;
 use crate::num::{DoubleDouble, math};
 
-/// How often a step may be halved, and how many steps there may be.
+/// The maximal number of halvings of a step, and of steps.
 const HALVINGS: u32 = 60;
 const STEPS: u32 = 100;
 
-/// What an equation misses is rounding in double-double where it is this part of its terms …
+/// A residual this small relative to the terms is rounding in double-double …
 const ROUNDING: f64 = 1e-29;
 
-/// … or this part, and no step makes it smaller.
+/// … and so is one this small that no step reduces.
 const STUBBORN: f64 = 1e-20;
 
-/// Where more than this part is missed nothing is solved, however little the last step changed: it
-/// is stuck where the relation turns back.
+/// A larger residual is never a solution, however small the last step was: the iteration is stuck
+/// at a fold of the relation.
 const SETTLED: f64 = 1e-15;
 
-/// A first step that leaves at most this part of what was missed leads to the solution nearest to
-/// the guess: the relation hardly bends between them.
+/// If the first step leaves at most this part of the residual, it leads to the solution nearest to
+/// the guess: the relation is nearly linear between them.
 const TAME: f64 = 0.25;
 
-/// A single solution is looked for between the powers of two up to this one and its inverse.
+/// A single solution is searched for between this power of two and its inverse.
 const FARTHEST: i32 = 64;
 
-/// In how many parts the way to a solution is gone where it is too far for one step.
+/// The numbers of parts into which the path to a solution is divided if it is too long for one
+/// step.
 const PARTS: [u32; 3] = [4, 16, 64];
 
-/// Two solutions whose numbers differ by less than this part of their size are one.
+/// Two solutions whose numbers differ by less than this part of their size are equal.
 const ALIKE: f64 = 1e-8;
 
-/// From where other solutions are looked for: the first one with one of its numbers replaced by so
-/// many times its size.
+/// The starting points of the search for other solutions: the first one with one of its numbers
+/// multiplied by these factors.
 const ELSEWHERE: [f64; 10] = [-1.0, 0.5, -0.5, 2.0, -2.0, 0.1, -0.1, 10.0, -10.0, 0.0];
 
-/// The relation's program: of a state in the native form, the other rates, then the matrix of
-/// their derivatives with respect to the native ones.
+/// The program of the relation. It maps a state in the native form to the other rates, followed by
+/// the matrix of their derivatives with respect to the native ones.
 pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
     let equations = builder.equations;
     let (rates, matrix): (Vec<Expr>, Vec<Expr>) = match &equations.flow {
@@ -77,7 +78,7 @@ pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, 
 pub(super) enum LegendreError {
     /// The matrix of derivatives is singular.
     Singular,
-    /// The iteration does not come to rest.
+    /// The iteration does not converge.
     NotConverging,
 }
 
@@ -113,7 +114,7 @@ impl Legendre {
         self.native
     }
 
-    /// The other rates of a state (q, native rates), into `out`.
+    /// Writes the other rates of a state (q, native rates) into `out`.
     pub(super) fn other_rates(
         &mut self,
         time: DoubleDouble,
@@ -127,9 +128,9 @@ impl Legendre {
         Ok(())
     }
 
-    /// Changes the native rates of `state` at the indices where `targets` has a value until the
-    /// other rates there have that value. What stands in `state` is the first guess; where it
-    /// does not lead to a solution, rest is tried.
+    /// Changes the native rates of `state`, at the indices where `targets` has a value, until the
+    /// other rates there have that value. The values in `state` are the first guess; if that does
+    /// not lead to a solution, zero rates are tried.
     pub(super) fn solve(
         &mut self,
         time: DoubleDouble,
@@ -157,8 +158,8 @@ impl Legendre {
         Ok(())
     }
 
-    /// The solution nearest to the guess, where one number is sought: what is missed changes its sign
-    /// there. It is looked for on both sides of zero and of the guess, far and near.
+    /// The solution nearest to the guess for a single unknown, at a change of sign of the residual.
+    /// The search covers both sides of zero and of the guess, far and near.
     fn between_signs(
         &mut self,
         time: DoubleDouble,
@@ -202,7 +203,7 @@ impl Legendre {
                 }
             }
             self.state[n + i] = DoubleDouble::from(0.5 * (a + b));
-            // a pole changes the sign as well
+            // the sign also changes at a pole
             if let Ok(left) = self.iterate(time, targets, &[i]) {
                 return Ok(left);
             }
@@ -210,8 +211,8 @@ impl Legendre {
         Err(LegendreError::NotConverging)
     }
 
-    /// The same, but along the branch of solutions that the first guess, which belongs to momenta
-    /// nearby, lies on; where that ends, there is no solution.
+    /// The same, but along the branch of solutions on which the first guess lies, which must belong
+    /// to momenta nearby. If the branch ends, there is no solution.
     pub(super) fn follow(
         &mut self,
         time: DoubleDouble,
@@ -229,7 +230,7 @@ impl Legendre {
         Ok(())
     }
 
-    /// From the momenta that belong to the guess to those wanted, in ever smaller parts.
+    /// Goes from the momenta of the guess to the target in ever smaller parts.
     fn go_in_parts(
         &mut self,
         time: DoubleDouble,
@@ -263,9 +264,8 @@ impl Legendre {
         outcome
     }
 
-    /// All solutions that are found where one, in `state`, is known: it comes first. Those are
-    /// looked for that differ from it by going far along one of the numbers or by changing all
-    /// signs.
+    /// Returns all solutions that can be found if one is known, which is in `state` and comes
+    /// first. The search starts far from it along one of the numbers, and with all signs changed.
     pub(super) fn solutions(
         &mut self,
         time: DoubleDouble,
@@ -309,8 +309,8 @@ impl Legendre {
         found
     }
 
-    /// Newton's iteration from what stands in `self.state`; how much of what was missed the first
-    /// step left.
+    /// Newton's iteration from the values in `self.state`. Returns the part of the residual that
+    /// the first step left.
     fn iterate(
         &mut self,
         time: DoubleDouble,
@@ -319,7 +319,7 @@ impl Legendre {
     ) -> Result<f64, LegendreError> {
         let n = self.degrees;
         let mut factored = Factored::new(unknown.len());
-        // of the equations where a step begins, and where it ends: never of a trial far off
+        // measured at the beginning and at the end of a step, never at a distant trial point
         let mut scales = vec![0.0; unknown.len()];
         let mut scales_there = scales.clone();
         let mut step = vec![DoubleDouble::ZERO; unknown.len()];
@@ -365,7 +365,8 @@ impl Legendre {
             left.get_or_insert(if old <= STUBBORN { 0.0 } else { new / old });
             std::mem::swap(&mut scales, &mut scales_there);
             new = largest(&next, &scales);
-            // at rest: the correction is beyond all digits shown, or nothing shrinks any more
+            // converged: the correction is below the precision of the result, or the residual stops
+            // shrinking
             let no_more_missed =
                 old <= STUBBORN && (new <= ROUNDING || (new <= STUBBORN && new >= 0.5 * old));
             let settled =
@@ -379,7 +380,7 @@ impl Legendre {
         Err(LegendreError::NotConverging)
     }
 
-    /// target − value where there is a target, into `out`, and the size of the terms of
+    /// Writes target − value, where there is a target, into `out`, and the size of the terms of
     /// each equation into `scales`.
     fn missing(
         &mut self,
@@ -402,7 +403,7 @@ impl Legendre {
     }
 }
 
-/// The largest part of its terms that an equation misses.
+/// The largest residual relative to the terms of its equation.
 fn largest(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
     let parts = missing.iter().zip(scales).map(|(x, &scale)| match x.high {
         0.0 => 0.0,

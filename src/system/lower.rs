@@ -1,5 +1,6 @@
-//! From expressions to a program: every canonical node becomes a few operations, equal parts one
-//! register; what depends on parameters only is gathered apart.
+//! Lowers expressions to a program: every canonical node becomes a few operations, equal
+//! subexpressions share a register, and operations that depend only on parameters are collected
+//! separately.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -8,25 +9,25 @@ use super::program::{Block, Guard, Op, Program, Register, Term};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::{DoubleDouble, Number};
 
-/// A program being written.
+/// A program under construction.
 #[derive(Debug)]
 pub(super) struct Lowering<'a> {
     pub(super) pool: &'a mut Pool,
     pub(super) program: Program,
     /// The register of every expression lowered, and of every symbol bound.
     pub(super) known: HashMap<Expr, Register>,
-    /// The register of every operation written: equal operations are one.
+    /// The register of every operation emitted: equal operations share one.
     written: HashMap<Op, Register>,
     constants: HashMap<(u64, u64), u32>,
     /// The expression of each switch.
     pub(super) switches: Vec<Expr>,
     pub(super) unknown: Option<Symbol>,
-    /// Whether the cut of `atan2` is a switch, as it is to a motion that is pushed by it.
+    /// Whether the cut of `atan2` is a switch, as it must be for a motion that it drives.
     pub(super) cuts: bool,
 }
 
 impl<'a> Lowering<'a> {
-    /// An empty program; the symbols of parameters and time are bound.
+    /// An empty program with the symbols of parameters and time bound.
     pub(super) fn new(pool: &'a mut Pool, parameters: &[Symbol], time: Symbol) -> Lowering<'a> {
         let mut lowering = Lowering {
             pool,
@@ -48,19 +49,19 @@ impl<'a> Lowering<'a> {
         lowering
     }
 
-    /// From here on the cut of `atan2` is a switching surface.
+    /// Treats the cut of `atan2` as a switching surface from here on.
     pub(super) fn switch_at_cuts(&mut self) {
         self.cuts = true;
     }
 
-    /// The next input.
+    /// The register of the next input.
     pub(super) fn input(&mut self) -> Register {
         let register = self.push(Op::Input(self.program.inputs.len() as u32));
         self.program.inputs.push(register);
         register
     }
 
-    /// From here on the symbol stands for the register.
+    /// Binds the symbol to the register from here on.
     pub(super) fn bind(&mut self, symbol: Symbol, register: Register) {
         let e = self.pool.variable(symbol);
         self.known.insert(e, register);
@@ -90,7 +91,7 @@ impl<'a> Lowering<'a> {
         self.known[&e]
     }
 
-    /// Registers of all expressions of a list.
+    /// The registers of all expressions of a list.
     pub(super) fn lower_all(&mut self, list: &[Expr]) -> Vec<Register> {
         list.iter().map(|&e| self.lower(e)).collect()
     }
@@ -116,8 +117,8 @@ impl<'a> Lowering<'a> {
         self.linear(Number::ZERO, &terms)
     }
 
-    /// The registers of the solution of `matrix · x = right`. Unknowns that no chain of entries
-    /// connects are solved for apart.
+    /// The registers of the solution of `matrix · x = right`. Blocks of unknowns that are not
+    /// coupled are solved separately.
     pub(super) fn solve(&mut self, matrix: &[Vec<Expr>], right: &[Register]) -> Vec<Register> {
         let n = right.len();
         let mut solution = right.to_vec();
@@ -183,7 +184,9 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The finished program, or the symbol that stands for nothing.
+    /// Returns the finished program.
+    ///
+    /// Returns the symbol instead if one is not bound.
     pub(super) fn finish(mut self, outputs: Vec<Register>) -> Result<Arc<Program>, Symbol> {
         if let Some(symbol) = self.unknown {
             return Err(symbol);
@@ -268,7 +271,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// `base^n` for n ≥ 1 by squares.
+    /// Returns `base^n` for n ≥ 1 by repeated squaring.
     pub(super) fn integer_power(&mut self, base: Register, n: u64) -> Register {
         match n {
             1 => base,
@@ -284,7 +287,7 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// What is to be watched of an operation.
+/// The guard of an operation, if it needs one.
 fn guard(ops: &[Op], r: Register) -> Option<Guard> {
     match ops[r as usize] {
         Op::Root(under) => Some(Guard { value: r, under: Some(under), passes: true }),

@@ -1,6 +1,7 @@
 //! What each node of an expression becomes: operations on the registers of its parts.
 //!
-//! In: a canonical node. Out: the register of its value. Never here: how equal operations are made one.
+//! In: a canonical node. Out: the register of its value. Never here: the sharing of equal
+//! operations.
 
 use super::lower::Lowering;
 use super::program::{LIVE_POWER_BITS, Op, Register};
@@ -30,12 +31,13 @@ impl Lowering<'_> {
         }
     }
 
-    /// `coefficient · Π base^exponent`: what depends on parameters only is joined to one factor.
+    /// Lowers `coefficient · Π base^exponent`; factors that depend on parameters only are combined
+    /// into one.
     fn lower_product(&mut self, coefficient: Number, factors: &[(Expr, Number)]) -> Register {
         if let Some(opened) = self.open_squares(coefficient, factors) {
             return self.lower(opened);
         }
-        // [fixed above, fixed below, varying above, varying below]
+        // [fixed numerator, fixed denominator, varying numerator, varying denominator]
         let mut parts: [Option<Register>; 4] = [None; 4];
         for &(base, exponent) in factors {
             let (register, inverse) = self.lower_factor(base, exponent);
@@ -59,7 +61,7 @@ impl Lowering<'_> {
         parts[3].map_or(above, |below| self.push(Op::Divide(above, below)))
     }
 
-    /// A power with a numeric exponent; true where it belongs below the line.
+    /// Lowers a power with a numeric exponent. Returns true if it belongs in the denominator.
     fn lower_factor(&mut self, base: Expr, exponent: Number) -> (Register, bool) {
         if let Some(n) = exponent.as_integer() {
             let base = self.known[&base];
@@ -71,7 +73,7 @@ impl Lowering<'_> {
         }
         let whole = exponent + -Number::HALF;
         if let Some(n @ 1..) = whole.as_integer() {
-            // the root passes zero as it is, where its cube would touch it
+            // the root crosses zero, where its cube would only touch it
             let (root, rest) = (self.push(Op::Root(base)), self.integer_power(base, n as u64));
             return (self.multiply(root, rest), false);
         }
@@ -79,9 +81,9 @@ impl Lowering<'_> {
         (self.push(Op::Power(base, exponent)), false)
     }
 
-    /// A product in which roots of squares are written as what they are, if it has any:
+    /// A product in which roots of squares are simplified, if it has any:
     /// `(b² c)^α = |b|^{2α} c^α`, and an odd power of `|b|` is `sign(b)` times that of `b`, so that
-    /// `x/√(x²)` is a sign also where it is 0/0. The kink at `b = 0` becomes one that is located.
+    /// `x/√(x²)` is a sign even where it is 0/0. The kink at `b = 0` becomes one that is located.
     fn open_squares(&mut self, coefficient: Number, factors: &[(Expr, Number)]) -> Option<Expr> {
         let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
         let mut opened = Vec::new();
@@ -147,7 +149,7 @@ impl Lowering<'_> {
         self.call(FunctionId::Exp, [product, product])
     }
 
-    /// Registers behind one that needs more than one, if they are not there yet.
+    /// Reserves further registers after one that needs several, unless they exist.
     fn make_room(&mut self, register: Register, count: usize) {
         if self.program.ops.len() == register as usize + 1 {
             for _ in 0..count {
@@ -174,7 +176,7 @@ impl Lowering<'_> {
             Rule::Series(_) => {
                 let first = self.known[&arguments[0]];
                 let second = arguments.get(1).map_or(first, |e| self.known[e]);
-                // one operation gives both of a pair
+                // one operation computes both functions of a pair
                 let (leader, offset) = match function {
                     FunctionId::Cos => (FunctionId::Sin, 1),
                     FunctionId::Cosh => (FunctionId::Sinh, 1),
@@ -217,9 +219,9 @@ impl Lowering<'_> {
     }
 }
 
-/// `atan2(y, x)` on the two sides of y = 0, on each without a cut nearby:
-/// `±π/2 + atan2(∓x, ±y)`. They agree where x > 0, and differ by a turn where x < 0. The cuts of
-/// the calls it is made of lie where the other one is taken.
+/// `atan2(y, x)` on the two sides of y = 0, on each without a cut nearby: `±π/2 + atan2(∓x, ±y)`.
+/// They agree where x > 0, and differ by a turn where x < 0. The cuts of the new calls lie where
+/// the other branch applies.
 fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> Branches {
     let (y, x) = (arguments[0], arguments[1]);
     let (minus_y, minus_x) = (pool.neg(y), pool.neg(x));

@@ -1,5 +1,5 @@
-//! The list of channels, and the programs that compute them: one in double-double for what is
-//! tabulated and gauged, one in `f64` for what is only drawn.
+//! The list of channels, and the programs that compute them: one in double-double for tables and
+//! diagnostics, one in `f64` for drawing only.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,21 +13,21 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{self, Mechanics, Model, Shape};
 
-/// Everything watched of one system.
+/// All observables of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Observables {
     pub(super) channels: Vec<Channel>,
-    /// The first so many are the columns of a run.
+    /// The number of leading channels that are the columns of a run.
     pub(super) columns: usize,
     /// The channel of each expression.
     pub(super) index: HashMap<Expr, usize>,
-    /// Of (q, native rates, action, work): the first channels.
+    /// The leading channels, as functions of (q, native rates, action, work).
     pub(super) precise: Arc<Program>,
-    /// Of the same: the others.
+    /// The other channels, of the same inputs.
     pub(super) drawn: Arc<Program>,
 }
 
-/// The channels being listed, with their expressions; the ledger has none.
+/// A list of channels under construction, with their expressions; the ledger has none.
 #[derive(Default)]
 pub(super) struct ObservableList {
     channels: Vec<Channel>,
@@ -72,7 +72,7 @@ impl ObservableList {
         for (name, e, _) in &model.expect.conserves {
             list.add_hidden(name, *e);
         }
-        // A quantity is not called as what is expected of it at one moment: a view names it, or nobody.
+        // A quantity is not named after a value expected of it at one time; a view may name it.
         for value in &model.expect.values {
             list.add_hidden("", value.expression);
         }
@@ -150,7 +150,7 @@ impl ObservableList {
         }
     }
 
-    /// Gives units to what has a name and none yet, where they follow from those of the file.
+    /// Assigns units to named quantities that have none yet, if they follow from those of the file.
     fn find_units(&mut self, model: &Model, equations: &Equations) {
         let energy = self.channels.iter().find(|c| c.kind == ChannelKind::Energy);
         let energy = energy.map_or_else(String::new, |channel| channel.unit.clone());
@@ -182,7 +182,7 @@ impl ObservableList {
         }
     }
 
-    /// Gives a channel that has no name yet that of a view.
+    /// Names a channel after a view if it has no name yet.
     fn name(&mut self, shown: &model::Channel) {
         let channel = self.index.get(&shown.expression).map(|&i| &mut self.channels[i]);
         if let Some(channel) = channel.filter(|channel| channel.name.is_empty()) {
@@ -220,8 +220,8 @@ impl ObservableList {
     }
 }
 
-/// A program of (q, native rates, numbers carried along, action, work) for channels' expressions: p, q̈ and the energy
-/// are computed first and stand for their symbols.
+/// A program of (q, native rates, auxiliary numbers, action, work) for channels' expressions. p, q̈
+/// and the energy are computed first and bound to their symbols.
 pub(super) fn program(
     builder: &mut ProgramBuilder<'_>,
     channels: &[Option<Expr>],
@@ -298,7 +298,7 @@ fn bind_derived(
     lowering.bind(equations.symbols.energy, energy);
 }
 
-/// The numbers a shape is drawn from.
+/// The expressions that a shape is drawn from.
 fn numbers_of(shape: &Shape) -> Vec<Expr> {
     match shape {
         Shape::Line { from, to } | Shape::Spring { from, to } => [*from, *to].concat(),

@@ -1,4 +1,4 @@
-//! Looking at a state: every channel's value.
+//! Evaluates the value of every channel at a state.
 
 use super::legendre::Legendre;
 use super::value::Evaluator;
@@ -6,7 +6,7 @@ use super::{Form, MotionError, State, System};
 use crate::num::{DoubleDouble, Real};
 use std::sync::Arc;
 
-/// Looks at the states of one system at one set of parameters; holds its own registers.
+/// Evaluates the channels of one system at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
 pub struct Observer {
     system: System,
@@ -14,7 +14,7 @@ pub struct Observer {
     drawn: Evaluator<f64>,
     energy: Evaluator<f64>,
     legendre: Legendre,
-    /// The state looked at last, in the native form: kept where momenta alone do not tell it.
+    /// The last state observed, in the native form, kept if momenta alone do not determine it.
     near: Option<State>,
     parameters: Vec<f64>,
     inputs: Vec<DoubleDouble>,
@@ -40,7 +40,7 @@ impl Observer {
         observer
     }
 
-    /// Looks at these parameters from now on.
+    /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
@@ -51,14 +51,14 @@ impl Observer {
         self.legendre.set_parameters(&parameters);
     }
 
-    /// The parameters it looks at.
+    /// The parameters in use.
     pub fn parameters(&self) -> &[f64] {
         &self.parameters
     }
 
-    /// The value of every channel, in order, into `out`, which is as long as the channels. The
-    /// state may have either form. Values that do not exist there are not a number; only a state
-    /// that has no velocities (or momenta), or no accelerations that are watched, is a fault.
+    /// Writes the value of every channel, in order, into `out`, which must be as long as the
+    /// channels. The state may have either form. Undefined values are NaN. Returns an error only if
+    /// the state has no velocities (or momenta), or no accelerations although a channel needs them.
     pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let precise = self.system.watch().precise.outputs();
         let (first, others) = out.split_at_mut(precise);
@@ -77,7 +77,7 @@ impl Observer {
         Ok(())
     }
 
-    /// The same for the columns only: `out` is as long as they are.
+    /// The same for the columns only: `out` must be as long as they are.
     pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.look(state, out)
     }
@@ -94,13 +94,13 @@ impl Observer {
             *x = self.precise.output(i).value();
         }
         if state.form == Form::Momentum && out.len() >= 3 * n {
-            // the momenta are known as they are
+            // the momenta are those of the state
             out[2 * n..3 * n].copy_from_slice(&state.values[n..2 * n]);
         }
         Ok(())
     }
 
-    /// The inputs of the programs: the state in the native form, then action and work.
+    /// Sets the inputs of the programs: the state in the native form, then action and work.
     fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
         let form = self.system.form();
         if state.form == form {
@@ -125,8 +125,8 @@ impl Observer {
     }
 
     /// For one degree of freedom: the energy on a grid over (q, q̇) or (q, p) at one time, for
-    /// level curves. Row by row: `out[j * positions.len() + i]` belongs to `positions[i]` and
-    /// `rates[j]`; not a number where there is no energy.
+    /// level curves. The values are in row-major order: `out[j * positions.len() + i]` belongs to
+    /// `positions[i]` and `rates[j]`; it is NaN where there is no energy.
     pub fn energy_on_grid(
         &mut self,
         time: f64,

@@ -1,5 +1,5 @@
-//! The flat program that expressions are lowered to: a list of operations, each writing one
-//! register and reading earlier ones only. Two evaluators run it: [`Evaluator`](super::Values) and
+//! The flat program that expressions are lowered to: a list of operations, each of which writes one
+//! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
 use std::sync::Arc;
@@ -8,22 +8,22 @@ use super::lower::Lowering;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::DoubleDouble;
 
-/// The place of a number in a program: the operation that writes it.
+/// The index of a number in a program, which is that of the operation that writes it.
 pub(super) type Register = u32;
 
-/// How many squares an integer power with a live exponent may take: exponents up to 63.
+/// The number of squarings for an integer power with a live exponent: exponents up to 63.
 pub(super) const LIVE_POWER_BITS: usize = 6;
 
-/// One operation. It writes the register it stands at.
+/// One operation. It writes the register of its own index.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Op {
-    /// A number of the table of constants.
+    /// A number from the table of constants.
     Constant(u32),
     /// A parameter.
     Parameter(u32),
     /// The time.
     Time,
-    /// A number that whoever evaluates gives.
+    /// A number supplied by the caller of the evaluator.
     Input(u32),
     /// `constant + Σ coefficient · register`, over a range of the table of terms.
     Linear { constant: u32, first: u32, count: u32 },
@@ -39,16 +39,16 @@ pub(super) enum Op {
     Root(Register),
     /// A power with an exponent from the table of constants.
     Power(Register, u32),
-    /// A power whose exponent depends on parameters only; squares and partial products for an
-    /// exponent that happens to be an integer stand in the registers behind it.
+    /// A power whose exponent depends on parameters only. If the exponent happens to be an integer,
+    /// the following registers contain squares and partial products.
     ParametricPower(Register, Register),
-    /// A function of one or two arguments; its companion stands in the register behind it.
+    /// A function of one or two arguments; the following register contains its companion.
     Call(FunctionId, [Register; 2]),
-    /// One of two branches, by the sign of a switch.
+    /// One of two branches, selected by the sign of a switch.
     Select { switch: Register, mode: Option<u32>, positive: Register, negative: Register },
-    /// The solution of a block of linear equations; as many registers as it has rows.
+    /// The solution of a block of linear equations, in as many registers as it has rows.
     Solve(u32),
-    /// Written by an operation before it.
+    /// A register written by an operation before it.
     Written,
 }
 
@@ -66,17 +66,17 @@ pub(super) struct Block {
     pub(super) matrix: Vec<Register>,
     /// f.
     pub(super) right: Vec<Register>,
-    /// Which inputs M depends on: what to name where it turns out singular.
+    /// The inputs M depends on, reported if it is singular.
     pub(super) inputs: Vec<usize>,
 }
 
-/// A function of which a series follows one branch, and leaves the branch that is meant where its
-/// root passes zero: roots, fractional powers, inverse sines and cosines.
+/// A function of which a series follows only one branch, and leaves the intended one where its root
+/// passes zero: roots, fractional powers, inverse sines and cosines.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guard {
-    /// What is positive on the branch meant.
+    /// A value that is positive on the intended branch.
     pub(super) value: Register,
-    /// What stands under the root.
+    /// The argument of the root.
     pub(super) under: Option<Register>,
     /// Whether the value itself passes zero where the branch is left.
     pub(super) passes: bool,
@@ -88,31 +88,31 @@ impl Block {
     }
 }
 
-/// A compiled list of expressions. Immutable; evaluators share it and hold their own registers.
+/// A compiled list of expressions. It is immutable; evaluators share it and own their registers.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     pub(super) ops: Vec<Op>,
     pub(super) constants: Vec<DoubleDouble>,
     pub(super) terms: Vec<Term>,
     pub(super) blocks: Vec<Block>,
-    /// The registers that depend on constants and parameters only.
+    /// Which registers depend on constants and parameters only.
     pub(super) fixed: Vec<bool>,
-    /// The operations that do, in order: evaluated when parameters change.
+    /// The operations that write these, in order, evaluated when parameters change.
     pub(super) prologue: Vec<Register>,
     /// The operations that depend on time or inputs, in order.
     pub(super) body: Vec<Register>,
     /// The switching surfaces, one register each.
     pub(super) switches: Vec<Register>,
-    /// The functions whose branch is to be watched.
+    /// The functions whose branch must be checked.
     pub(super) guards: Vec<Guard>,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
 }
 
-/// A matrix met on the way is singular.
+/// A matrix in the program is singular.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Singular {
-    /// Which block of equations.
+    /// The index of the block of equations.
     pub(super) block: u32,
 }
 
@@ -120,7 +120,7 @@ impl Program {
     /// Compiles expressions of a pool, as functions of parameters, time and inputs.
     ///
     /// # Errors
-    /// The first symbol that is none of these.
+    /// Returns the first symbol that is none of these.
     pub fn compile(
         pool: &mut Pool,
         parameters: &[Symbol],
@@ -137,33 +137,33 @@ impl Program {
         lowering.finish(outputs)
     }
 
-    /// How many numbers it computes.
+    /// The number of outputs.
     pub fn outputs(&self) -> usize {
         self.outputs.len()
     }
 
-    /// How many inputs it reads.
+    /// The number of inputs.
     pub fn inputs(&self) -> usize {
         self.inputs.len()
     }
 
-    /// How many switching surfaces it has.
+    /// The number of switching surfaces.
     pub fn switches(&self) -> usize {
         self.switches.len()
     }
 
-    /// The input that a switch is, if it is one.
+    /// The input that a switch is equal to, if any.
     pub fn switch_input(&self, switch: usize) -> Option<usize> {
         self.inputs.iter().position(|&r| r == self.switches[switch])
     }
 
-    /// How many operations it takes.
+    /// The number of operations.
     pub fn len(&self) -> usize {
         self.ops.len()
     }
 
-    /// How many of these have to be done anew at every time; the others wait for a change of a
-    /// parameter.
+    /// The number of operations evaluated again at every time; the others are evaluated only when a
+    /// parameter changes.
     pub fn live_len(&self) -> usize {
         self.body.iter().filter(|&&r| self.ops[r as usize] != Op::Time).count()
     }
@@ -197,7 +197,7 @@ impl Program {
         self.outputs.iter().any(|&r| timed[r as usize])
     }
 
-    /// Whether it computes nothing.
+    /// Whether it has no operations.
     pub fn is_empty(&self) -> bool {
         self.ops.is_empty()
     }

@@ -1,7 +1,8 @@
-//! States that keep their constraints: put back after a step, struck by an impulse, begun.
+//! States that satisfy their constraints: projected after a step, after an impulse, or at the
+//! start.
 //!
-//! In: a state (q, q̇) near one that keeps f(q, t) = 0 and A q̇ + A₀ = 0, or momenta it is to
-//! have. Out: the state, and the reactions. Never here: which constraints hold, motion in time.
+//! In: a state (q, q̇) near one that satisfies f(q, t) = 0 and A q̇ + A₀ = 0, or target momenta.
+//! Out: the state, and the reactions. Never here: which constraints are enforced, motion in time.
 
 use super::conditions::{Conditions, Residual};
 use super::legendre::LegendreError;
@@ -9,35 +10,35 @@ use super::solve::Factored;
 use super::value::Evaluator;
 use crate::num::DoubleDouble;
 
-/// How many corrections may be made, and how often one may be halved.
+/// The maximal number of corrections, and of halvings of one correction.
 const CORRECTIONS: usize = 60;
 const HALVINGS: u32 = 60;
 
-/// A residual of this part of its terms is rounding in double-double.
+/// A residual this small relative to its terms is rounding in double-double.
 const ROUNDING: f64 = 1e-30;
 
-/// A residual of this part of its terms that no correction makes smaller is one as well: terms may
-/// themselves be differences of larger ones.
+/// So is a residual this small that no correction reduces: the terms may themselves be differences
+/// of larger ones.
 const STUBBORN: f64 = 1e-22;
 
-/// What keeps the states of one system at one set of parameters on its constraints.
+/// The projection of one system's states onto its constraints, at one set of parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Projection {
     conditions: Conditions,
-    /// Of (q, q̇): the momenta, then M.
+    /// The momenta, then M, as functions of (q, q̇).
     momenta: Evaluator<DoubleDouble>,
     degrees: usize,
     held: Vec<bool>,
 }
 
-/// Why a state could not be put on its constraints.
+/// Why a state could not be projected onto its constraints.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ProjectionError {
     /// The constraints and the mass matrix together are singular.
     Singular,
-    /// This constraint is not met by any state nearby.
+    /// No state nearby satisfies this constraint.
     Lost(usize),
-    /// This constraint repeated the others where the motion began, and contradicts them here.
+    /// This constraint was redundant at the start and contradicts the others here.
     Parted(usize),
 }
 
@@ -59,14 +60,14 @@ impl Projection {
         &mut self.conditions
     }
 
-    /// The constraints that are held, by index.
+    /// The indices of the enforced constraints.
     fn rows(&self) -> Vec<usize> {
         (0..self.held.len()).filter(|&k| self.held[k]).collect()
     }
 
     /// Moves a state (q, q̇) by the least amount, measured by the mass matrix, until positions and
-    /// velocities keep the constraints to rounding: δq = M⁻¹Aᵀμ (not Baumgarte's pull, which
-    /// changes the motion).
+    /// velocities satisfy the constraints to rounding: δq = M⁻¹Aᵀμ (not Baumgarte stabilisation,
+    /// which changes the motion).
     pub(super) fn project(
         &mut self,
         time: DoubleDouble,
@@ -80,8 +81,8 @@ impl Projection {
         self.correct(time, state, velocity, n)
     }
 
-    /// Corrects the numbers of `state` from `first` on until the residuals of the held constraints
-    /// are rounding.
+    /// Corrects the numbers of `state` from `first` on until the residuals of the enforced
+    /// constraints are rounding.
     fn correct(
         &mut self,
         time: DoubleDouble,
@@ -125,7 +126,7 @@ impl Projection {
         lost.map_or(Ok(()), |k| Err(ProjectionError::Lost(k)))
     }
 
-    /// Factors the matrix of M x − Aᵀμ, A x at the state looked at last.
+    /// Factors the matrix of M x − Aᵀμ, A x at the last state evaluated.
     fn factor(&self, rows: &[usize], factored: &mut Factored<DoubleDouble>) -> bool {
         let n = self.degrees;
         factored.factor(|i, j| match (i < n, j < n) {
@@ -136,10 +137,10 @@ impl Projection {
         })
     }
 
-    /// The velocities that keep the constraints and belong to the momenta `target` but for
-    /// reactions: p(q, q̇) = target + AᵀΛ, A q̇ + A₀ = 0. What stands in `state` is the first guess;
-    /// gives Λ of every constraint, zero where it is not held. By Newton's method, damped: the
-    /// relation need not be linear.
+    /// The velocities that satisfy the constraints and belong to the momenta `target` up to
+    /// reactions: p(q, q̇) = target + AᵀΛ, A q̇ + A₀ = 0. The values in `state` are the first
+    /// guess. Returns Λ of every constraint, zero if it is not enforced. Uses a damped Newton
+    /// method, as the relation need not be linear.
     ///
     /// *The Principles of Dynamics*, § 1.3.3: Δ(∂L/∂q̇) = Q̂ + AᵀΛ̂.
     pub(super) fn impulse_outcome(
@@ -174,8 +175,8 @@ impl Projection {
                 let found = self.imbalance(time, &numbers, &reactions, target, &rows);
                 if let Ok((next, terms)) = found {
                     if round == 0 && terms.iter().all(|x| x.is_finite()) {
-                        // the terms before the impulse and after a whole step are the measure from
-                        // here on: a body brought to rest has none in the end
+                        // from here on the scales include the terms before the impulse and after a
+                        // whole step, since a body brought to rest has none in the end
                         scales.iter_mut().zip(terms).for_each(|(s, x)| *s = s.max(x));
                         let (first, _) = self.imbalance(time, &before, &forces, target, &rows)?;
                         size = size.min(merit(&first, &scales));
@@ -202,7 +203,7 @@ impl Projection {
         Err(LegendreError::NotConverging)
     }
 
-    /// What is missing to balance, row by row, and the size of each row's terms.
+    /// The residual of each row, and the size of its terms.
     fn imbalance(
         &mut self,
         time: DoubleDouble,
@@ -224,7 +225,7 @@ impl Projection {
                 terms += force.high.abs();
                 value = value + force;
             }
-            // a momentum of zero is as good as its neighbours' rounding
+            // a momentum of zero is only as accurate as the rounding of its neighbours
             let rates = (0..n).map(|j| self.momenta.output(n + i * n + j) * numbers[n + j]);
             sizes[i] = terms + rates.map(|x| x.high.abs()).sum::<f64>();
             missing[i] = value;
@@ -238,8 +239,8 @@ impl Projection {
     }
 }
 
-/// The root of the sum of squares of residuals, each measured by its scale: Newton's direction leads
-/// down on it, whatever the relation.
+/// The root of the sum of squares of residuals relative to their scales. Newton's direction is a
+/// descent direction for it, whatever the relation.
 fn merit(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
     let parts = missing.iter().zip(scales).map(|(x, &scale)| match x.high {
         0.0 => 0.0,

@@ -1,4 +1,4 @@
-//! Rates of change of states as plain numbers: what every method but the Taylor series asks for.
+//! Rates of change of states as plain numbers, for every method but the Taylor series.
 
 use std::sync::Arc;
 
@@ -8,40 +8,41 @@ use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
 use crate::num::DoubleDouble;
 
-/// The rate of change of every number of a state, as a function of time and these numbers. Holds
-/// its own registers.
+/// The rate of change of every number of a state, as a function of time and these numbers. It owns
+/// its registers.
 #[derive(Clone, Debug)]
 pub struct Rates {
     system: System,
     form: Form,
-    /// The place in a state of each output.
+    /// The index in a state of each output.
     places: Vec<usize>,
     program: Arc<Program>,
     values: Evaluator<f64>,
-    /// Where the program wants velocities for momenta.
+    /// Finds the velocities, if the program needs them and the state has momenta.
     solver: Option<Solver>,
 }
 
-/// Finds the velocities of a state (q, p), from those of the state before.
+/// Finds the velocities of a state (q, p), starting from those of the state before.
 #[derive(Clone, Debug)]
 struct Solver {
     legendre: Legendre,
-    /// (q, q̇), as solved last.
+    /// The last solution (q, q̇).
     native: Vec<DoubleDouble>,
-    /// Whether that belongs to the motion under way, whose velocities are to change steadily.
+    /// Whether that solution belongs to the current motion, whose velocities must change
+    /// continuously.
     under_way: bool,
     targets: Vec<Option<DoubleDouble>>,
     rounded: Vec<f64>,
 }
 
 impl System {
-    /// Rates of change of states in [`System::form`].
+    /// Returns the rates of change of states in [`System::form`].
     pub fn native_rates(&self) -> Rates {
         Rates::new(self, self.form(), 0, &self.motion().native)
     }
 
-    /// Rates of change of states (q, p): q̇ = ∂H/∂p, ṗ = −∂H/∂q + forces, where need be through
-    /// p = ∂L/∂q̇. A Poisson system has its variables only.
+    /// Returns the rates of change of states (q, p): q̇ = ∂H/∂p, ṗ = −∂H/∂q + forces, through p =
+    /// ∂L/∂q̇ if necessary. A Poisson system has its variables only.
     pub fn canonical_rates(&self) -> Rates {
         let (program, direct) = &self.motion().canonical;
         let form = if self.form() == Form::Variables { Form::Variables } else { Form::Momentum };
@@ -59,12 +60,12 @@ impl System {
         rates
     }
 
-    /// Whether H = T(p) + V(q, t) and nothing else acts, and why not.
+    /// Whether H = T(p) + V(q, t) with no other forces, and if not, why.
     pub fn separable(&self) -> Result<(), &str> {
         self.motion().split.as_ref().map(|_| ()).map_err(String::as_str)
     }
 
-    /// Rates of change of states (q, p) under T(p) alone and under V(q, t) alone, where
+    /// Returns the rates of change of states (q, p) under T(p) alone and under V(q, t) alone, where
     /// H = T + V.
     pub fn split_rates(&self) -> Option<(Rates, Rates)> {
         let split = self.motion().split.as_ref().ok()?;
@@ -90,7 +91,7 @@ impl Rates {
         }
     }
 
-    /// Sets the parameters; to be called once at least.
+    /// Sets the parameters. Must be called before the first evaluation.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let parameters = self.system.inputs(parameters);
         self.values.set_parameters(&parameters);
@@ -100,8 +101,8 @@ impl Rates {
         }
     }
 
-    /// The motion begins with these velocities, where the momenta alone do not tell them: it stays
-    /// on their branch. Of no account in another form.
+    /// Begins the motion with these velocities if the momenta alone do not determine them, so that
+    /// it stays on their branch. Has no effect in another form.
     pub fn begin_near(&mut self, state: &State) {
         if let Some(solver) = self.solver.as_mut().filter(|_| state.form == Form::Velocity) {
             for (i, x) in solver.native.iter_mut().enumerate() {
@@ -111,7 +112,7 @@ impl Rates {
         }
     }
 
-    /// Goes on from the velocities that others found last.
+    /// Continues from the velocities that `other` found last.
     pub fn go_on_from(&mut self, other: &Rates) {
         if let (Some(own), Some(other)) = (&mut self.solver, &other.solver) {
             own.native.clone_from(&other.native);
@@ -129,13 +130,13 @@ impl Rates {
         &self.system
     }
 
-    /// On which side of each kink the rates were evaluated last.
+    /// On which side of each kink the rates were last evaluated.
     pub fn sides(&self) -> Vec<bool> {
         self.values.sides()
     }
 
-    /// The rates at a time and at the numbers of a state, each into its place of `out`; places of
-    /// numbers that do not move are left alone.
+    /// Writes the rates at a time and at the numbers of a state into `out`; the entries of numbers
+    /// that do not move are left unchanged.
     pub fn evaluate(
         &mut self,
         time: f64,

@@ -1,8 +1,8 @@
-//! Over what time the functions of the events are simple: how far ahead of a state their Taylor
-//! series along the motion, cut off at a modest order, tell what they do.
+//! The time over which the events' functions are simple: how far ahead of a state their Taylor
+//! series along the motion, truncated at a modest order, represent them.
 //!
-//! Looks that are no farther apart than that see every turn, be a function ever so much faster than
-//! the motion. In: a state. Out: a length of time. Never here: zeros.
+//! Samples that are no farther apart than that detect every turning point, even if a function
+//! varies much faster than the motion. In: a state. Out: a length of time. Never here: zeros.
 
 use std::sync::Arc;
 
@@ -15,10 +15,11 @@ use crate::num::DoubleDouble;
 /// The order of the series.
 const ORDER: usize = 12;
 
-/// The last terms may be this part of the largest one: a sine is then followed for half a turn.
+/// The last terms may be this part of the largest one: a sine is then represented for half a
+/// period.
 const CUT_OFF: f64 = 1e-3;
 
-/// How often another unit of time, or other branches at kinks, are tried.
+/// The maximal number of trials with another unit of time, or with other branches at kinks.
 const ATTEMPTS: u32 = 12;
 
 /// Estimates the resolution that the events of one system need.
@@ -26,7 +27,7 @@ const ATTEMPTS: u32 = 12;
 pub(super) struct Resolution {
     series: Series,
     expansion: Expansion,
-    /// The length found last, near which the next one is expected.
+    /// The last length found, as a first guess of the next one.
     last: Option<f64>,
 }
 
@@ -45,8 +46,9 @@ impl Resolution {
         self.last = None;
     }
 
-    /// How far after a state, in the system's own form, all functions are simple; `None` where that
-    /// cannot be reported. `near` is some length of time that is not far from the motion's own.
+    /// The time after a state, in the system's native form, over which all functions are simple.
+    /// Returns `None` if it cannot be estimated. `near` is a time comparable to the time scale of
+    /// the motion.
     pub(super) fn after(&mut self, state: &State, near: f64) -> Option<f64> {
         let mut unit = self.last.unwrap_or(near);
         for _ in 0..ATTEMPTS {
@@ -88,11 +90,11 @@ impl Resolution {
     }
 }
 
-/// What came of one attempt.
+/// The result of one trial.
 enum Attempt {
     Length(f64),
-    /// At a kink another branch holds.
+    /// Another branch applies at a kink.
     OtherSides,
-    /// Some coefficient is beyond all range.
+    /// A coefficient is out of range.
     NotFinite,
 }

@@ -1,5 +1,5 @@
-//! The equations of motion as programs: rates of change of a state, in both of its forms, and
-//! split in two where H allows it.
+//! The equations of motion as programs: rates of change of a state, in both of its forms, and split
+//! in two if H is separable.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use super::state::Form;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{AuxiliaryRates, CoordinateSymbols, Equations, Flow};
 
-/// Which integrals along the motion a state carries behind its coordinates and rates.
+/// Which integrals along the motion a state carries after its coordinates and rates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Quadratures {
     pub(super) action: bool,
@@ -24,16 +24,16 @@ impl Quadratures {
     }
 }
 
-/// H = T(p) + V(q, t), each with the motion it makes alone.
+/// H = T(p) + V(q, t), with the motion that each part alone generates.
 #[derive(Clone, Debug)]
 pub(super) struct Split {
-    /// Of (q, p): q̇, then the rates of the quadratures, under T alone.
+    /// q̇, then the rates of the quadratures, under T alone, as functions of (q, p).
     pub(super) drift: Arc<Program>,
-    /// Of (q, p): ṗ, then the rates of the quadratures, under V alone.
+    /// ṗ, then the rates of the quadratures, under V alone, as functions of (q, p).
     pub(super) kick: Arc<Program>,
 }
 
-/// What writing any of the programs needs.
+/// The context for building any of the programs.
 pub(super) struct ProgramBuilder<'a> {
     pub(super) pool: Pool,
     pub(super) equations: &'a Equations,
@@ -47,7 +47,7 @@ impl ProgramBuilder<'_> {
         Lowering::new(&mut self.pool, &self.parameters, self.equations.symbols.time)
     }
 
-    /// The form the equations are given in.
+    /// The form in which the equations are given.
     pub(super) fn native(&self) -> Form {
         match self.equations.flow {
             Flow::Lagrange { .. } => Form::Velocity,
@@ -76,7 +76,7 @@ impl ProgramBuilder<'_> {
         lowering
     }
 
-    /// The same, with the numbers carried along behind them.
+    /// The same, followed by the auxiliary numbers.
     pub(super) fn on_full_state(&mut self) -> Lowering<'_> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
@@ -84,7 +84,7 @@ impl ProgramBuilder<'_> {
         lowering
     }
 
-    /// Where among the numbers carried along an attitude begins.
+    /// The index, among the auxiliary numbers, at which an attitude begins.
     pub(super) fn attitude(&self) -> Option<usize> {
         let first = self.equations.supplements.attitude_symbols?[0][0];
         let mut auxiliary =
@@ -92,7 +92,7 @@ impl ProgramBuilder<'_> {
         auxiliary.position(|&symbol| symbol == first)
     }
 
-    /// The numbers carried along at the start, of a state in the native form.
+    /// The initial auxiliary numbers, as functions of a state in the native form.
     pub(super) fn auxiliary_start(&mut self) -> Result<Arc<Program>, Symbol> {
         let equations = self.equations;
         let mut lowering = self.on_native_state();
@@ -128,8 +128,8 @@ impl ProgramBuilder<'_> {
         lowering.finish(outputs)
     }
 
-    /// A program whose inputs are a state (q, p), with the velocities of a Lagrangian system
-    /// known too. `None` where these cannot be had without iteration.
+    /// A program whose inputs are a state (q, p), with the velocities of a Lagrangian system known
+    /// too. Returns `None` if these require iteration.
     pub(super) fn on_canonical_state(&mut self) -> Option<Lowering<'_>> {
         let equations = self.equations;
         let coordinates = &equations.coordinates;
@@ -138,7 +138,7 @@ impl ProgramBuilder<'_> {
         };
         let velocity_symbols: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
         if self.is_quadratic() {
-            // L is quadratic in q̇, so M q̇ = p − b with b the momentum at rest
+            // L is quadratic in q̇, so M q̇ = p − b with b the momentum at q̇ = 0
             let rest: HashMap<Symbol, Expr> =
                 velocity_symbols.iter().map(|&v| (v, Expr::ZERO)).collect();
             let offsets: Vec<Expr> =
@@ -172,7 +172,7 @@ impl ProgramBuilder<'_> {
         Some(lowering)
     }
 
-    /// The same, with the numbers carried along behind them.
+    /// The same, followed by the auxiliary numbers.
     pub(super) fn on_full_canonical_state(&mut self) -> Option<Lowering<'_>> {
         let equations = self.equations;
         let mut lowering = self.on_canonical_state()?;
@@ -180,8 +180,8 @@ impl ProgramBuilder<'_> {
         Some(lowering)
     }
 
-    /// Rates of change of a state (q, p); for a Lagrangian system that has no velocities in closed
-    /// form they are functions of (q, q̇), and `false` says so.
+    /// Rates of change of a state (q, p). For a Lagrangian system without velocities in closed
+    /// form, they are functions of (q, q̇) and the flag is `false`.
     pub(super) fn canonical_rates(&mut self) -> Result<(Arc<Program>, bool), Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
         let Flow::Lagrange { momentum_rates, .. } = &equations.flow else {
@@ -206,7 +206,7 @@ impl ProgramBuilder<'_> {
         Ok((finish(self.on_full_state())?, false))
     }
 
-    /// The two halves of a separable system. The action splits with H: Σ p ∂T/∂p − T and −V.
+    /// The two parts of a separable system. The action splits with H: Σ p ∂T/∂p − T and −V.
     pub(super) fn split(&mut self) -> Option<Result<Split, Symbol>> {
         let equations = self.equations;
         let (separable, hamiltonian) =
@@ -242,7 +242,7 @@ impl ProgramBuilder<'_> {
     }
 }
 
-/// Makes a state's coordinates and rates the next inputs; gives the registers of the rates.
+/// Makes a state's coordinates and rates the next inputs and returns the registers of the rates.
 fn bind_state(
     lowering: &mut Lowering<'_>,
     coordinates: &[CoordinateSymbols],
@@ -262,7 +262,7 @@ fn bind_state(
     rates.collect()
 }
 
-/// Makes the numbers carried along the next inputs.
+/// Makes the auxiliary numbers the next inputs.
 fn bind_auxiliary(lowering: &mut Lowering<'_>, equations: &Equations) {
     for &symbol in equations.supplements.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols) {
         let register = lowering.input();

@@ -1,9 +1,9 @@
 //! The Taylor series of a motion at a state.
 //!
-//! The lowest orders are built in double-double where that is asked for: they make up nearly all
-//! of a step, so its rounding errors vanish, while the many higher orders cost only `f64`. Time
-//! is counted from the origin in units of a power of two near the step's size, so that no
-//! coefficient over- or underflows, be the motion an electron's or a galaxy's.
+//! The lowest orders are built in double-double on request: they make up nearly all of a step, so
+//! its rounding errors vanish, while the many higher orders cost only `f64`. Time is counted from
+//! the origin in units of a power of two near the step's size, so that no coefficient overflows or
+//! underflows on any time scale.
 
 use std::sync::Arc;
 
@@ -20,13 +20,13 @@ use crate::num::{DoubleDouble, ExtendedRange, math};
 #[derive(Clone, Debug)]
 pub struct Series {
     system: System,
-    /// The lowest orders, where they are built in double-double.
+    /// The lowest orders, if they are built in double-double.
     low: Option<SeriesBuilder<DoubleDouble>>,
     high: SeriesBuilder<f64>,
-    /// Both at once in a wider range, once it was needed.
+    /// All orders in a wider range, once they were needed.
     wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
     parameters: Vec<DoubleDouble>,
-    /// The state it starts from.
+    /// The state at the origin.
     origin: Vec<DoubleDouble>,
     time: DoubleDouble,
     scale: f64,
@@ -34,7 +34,7 @@ pub struct Series {
 }
 
 impl System {
-    /// Room for series up to an order; orders up to `exact` in double-double (none for zero).
+    /// Allocates series up to an order; orders up to `exact` are in double-double (none for zero).
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
         let (inputs, len) = (self.driven_len(), self.state_len());
@@ -69,18 +69,18 @@ impl Series {
         self.high.order
     }
 
-    /// How many numbers a state has.
+    /// The length of a state.
     #[expect(clippy::len_without_is_empty, reason = "a state is never empty")]
     pub fn len(&self) -> usize {
         self.origin.len()
     }
 
-    /// How many coordinates and rates there are; the integrals carried along come after them.
+    /// The number of coordinates and rates; the integrals carried along follow them.
     pub fn inputs(&self) -> usize {
         self.high.inputs
     }
 
-    /// How many switching surfaces the motion has.
+    /// The number of switching surfaces of the motion.
     pub fn switches(&self) -> usize {
         self.sides.len()
     }
@@ -90,7 +90,7 @@ impl Series {
         &self.sides
     }
 
-    /// Chooses the branch at a switch for the series to be built next.
+    /// Chooses the branch at a switch for the next series.
     pub fn set_side(&mut self, switch: usize, side: Side) {
         self.sides[switch] = side;
     }
@@ -100,8 +100,8 @@ impl Series {
         self.scale
     }
 
-    /// Chooses the unit of time of the coefficients to be built next: the power of two below
-    /// `step`, negative for a step back in time.
+    /// Chooses the unit of time of the next series: the power of two below `step`, negative for a
+    /// step back in time.
     pub fn set_scale(&mut self, step: f64) {
         let exponent = math::log2(step.abs()).floor().clamp(-1000.0, 1000.0);
         self.scale = math::powi(2.0, exponent as i32).copysign(step);
@@ -133,7 +133,8 @@ impl Series {
         }
     }
 
-    /// Where something on the way leaves the range of `f64`, all is built once more in a wider one.
+    /// Builds the orders. If a number leaves the range of `f64`, all orders are rebuilt in a wider
+    /// one.
     fn grow(&mut self) -> Result<(), Halt> {
         match self.grow_in_range() {
             Ok(()) if self.is_finite() => Ok(()),
@@ -180,7 +181,7 @@ impl Series {
             for k in 0..low.order {
                 low.grow(k, clock, cancel)?;
             }
-            // a weight felt two orders later is not yet known at the last order
+            // a weight that acts two orders later is not yet known at the last order
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
         } else {
@@ -210,30 +211,30 @@ impl Series {
         &self.high.jet.switch(i)[..=self.high.order]
     }
 
-    /// The value of a switch at a time after the origin, in the unit of the series, as exact as
-    /// the lowest orders are.
+    /// The value of a switch at a time after the origin, in the unit of the series, as exact as the
+    /// lowest orders are.
     pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
         sum(exact, &self.switch(i)[exact.len()..], x)
     }
 
-    /// How many functions there are whose branch a motion may leave.
+    /// The number of functions whose branch a motion may leave.
     pub fn guards(&self) -> usize {
         self.system.motion().native.guards.len()
     }
 
-    /// Whether such a function's series passes zero where its branch is left.
+    /// Whether the series of such a function passes zero where its branch is left.
     pub fn guard_passes(&self, i: usize) -> bool {
         self.system.motion().native.guards[i].passes
     }
 
-    /// The coefficients of one, as far as they are known.
+    /// The known coefficients of such a function.
     pub fn guard(&self, i: usize) -> &[f64] {
         let register = self.system.motion().native.guards[i].value;
         &self.high.jet.series(register)[..self.high.order]
     }
 
-    /// Those of what stands under its root.
+    /// The coefficients of the argument of its root.
     pub fn guard_under(&self, i: usize) -> Option<&[f64]> {
         let register = self.system.motion().native.guards[i].under?;
         Some(&self.high.jet.series(register)[..self.high.order])
@@ -247,23 +248,23 @@ impl Series {
         sum(exact, &self.guard(i)[exact.len()..], x)
     }
 
-    /// The number of the state that a switch is, if it is one.
+    /// The number of the state that a switch is equal to, if any.
     pub fn switch_number(&self, i: usize) -> Option<usize> {
         self.system.motion().native.switch_input(i)
     }
 
-    /// All coefficients of the weight at a switch whose side is [`Side::Between`]; one order less
+    /// All coefficients of the weight at a switch whose side is [`Side::Between`], one order fewer
     /// than the others.
     pub fn weight(&self, i: usize) -> &[f64] {
         &self.high.jet.weight(i)[..self.high.order]
     }
 
-    /// The series of the arguments of functions: how fast these change.
+    /// The series of the arguments of functions, which show how fast these change.
     pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64])> {
         self.high.jet.arguments()
     }
 
-    /// The state a time `after` the origin, by the polynomials.
+    /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
         for i in 0..self.origin.len() {
@@ -275,8 +276,8 @@ impl Series {
     }
 }
 
-/// A polynomial by Horner's scheme: the terms of high order in `f64`, the low ones, which decide,
-/// in double-double.
+/// Evaluates a polynomial by Horner's scheme: the terms of high order in `f64`, the low ones, which
+/// dominate, in double-double.
 fn sum(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
     let tail = high.iter().rev().fold(0.0, |sum, &c| sum * x.high + c);
     low.iter().rev().fold(DoubleDouble::from(tail), |sum, &c| sum * x + c)

@@ -1,19 +1,18 @@
-//! Dense linear equations, factored with pivoting: `P M = L U` by rows of comparable scale
-//! (Golub & Van Loan, Matrix Computations, 3.4), the columns measured by the units of their
-//! unknowns.
+//! Dense linear equations, factored with pivoting: `P M = L U` with rows of comparable scale (Golub
+//! & Van Loan, Matrix Computations, 3.4) and columns scaled by the units of their unknowns.
 
 use crate::num::Real;
 
-/// A pivot smaller than this, measured by its row, is none.
+/// A pivot smaller than this, relative to its row, counts as zero.
 const SMALLEST_PIVOT: f64 = 1e-13;
 
-/// A factored matrix of one block.
+/// The factored matrix of one block.
 #[derive(Clone, Debug)]
 pub(super) struct Factored<R> {
     size: usize,
     entries: Vec<R>,
     rows: Vec<usize>,
-    /// The unit of each unknown, and the size of each row in these.
+    /// The unit of each unknown, and the size of each row in these units.
     units: Vec<f64>,
     scales: Vec<f64>,
     scratch: Vec<R>,
@@ -31,8 +30,8 @@ impl<R: Real> Factored<R> {
         }
     }
 
-    /// Factors the matrix whose entries `entry` gives by row and column. False where it is
-    /// singular; a matrix with an entry that is not finite counts as regular and spreads it.
+    /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
+    /// singular; a matrix with an entry that is not finite counts as regular and propagates it.
     #[must_use]
     pub(super) fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
         let n = self.size;
@@ -59,7 +58,7 @@ impl<R: Real> Factored<R> {
             };
             self.rows.swap(k, best);
             let pivot_row = self.rows[k];
-            // a row of zeros has no scale, and its quotient is not a number
+            // a row of zeros has no scale, so its quotient is NaN
             let pivot = size(&pivot_row);
             if pivot.is_nan() || pivot <= SMALLEST_PIVOT || self.scales[pivot_row] == 0.0 {
                 return false;
@@ -77,10 +76,10 @@ impl<R: Real> Factored<R> {
         true
     }
 
-    /// Finds units in which the diagonal is 1: in a mass matrix 1/√Mᵢᵢ, whatever the masses are
-    /// measured in (van der Sluis, Numer. Math. 14, 1969: nearly the best scaling of a symmetric
-    /// matrix). What has no diagonal entry, a constraint or a coordinate without mass, takes its
-    /// unit from the largest entry that ties it to one that has.
+    /// Finds units in which the diagonal is 1: in a mass matrix 1/√Mᵢᵢ, whatever the units of the
+    /// masses (van der Sluis, Numer. Math. 14, 1969: nearly the best scaling of a symmetric
+    /// matrix). An unknown without a diagonal entry, as a constraint or a coordinate without mass,
+    /// takes its unit from the largest entry that couples it to one that has.
     fn measure(&mut self) {
         let n = self.size;
         let at = |i: usize, j: usize| self.entries[i * n + j].value().abs();

@@ -1,47 +1,47 @@
-//! A state of motion, and what a user may say of the first one.
+//! A state of motion, and initial values that override the file's.
 
 use serde::{Deserialize, Serialize};
 
 use crate::num::DoubleDouble;
 
-/// Which rates a state holds beside its coordinates.
+/// Which rates a state has beside its coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
-    /// (q, q̇): what a Lagrangian is a function of.
+    /// (q, q̇), the variables of a Lagrangian.
     Velocity,
-    /// (q, p): what a Hamiltonian is a function of.
+    /// (q, p), the variables of a Hamiltonian.
     Momentum,
-    /// x alone: variables that are given by their brackets.
+    /// x alone, variables with given brackets.
     Variables,
 }
 
-/// Where a motion is. Every number of it is a sum of two: `values[i] + carry[i]`, the second one
-/// what rounding has cut off the first, so that a long motion gathers no rounding errors in its
-/// sums. Who only looks needs `values`.
+/// A state of a motion. Every number of it is a sum of two: `values[i] + carry[i]`. The second is
+/// what rounding cut off from the first, so that a long motion accumulates no rounding errors in
+/// its sums. Reading `values` alone is enough for display.
 #[derive(Clone, PartialEq, Debug)]
 pub struct State {
-    /// When.
+    /// The time.
     pub time: f64,
-    /// What rounding cut off the time.
+    /// What rounding cut off from the time.
     pub time_carry: f64,
-    /// What the second part of `values` is.
+    /// Which rates the second part of `values` contains.
     pub form: Form,
-    /// The coordinates, then their velocities or momenta, then numbers carried along beside the
-    /// motion, then its quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
+    /// The coordinates, then their velocities or momenta, then auxiliary numbers, then the
+    /// quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
     pub values: Vec<f64>,
-    /// What rounding cut off.
+    /// What rounding cut off from `values`.
     pub carry: Vec<f64>,
 }
 
 impl State {
-    /// An exact state.
+    /// A state without carries.
     pub fn new(time: f64, form: Form, values: Vec<f64>) -> State {
         let carry = vec![0.0; values.len()];
         State { time, time_carry: 0.0, form, values, carry }
     }
 
-    /// Takes over another state; allocates only where that one is longer.
+    /// Copies another state; allocates only if that one is longer.
     pub fn copy_from(&mut self, other: &State) {
         self.time = other.time;
         self.time_carry = other.time_carry;
@@ -50,12 +50,12 @@ impl State {
         self.carry.clone_from(&other.carry);
     }
 
-    /// The time with what was cut off.
+    /// The time, including what was cut off.
     pub fn exact_time(&self) -> DoubleDouble {
         DoubleDouble { high: self.time, low: self.time_carry }
     }
 
-    /// A number of the state with what was cut off.
+    /// A number of the state, including what was cut off.
     pub fn exact(&self, i: usize) -> DoubleDouble {
         DoubleDouble { high: self.values[i], low: self.carry[i] }
     }
@@ -71,13 +71,13 @@ impl State {
     }
 }
 
-/// An initial value that takes the place of the file's.
+/// An initial value that replaces the file's.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum InitialOverride {
     /// The coordinate of this index.
     Position(usize, f64),
-    /// Its velocity; in a Hamiltonian system the momentum that goes with it is solved for.
+    /// The velocity of this coordinate; a Hamiltonian system is solved for its momentum.
     Velocity(usize, f64),
-    /// Its momentum; in a Lagrangian system the velocity that goes with it is solved for.
+    /// The momentum of this coordinate; a Lagrangian system is solved for its velocity.
     Momentum(usize, f64),
 }

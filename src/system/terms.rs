@@ -1,8 +1,10 @@
-//! The conserved quantities of a system term by term, in `f64`: cheap enough to be looked at after every step.
+//! The conserved quantities of a system term by term, in `f64`: cheap enough to be evaluated after
+//! every step.
 //!
-//! In: the state of whatever method runs. Out: the value of each quantity, and how much of it moves: what its terms
-//! have more than at rest, and by how much the rest of them has changed. A constant in the potential, or the origin of a
-//! coordinate, has no part in that. Never here: references, drifts, verdicts.
+//! In: the state of any method. Out: the value of each quantity, and the varying part of it: the
+//! amount by which its terms exceed their values at rest, and by which the latter have changed. A
+//! constant in the potential, or the origin of a coordinate, does not contribute to it. Never here:
+//! references, drifts, verdicts.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -16,42 +18,43 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::num::DoubleDouble;
 
-/// What a term of a quantity is at rest.
+/// The value of a term at rest, that is with velocities or momenta zero.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum AtRest {
-    /// The same: it does not depend on velocities or momenta.
+    /// The same value: the term does not depend on velocities or momenta.
     Same,
-    /// Nothing.
+    /// Zero.
     Nothing,
-    /// Something else, which the next output is.
+    /// Another value, which is the next output.
     Other,
 }
 
-/// One quantity among the outputs of the programs.
+/// The place of one quantity among the outputs of the programs.
 #[derive(Clone, Debug)]
 struct Place {
     first: usize,
     terms: Vec<AtRest>,
 }
 
-/// The energy, then what is conserved, each by its terms; before it is compiled.
+/// The energy, then the conserved quantities, each by its terms, before compilation.
 pub(super) struct Quantities {
     places: Vec<Option<Place>>,
     outputs: Vec<Expr>,
 }
 
-/// The same as programs.
+/// The compiled programs of these terms.
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
     places: Arc<[Option<Place>]>,
-    /// Of a state in the native form, action and work.
+    /// The terms as functions of a state in the native form, action and work.
     native: Arc<Program>,
-    /// Of a state (q, p), where that is another and velocities follow without iteration.
+    /// The terms as functions of a state (q, p), if that form is not native and velocities follow
+    /// without iteration.
     canonical: Option<Arc<Program>>,
 }
 
 impl Quantities {
-    /// The energy and all that `equations` find conserved.
+    /// The energy and all quantities that `equations` finds conserved.
     pub(super) fn of(equations: &mut Equations) -> Quantities {
         let mut quantities = Quantities { places: Vec::new(), outputs: Vec::new() };
         let all: Vec<Expr> = std::iter::once(equations.energy)
@@ -119,7 +122,7 @@ impl Quantities {
     }
 }
 
-/// Looks at the quantities of states of one system at one set of parameters; holds its own registers.
+/// Evaluates the quantities of one system's states at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
 pub struct TermWatch {
     system: System,
@@ -129,9 +132,10 @@ pub struct TermWatch {
     legendre: Legendre,
     inputs: Vec<f64>,
     exact: Vec<DoubleDouble>,
-    /// The last look was at a state in the canonical form.
+    /// Whether the last state had the canonical form.
     at_canonical: bool,
-    /// Where several velocities belong to a momentum: the state last looked at, in the system's own form.
+    /// If several velocities belong to a momentum: the last state evaluated, in the system's native
+    /// form.
     near: Option<State>,
     work: f64,
 }
@@ -155,7 +159,7 @@ impl TermWatch {
         watch
     }
 
-    /// Looks at these parameters from now on.
+    /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let parameters = self.system.inputs(parameters);
         self.native.set_parameters(&parameters);
@@ -165,7 +169,7 @@ impl TermWatch {
         self.legendre.set_parameters(&parameters);
     }
 
-    /// Looks at a state; `false` where that cannot be.
+    /// Evaluates a state. Returns `false` if that is not possible.
     pub fn look(&mut self, state: &State) -> bool {
         let native = state.form == self.system.form();
         self.at_canonical = !native && self.canonical.is_some();
@@ -204,17 +208,18 @@ impl TermWatch {
         }
     }
 
-    /// The work done on the motion, where a state carries it.
+    /// The work done on the motion, if the state carries it.
     pub fn work(&self) -> f64 {
         self.work
     }
 
-    /// Whether a quantity (0 the energy, then what is conserved, in order) can be looked at.
+    /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be
+    /// evaluated.
     pub fn has(&self, quantity: usize) -> bool {
         self.places.get(quantity).is_some_and(Option::is_some)
     }
 
-    /// The terms of a quantity, each with what it is at rest.
+    /// The terms of a quantity, each with its value at rest.
     fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let place = self.places.get(quantity).and_then(Option::as_ref);
         let mut next = place.map_or(0, |place| place.first);
@@ -237,18 +242,19 @@ impl TermWatch {
         self.terms(quantity).map(|(term, _)| term).sum()
     }
 
-    /// The size of the terms of a quantity: what rounding is relative to, at least.
+    /// The size of the terms of a quantity, to which its rounding errors are at least proportional.
     pub fn size(&self, quantity: usize) -> f64 {
         self.terms(quantity).map(|(term, _)| term.abs()).sum()
     }
 
-    /// What each term of a quantity is at rest.
+    /// The value of each term of a quantity at rest.
     pub fn at_rest(&self, quantity: usize) -> Vec<f64> {
         self.terms(quantity).map(|(_, rest)| rest).collect()
     }
 
-    /// How much of a quantity moves: the sum of the sizes of what its terms have more than at rest, and of what they are
-    /// more at rest than they `were`. A term that has no value at rest counts whole.
+    /// The size of the varying part of a quantity: the sum of the amounts by which its terms exceed
+    /// their values at rest, and by which the latter differ from `were`. A term that has no value
+    /// at rest counts entirely.
     pub fn moving(&self, quantity: usize, were: &[f64]) -> f64 {
         let terms = self.terms(quantity).zip(were);
         terms

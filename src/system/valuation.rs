@@ -1,4 +1,4 @@
-//! What the symbols of a system are worth at one look at it.
+//! The values of a system's symbols at one state.
 //!
 //! In: a time, parameters, the value of every channel. Out: a [`Valuation`]. Never here: states.
 
@@ -7,8 +7,8 @@ use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 
 impl System {
-    /// What every symbol is worth: the parameters and what follows from the file's body, the time, and what channels of
-    /// their own tell.
+    /// The values of all symbols: the parameters and the quantities derived from the file's body,
+    /// the time, and the symbols that have channels.
     pub fn valuation(
         &self,
         (model, equations): (&Model, &Equations),

@@ -1,7 +1,7 @@
 //! The first evaluator of a program: numbers.
 //!
-//! Where something on the way to a result leaves the range of its numbers, as `exp(x)` does in
-//! `1/(1 + exp(x))` far out, the program is evaluated once more in [`ExtendedRange`].
+//! If an intermediate result leaves the range of its numbers, as `exp(x)` does in `1/(1 + exp(x))`
+//! for large x, the program is evaluated once more in [`ExtendedRange`].
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub struct Evaluator<R> {
 }
 
 impl<R: Real> Evaluator<R> {
-    /// Registers for a program; parameters are to be set before it is evaluated.
+    /// Allocates registers for a program. The parameters must be set before it is evaluated.
     pub fn new(program: Arc<Program>) -> Evaluator<R> {
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
@@ -60,8 +60,8 @@ impl<R: Real> Evaluator<R> {
         outputs.all(|&r| self.registers[r as usize].value().is_finite())
     }
 
-    /// Whether the first number that is not finite comes of the range, or of a division by zero
-    /// that may, and not of an argument outside a function.
+    /// Whether the first number that is not finite results from overflow, or from a division by
+    /// zero that may be an underflow, rather than from an argument outside a function's domain.
     fn left_the_range(&self) -> bool {
         let value = |r: &Register| self.registers[*r as usize].value();
         let first = self.program.body.iter().find(|r| !value(r).is_finite());
@@ -155,7 +155,7 @@ impl<R: Real> Evaluator<R> {
                 } else if side < 0.0 {
                     get(negative)
                 } else {
-                    // on the surface; not a number where the switch is not
+                    // on the surface; NaN if the switch is NaN
                     (get(positive) + get(negative)) * (0.5 + side)
                 }
             }

@@ -1,6 +1,6 @@
-//! The canvas: text, rows and frames on a buffer, in the characters this terminal has.
+//! The canvas: text, rows and frames on a buffer, in the characters this terminal can show.
 //!
-//! In: text that may hold any letters, areas. Out: cells. Never here: what the text says.
+//! In: areas, and text that may contain any characters. Out: cells. Never here: the content of the text.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -16,44 +16,43 @@ use super::theme::Role;
 use crate::app::HitTarget;
 use crate::printable;
 
-/// A buffer and how things look on it.
+/// A buffer and the style in which to draw on it.
 pub(super) struct Canvas<'a> {
     pub(super) buffer: &'a mut Buffer,
     pub(super) look: &'a RenderStyle,
-    /// What lies where, for the mouse, while it is asked for; the later lies over the earlier.
+    /// The regions for the mouse, if they are collected; later ones lie over earlier ones.
     pub(super) regions: Option<Vec<(Rect, Region)>>,
-    /// Where the terminal's cursor belongs.
+    /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
 }
 
-/// A piece of a row.
+/// A styled piece of a row.
 pub(super) type Span = (String, Style);
 
 impl<'a> Canvas<'a> {
-    /// A buffer to be drawn on, and how things look there.
+    /// Creates a canvas that draws on `buffer`.
     pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
         Self { buffer, look, regions: None, cursor: None }
     }
 }
 
 impl Canvas<'_> {
-    /// The style of a role.
     pub(super) fn style(&self, role: Role) -> Style {
         self.look.theme[role]
     }
 
-    /// Text as this terminal may show it, without what would steer it.
+    /// Returns the text as this terminal can show it, without control characters.
     pub(super) fn text(&self, text: &str) -> String {
         self.look.glyphs.text(&printable::line(text)).into_owned()
     }
 
-    /// A piece of a row in the style of a role.
+    /// A span in the style of a role.
     pub(super) fn span(&self, role: Role, text: impl AsRef<str>) -> Span {
         (self.text(text.as_ref()), self.style(role))
     }
 
-    /// Writes text from a place on, cut with an ellipsis where there are more than `width` columns of it. Returns
-    /// how many columns it took.
+    /// Writes text from a position on, and cuts it with an ellipsis if it is wider than `width` columns. Returns the
+    /// number of columns written.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
         let text = self.text(text);
         let text = clipped(&text, width.into(), self.look.glyphs.pick("…", "~"));
@@ -65,20 +64,20 @@ impl Canvas<'_> {
         text.width() as u16
     }
 
-    /// Writes in the columns of a row, from its left end.
+    /// Writes text at the left end of a row.
     pub(super) fn left(&mut self, row: Rect, role: Role, text: &str) -> u16 {
         let style = self.style(role);
         if row.is_empty() { 0 } else { self.write(row.as_position(), row.width, text, style) }
     }
 
-    /// Writes in the columns of a row, up to its right end.
+    /// Writes text at the right end of a row.
     pub(super) fn right(&mut self, row: Rect, role: Role, text: &str) -> u16 {
         let width = (self.text(text).width() as u16).min(row.width);
         let area = Rect { x: row.right() - width, width, ..row };
         self.left(area, role, text)
     }
 
-    /// Writes pieces one after the other; where they do not fit, a mark stands for what is left out.
+    /// Writes spans one after the other; an ellipsis replaces those that do not fit.
     pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
         let wide = |text: &str| self.look.glyphs.text(text).width();
         let all: usize = spans.iter().map(|(text, _)| wide(text)).sum();
@@ -102,10 +101,10 @@ impl Canvas<'_> {
         used
     }
 
-    /// A frame with pieces of a title in its upper border; returns what is inside.
+    /// Draws a frame with title spans in its upper border, and returns the area inside.
     pub(super) fn pane(&mut self, area: Rect, title: &[Span], focused: bool) -> Rect {
         let role = if focused { Role::Focus } else { Role::Border };
-        // Without colour a heavier line shows where the keys go.
+        // Without colour, a heavier line marks the focus.
         let heavy = focused && self.look.theme.depth() == ColourDepth::None;
         let set = match (heavy, self.look.glyphs.is_ascii()) {
             (false, _) => self.look.glyphs.border(),
@@ -122,7 +121,7 @@ impl Canvas<'_> {
         if area.width > 6 && area.height > 0 {
             let row = Rect { x: area.x + 2, width: area.width - 4, height: 1, ..area };
             let gap = (" ".to_owned(), Style::new());
-            // Pieces after the first are shown whole or not at all.
+            // Spans after the first are shown whole or not at all.
             let mut used = self.spans(row, std::slice::from_ref(&gap));
             for (index, piece) in title.iter().enumerate() {
                 if index > 0
@@ -137,37 +136,37 @@ impl Canvas<'_> {
         inner
     }
 
-    /// Blanks an area for something that lies over what was there.
+    /// Clears an area for an overlay.
     pub(super) fn clear(&mut self, area: Rect) {
         Clear.render(area, self.buffer);
         self.region(area, Region::Blank);
     }
 
-    /// The terminal's cursor belongs here.
+    /// Places the terminal's cursor.
     pub(super) fn point(&mut self, at: Position) {
         self.cursor = Some(at).filter(|at| self.buffer.area.contains(*at));
     }
 
-    /// Says what an area is for the mouse.
+    /// Registers a region for the mouse.
     pub(super) fn region(&mut self, area: Rect, region: Region) {
         if let Some(regions) = self.regions.as_mut().filter(|_| !area.is_empty()) {
             regions.push((area, region));
         }
     }
 
-    /// Says that an area is one spot.
+    /// Registers an area with a single mouse target.
     pub(super) fn spot(&mut self, area: Rect, spot: HitTarget) {
         self.region(area, Region::Plain(spot));
     }
 
-    /// Gives a whole row a style, keeping its text.
+    /// Styles a whole row and leaves its text unchanged.
     pub(super) fn tint(&mut self, row: Rect, role: Role) {
         let style = self.style(role);
         self.buffer.set_style(row.intersection(self.buffer.area), style);
     }
 }
 
-/// Groups of pieces as far as they have room, each whole or not at all; the first is always there.
+/// Returns as many groups of spans as fit, each whole or not at all; the first is always included.
 pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     for group in groups {
@@ -180,13 +179,13 @@ pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
     spans
 }
 
-/// The columns of pieces, without blanks at the end.
+/// The width of spans in columns, without trailing blanks.
 pub(super) fn wide(spans: &[Span]) -> usize {
     let text: String = spans.iter().map(|(text, _)| text.as_str()).collect();
     text.trim_end().width()
 }
 
-/// The row of an area that is `index` rows from its top; empty beyond it.
+/// The row `index` rows below the top of an area; empty if it is outside.
 pub(super) fn row(area: Rect, index: usize) -> Rect {
     let index = index.min(usize::from(u16::MAX)) as u16;
     if index < area.height {
@@ -202,7 +201,7 @@ pub(super) fn columns(area: Rect, from: u16, width: u16) -> Rect {
     Rect { x: area.x + from, width: width.min(area.width - from), ..area }
 }
 
-/// The text cut to so many columns, the mark in place of what is missing.
+/// Returns the text cut to `width` columns, with `mark` in place of the rest.
 fn clipped(text: &str, width: usize, mark: &str) -> String {
     if text.width() <= width {
         return text.to_owned();

@@ -1,7 +1,7 @@
-//! What stands below the screen of a demo: what is to be seen, and the keys just pressed.
+//! The caption below the screen of a demo: a sentence about what is shown, and the keys just pressed.
 //!
-//! In: a sentence and the names of keys. Out: a row of cells, more where the sentence is too long for one. Never here:
-//! when it says what.
+//! In: a sentence and the names of keys. Out: one row of cells, or more if the sentence is too long. Never here:
+//! the timing of captions.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -12,24 +12,24 @@ use super::RenderStyle;
 use super::canvas::{Canvas, columns};
 use super::theme::Role;
 
-/// What it says.
+/// The content of a caption.
 #[derive(Clone, Copy, Debug)]
 pub struct Caption<'a> {
-    /// The sentence; empty for none.
+    /// The sentence; may be empty.
     pub text: &'a str,
-    /// The keys, the last pressed at the end.
+    /// The keys, most recent last.
     pub keys: &'a [String],
 }
 
-/// What stands before the sentence, and is left free behind it.
+/// Columns left free before and after the sentence.
 const MARGINS: u16 = 4;
 
-/// How many rows a sentence takes on a screen of this width.
+/// The number of rows a sentence takes on a screen of this width.
 pub fn rows(text: &str, width: u16) -> u16 {
     lines(text, width).len() as u16
 }
 
-/// The sentence in lines, broken between words; one line where there is no sentence.
+/// Breaks the sentence into lines between words; an empty sentence gives one line.
 fn lines(text: &str, width: u16) -> Vec<String> {
     let room = usize::from(width.saturating_sub(MARGINS)).max(1);
     let mut lines = vec![String::new()];
@@ -46,8 +46,8 @@ fn lines(text: &str, width: u16) -> Vec<String> {
     lines
 }
 
-/// Draws the sentence over blank rows: the sentence at the left, keys as caps at the right of the last. Keys give way to
-/// the sentence.
+/// Draws the caption over blank rows: the sentence at the left, the keys as caps at the right of the last row. The
+/// sentence has priority over the keys.
 pub fn draw(look: &RenderStyle, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
     let mut canvas = Canvas::over(buffer, look);
     let (mut used, mut last) = (0, Rect { height: 1, ..area });

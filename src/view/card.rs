@@ -1,6 +1,6 @@
-//! The card: the same curve in every set of glyphs, for a person to see which of them the font has.
+//! The card: the same curve in every set of glyphs, so that the user can see which of them the font supports.
 //!
-//! In: nothing. Out: lines of text. Never here: which set is used.
+//! In: nothing. Out: lines of text. Never here: the choice of a set.
 
 use std::f64::consts::TAU;
 
@@ -12,16 +12,16 @@ use super::glyphs::Glyphs;
 use super::plot::{Frame, Pen, Raster, Scale};
 use crate::num::math;
 
-/// Cells of a sample, across and down.
+/// The size of a sample in cells: columns, rows.
 const SAMPLE: (u16, u16) = (32, 3);
 
-/// Cells of it that are filled.
+/// The number of filled columns in a sample.
 const FILLED: u16 = 4;
 
-/// What the samples are called is this wide.
+/// The width of a sample's name.
 const NAME: usize = 10;
 
-/// The lines of the card.
+/// Returns the lines of the card.
 pub fn card() -> Vec<String> {
     let mut lines = Vec::new();
     for glyphs in Glyphs::ALL {
@@ -41,7 +41,7 @@ pub fn card() -> Vec<String> {
     lines
 }
 
-/// Two waves of a curve, and an area that is filled, as the raster of a plot draws them.
+/// Draws two waves of a curve and a filled area, as the raster of a plot draws them.
 fn sample(glyphs: Glyphs) -> Vec<String> {
     let area = Rect::new(0, 0, SAMPLE.0, SAMPLE.1);
     let mut raster = Raster::new(area, glyphs);

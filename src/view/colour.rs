@@ -1,7 +1,7 @@
-//! Colour: how much of it the terminal has, and the arithmetic of mixing and measuring it.
+//! Colour: how many colours the terminal supports, and how colours are mixed and compared.
 //!
 //! In: environment variables, sRGB triples. Out: a [`ColourDepth`], and ratatui colours that depth can show.
-//! Never here: what a colour is used for (that is the [`theme`](super::theme)), or a question put to the terminal.
+//! Never here: the use of a colour (see [`theme`](super::theme)), or a query to the terminal.
 
 use std::sync::LazyLock;
 
@@ -9,12 +9,12 @@ use ratatui::style::Color;
 
 use crate::num::math;
 
-/// How many colours may be sent to the terminal.
+/// The number of colours that may be sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ColourDepth {
-    /// No colour at all; bold, dim and reverse are still used.
+    /// No colour; bold, dim and reverse are still used.
     None,
-    /// The terminal's own sixteen.
+    /// The terminal's own sixteen colours.
     Ansi16,
     /// The xterm palette: a 6×6×6 cube and a ramp of greys.
     Ansi256,
@@ -22,19 +22,19 @@ pub enum ColourDepth {
     True,
 }
 
-/// Terminals whose `TERM` alone says that they show 24-bit colour; unlike `COLORTERM` it survives ssh.
+/// Terminals whose `TERM` alone implies 24-bit colour; unlike `COLORTERM` it survives ssh.
 const TRUE_COLOUR_TERMS: [&str; 7] =
     ["alacritty", "contour", "foot", "wezterm", "xterm-ghostty", "xterm-kitty", "rio"];
 
-/// Terminal families that show the xterm palette even where their name does not say so.
+/// Terminal families that support the xterm palette even if their name does not say so.
 const PALETTE_TERMS: [&str; 9] =
     ["xterm", "tmux", "rxvt", "konsole", "gnome", "vte", "putty", "mintty", "st"];
 
 impl ColourDepth {
-    /// Reads the depth from environment variables alone: probing the terminal leaks text in tmux and screen.
+    /// Reads the depth from environment variables alone, because probing the terminal leaks text in tmux and screen.
     ///
-    /// `NO_COLOR` (any non-empty value) and a dumb or missing `TERM` mean none; `COLORTERM` is believed except
-    /// inside GNU screen, which garbles 24-bit sequences while inheriting the variable from the outer terminal.
+    /// `NO_COLOR` (any non-empty value) and a dumb or missing `TERM` mean none; `COLORTERM` is trusted except
+    /// inside GNU screen, which garbles 24-bit sequences but inherits the variable from the outer terminal.
     pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Self {
         let get = |name: &str| variable(name).filter(|value| !value.is_empty());
         let rich = get("COLORTERM").is_some_and(|c| matches!(c.as_str(), "truecolor" | "24bit"));
@@ -49,7 +49,7 @@ impl ColourDepth {
         if rich && named != Self::None && !screen { Self::True } else { named }
     }
 
-    /// What the name of a terminal promises, most telling part first.
+    /// The depth that the name of a terminal implies; the most specific part is tested first.
     fn of_term(term: &str) -> Self {
         let family = |names: &[&str]| {
             names.iter().any(|name| {
@@ -81,7 +81,7 @@ impl ColourDepth {
         }
     }
 
-    /// The depth a person names: `never`, `16`, `256` or `true`.
+    /// Parses a depth: `never`, `16`, `256` or `true`.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "never" => Self::None,
@@ -93,7 +93,7 @@ impl ColourDepth {
     }
 }
 
-/// A colour in the sRGB space, 8 bits a channel.
+/// A colour in the sRGB space, 8 bits per channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgb(pub u8, pub u8, pub u8);
 
@@ -104,13 +104,13 @@ impl Rgb {
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
-    /// Contrast ratio, 1 to 21; text wants at least 4.5. Source: WCAG 2.2, "contrast ratio".
+    /// Contrast ratio, 1 to 21; text needs at least 4.5. Source: WCAG 2.2, "contrast ratio".
     pub fn contrast(self, other: Self) -> f64 {
         let (a, b) = (self.luminance() + 0.05, other.luminance() + 0.05);
         (a / b).max(b / a)
     }
 
-    /// The mixture of two colours as the eye sees it: `share` (0 to 1) of `other`, straight in Oklab.
+    /// The perceptual mixture of two colours: linear interpolation in Oklab, with `share` (0 to 1) of `other`.
     #[must_use]
     pub fn mix(self, other: Self, share: f64) -> Self {
         let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
@@ -118,13 +118,13 @@ impl Rgb {
         Self::from_oklab(std::array::from_fn(|i| a[i] + share * (b[i] - a[i])))
     }
 
-    /// How different two colours look: the distance in Oklab, about 1 from black to white.
+    /// The perceptual difference of two colours: their distance in Oklab, about 1 from black to white.
     pub fn distance(self, other: Self) -> f64 {
         let (a, b) = (self.oklab(), other.oklab());
         a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
     }
 
-    /// The entry of the xterm palette that looks nearest, among the cube and the greys (16 to 255).
+    /// The perceptually nearest entry of the xterm palette, among the cube and the greys (16 to 255).
     pub fn nearest256(self) -> u8 {
         static PALETTE: LazyLock<Vec<(u8, [f64; 3])>> = LazyLock::new(|| {
             (16..=255).map(|index| (index, Rgb::of_index(index).oklab())).collect()
@@ -136,7 +136,7 @@ impl Rgb {
         nearest.map_or(16, |(index, _)| *index)
     }
 
-    /// The entry of the xterm palette; the first sixteen as xterm ships them, though terminals differ there.
+    /// The colour of an entry of the xterm palette; the first sixteen are xterm's defaults, which other terminals change.
     pub fn of_index(index: u8) -> Self {
         match index {
             0 => Self(0, 0, 0),
@@ -167,7 +167,7 @@ impl Rgb {
         }
     }
 
-    /// What a ratatui colour looks like, `None` for the terminal's own.
+    /// The value of a ratatui colour, or `None` for the terminal's default.
     pub fn of(colour: Color) -> Option<Self> {
         Some(match colour {
             Color::Reset => return None,

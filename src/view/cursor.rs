@@ -1,6 +1,6 @@
-//! The cursor on a plot, and the coordinates of the cell it stands on.
+//! The cursor on a plot, and the coordinates of its cell.
 //!
-//! In: a frame and a lens. Out: cells. Never here: what is plotted.
+//! In: a frame and a viewport. Out: cells. Never here: the plotted data.
 
 use ratatui::layout::{Position, Rect};
 
@@ -11,7 +11,7 @@ use super::plot::Frame;
 use super::theme::Role;
 use crate::instrument::Viewport;
 
-/// Draws the cursor, if there is one, and reads its coordinates, and what happened there, in the upper right corner of the area.
+/// Draws the cursor, if there is one, and in the upper right corner its coordinates and what happened there.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,

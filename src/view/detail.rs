@@ -1,15 +1,17 @@
-//! Detail: what is left out of a look where the line to the terminal is too slow for all of it.
+//! Detail: how much of the picture is left out if the connection to the terminal is too slow for all of it.
 //!
-//! In: a look. Out: the same with fewer colours, then with less in its pictures. Never here: how slow the line is.
+//! In: a render style. Out: the same style with fewer colours, then with less detail in plots. Never here: how slow
+//! the connection is.
 
 use super::RenderStyle;
 use super::colour::ColourDepth;
 
-/// How much is left out, from nothing (the default) on.
+/// The level of reduction; the default is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Detail(u8);
 
-/// What a step leaves: colours, the shades of a trail, the share of its dots. First colours go, then shades, then dots.
+/// What each level retains: colours, the number of shades of a trail, the share of its dots. Colours are reduced first,
+/// then shades, then dots.
 const STEPS: [(ColourDepth, Option<usize>, f64); 5] = [
     (ColourDepth::True, None, 1.0),
     (ColourDepth::Ansi256, None, 1.0),
@@ -19,13 +21,13 @@ const STEPS: [(ColourDepth, Option<usize>, f64); 5] = [
 ];
 
 impl Detail {
-    /// One step more is left out; `None` where nothing more can be.
+    /// Reduces the detail by one step; `None` if it is already minimal.
     #[must_use]
     pub fn poorer(self) -> Option<Self> {
         (usize::from(self.0) + 1 < STEPS.len()).then_some(Self(self.0 + 1))
     }
 
-    /// One step less is left out; `None` where nothing is.
+    /// Increases the detail by one step; `None` if it is already full.
     #[must_use]
     pub fn richer(self) -> Option<Self> {
         self.0.checked_sub(1).map(Self)
@@ -33,7 +35,7 @@ impl Detail {
 }
 
 impl RenderStyle {
-    /// The same look with some of it left out.
+    /// The same style with reduced detail.
     #[must_use]
     pub fn reduced(&self, detail: Detail) -> Self {
         let (most, ages, share) = STEPS[usize::from(detail.0).min(STEPS.len() - 1)];

@@ -1,4 +1,4 @@
-//! The page of equations: what follows from L or H, in the mathematics this terminal can show.
+//! The page of equations: what follows from L or H, in the mathematical notation this terminal can show.
 //!
 //! In: the derived equations. Out: a page of text. Never here: derivations.
 
@@ -9,10 +9,10 @@ use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Constant, Flow, Left, Line, NoClosedForm, Report};
 
-/// More pieces than this are not written out on a screen.
+/// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
 
-/// The page.
+/// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = Writer { report: &report, look, page: TextPage::default() };
@@ -26,7 +26,7 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     writer.page
 }
 
-/// The law of motion and what to look for, for a small pane.
+/// The law of motion, the solved equations and the notes of the file, for a small pane.
 pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = Writer { report: &report, look, page: TextPage::default() };
@@ -64,7 +64,7 @@ impl Writer<'_> {
         match left {
             Left::Letter(letter) => letter.to_owned(),
             Left::Symbol(symbol) => self.symbol(symbol),
-            // d/dt x, written as the terminal can
+            // d/dt x, in this terminal's notation
             Left::Rate(symbol) => format!("d{}/dt", self.symbol(symbol)),
             Left::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
             Left::Bracket(x, y) => format!("{{{}, {}}}", self.symbol(x), self.symbol(y)),
@@ -118,7 +118,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Impulses, and the events that are looked for.
+    /// Adds the impulses and the events.
     fn occurrences(&mut self) {
         let report = self.report;
         if !report.impulses.is_empty() {
@@ -135,7 +135,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Constraints and their multipliers.
+    /// Adds the constraints and their multipliers.
     fn constraints(&mut self) {
         let report = self.report;
         if report.constraints.is_empty() {
@@ -173,7 +173,7 @@ impl Writer<'_> {
         }
     }
 
-    /// q̈, or q̇ and ṗ, solved.
+    /// Adds the equations solved for q̈, or for q̇ and ṗ.
     fn solved(&mut self) {
         match &self.report.motion {
             Ok(motion) => self.lines(motion),

@@ -1,9 +1,9 @@
-//! Frames: what a terminal shows, and the bytes from there to the next picture.
+//! Frames: what a terminal shows, and the bytes that turn it into the next picture.
 //!
-//! In: a function that draws. Out: a frame of bytes, between the marks of synchronized output, or nothing if no cell
-//! has changed. Never here: sending them, or when to draw.
+//! In: a function that draws. Out: a frame of bytes between the marks of synchronized output, or nothing if no cell
+//! has changed. Never here: sending the bytes, or when to draw.
 //!
-//! ratatui's [`Terminal`] holds the pictures and finds what has changed; the encoder behind it is its backend.
+//! ratatui's [`Terminal`] stores the pictures and finds what has changed; the encoder is its backend.
 
 mod encoder;
 mod pen;
@@ -18,47 +18,47 @@ use encoder::Encoder;
 
 use crate::printable::is_steering;
 
-/// The picture on a terminal, and the way to the next one.
+/// The picture on a terminal, and the encoder for the next one.
 #[derive(Debug)]
 pub struct Frames {
     terminal: Terminal<Encoder>,
-    /// What was drawn last, while the terminal shows it or is on the way there.
+    /// The last drawn picture, unless the terminal's contents are unknown.
     shown: Option<Buffer>,
 }
 
 impl Frames {
-    /// A terminal that shows nobody knows what; `synchronized` puts the marks round each frame.
+    /// Creates frames for a terminal with unknown contents; `synchronized` puts the marks around each frame.
     ///
     /// # Errors
-    /// Those of the encoder, which has none: it writes into memory.
+    /// Returns the encoder's errors. It writes into memory and has none.
     pub fn new(synchronized: bool) -> io::Result<Self> {
         Ok(Self { terminal: Terminal::new(Encoder::new(synchronized))?, shown: None })
     }
 
-    /// What the terminal shows is no longer known: the next frame paints every cell.
+    /// Forgets what the terminal shows: the next frame paints every cell.
     pub fn forget(&mut self) {
         self.shown = None;
     }
 
-    /// Whether the terminal shows what was drawn last, as far as is known.
+    /// Whether the terminal shows the last drawn picture, as far as is known.
     pub fn is_current(&self) -> bool {
         self.shown.is_some() && !self.terminal.backend().owes()
     }
 
-    /// What was drawn last, where the terminal shows it or is on the way there.
+    /// The last drawn picture, or `None` if the terminal's contents are unknown.
     pub fn shown(&self) -> Option<&Buffer> {
         self.shown.as_ref()
     }
 
-    /// Where the terminal's cursor was left, if it is to be seen there.
+    /// The position of the terminal's cursor, or `None` if it is hidden.
     pub fn cursor(&self) -> Option<Position> {
         self.terminal.backend().cursor()
     }
 
-    /// The bytes that turn what is shown into what `draw` draws on a blank area of that size.
+    /// Returns the bytes that turn the current picture into what `draw` draws on a blank area of the given size.
     ///
     /// # Errors
-    /// Those of the encoder, which has none: it writes into memory.
+    /// Returns the encoder's errors. It writes into memory and has none.
     pub fn next(
         &mut self,
         size: Size,
@@ -67,11 +67,11 @@ impl Frames {
         self.next_within(size, usize::MAX, draw)
     }
 
-    /// The same in about so many bytes at most: where there would be more, the frame turns as many cells into what is
-    /// drawn as it has room for, and the frame after it goes on from there.
+    /// Does the same as [`Self::next`] in about `most` bytes. If more are needed, the frame changes as many cells as it has
+    /// room for, and the next frame continues from there.
     ///
     /// # Errors
-    /// Those of the encoder, which has none: it writes into memory.
+    /// Returns the encoder's errors. It writes into memory and has none.
     pub fn next_within(
         &mut self,
         size: Size,
@@ -84,10 +84,10 @@ impl Frames {
         })
     }
 
-    /// The same, with the terminal's cursor left where `draw` says that it belongs.
+    /// Does the same as [`Self::next_within`], and leaves the terminal's cursor where `draw` places it.
     ///
     /// # Errors
-    /// Those of the encoder, which has none: it writes into memory.
+    /// Returns the encoder's errors. It writes into memory and has none.
     pub fn next_with(
         &mut self,
         size: Size,
@@ -96,13 +96,13 @@ impl Frames {
     ) -> io::Result<Vec<u8>> {
         self.terminal.backend_mut().begin(size, most);
         if self.shown.is_none() {
-            // not `clear`, which asks for the cursor's place
+            // `clear` would query the cursor's position.
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
         let drawn = self.terminal.draw(|frame| {
             let area = frame.area();
             let cursor = draw(area, frame.buffer_mut());
-            // A stranger's file must not speak to the terminal, whichever way its text got into a cell.
+            // Text of an untrusted file must not send control characters to the terminal, however it got into a cell.
             for cell in &mut frame.buffer_mut().content {
                 if cell.symbol().chars().any(is_steering) {
                     cell.set_symbol(" ");
@@ -126,7 +126,7 @@ mod tests {
 
     const SIZE: Size = Size { width: 12, height: 5 };
 
-    /// What a cell may look like: a symbol, colours, modifiers.
+    /// Arbitrary cells: a symbol, colours, modifiers.
     fn cells() -> impl Strategy<Value = Vec<(usize, &'static str, Style)>> {
         let symbol = prop::sample::select(vec![" ", "a", "θ", "⣿", "░", "\u{1b}", "x\u{307}"]);
         let colour = prop::sample::select(vec![
@@ -136,7 +136,7 @@ mod tests {
             Color::Indexed(214),
             Color::Rgb(1, 2, 3),
         ]);
-        // The terminal of the tests knows these.
+        // Only modifiers that the terminal emulator of the tests supports.
         let modifier = prop::sample::select(vec![
             Modifier::empty(),
             Modifier::BOLD,
@@ -172,7 +172,7 @@ mod tests {
         }
     }
 
-    /// Whether a terminal shows what was drawn.
+    /// Checks that a terminal shows what was drawn.
     fn check(terminal: &vt100::Screen, drawn: &Buffer) {
         for y in 0..SIZE.height {
             for x in 0..SIZE.width {
@@ -227,11 +227,11 @@ mod tests {
             for (cells, most) in pictures {
                 let mut drawn = Buffer::empty(Rect::from(SIZE));
                 paint(&cells, drawn.area, &mut drawn);
-                // A picture has 60 cells, and each frame brings at least one of them.
+                // A picture has 60 cells, and each frame updates at least one of them.
                 for _ in 0..=60 {
                     let paint = |area, buffer: &mut Buffer| paint(&cells, area, buffer);
                     let bytes = screen.next_within(SIZE, most, paint).expect("bytes");
-                    // The clearing before and one cell with its way and its colours.
+                    // The allowance covers clearing the screen and one cell with its movement and colours.
                     prop_assert!(bytes.len() <= most + 64, "{} bytes for {most}", bytes.len());
                     terminal.process(&bytes);
                     if screen.is_current() {

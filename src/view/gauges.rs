@@ -1,6 +1,6 @@
-//! The gauges: what should not change, how much it has, and what to think of it.
+//! The gauges: conserved quantities, their drifts, and a verdict on each.
 //!
-//! In: the snapshot's gauges. Out: cells. Never here: how a verdict is found.
+//! In: the snapshot's gauges. Out: cells. Never here: how a verdict is reached.
 
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
@@ -18,22 +18,22 @@ use crate::analysis::{Growth, Verdict};
 use crate::app::HitTarget;
 use crate::experiment::{Gauge, Snapshot};
 
-/// Columns of a verdict, a drift and a value.
+/// The widths, in columns, of a verdict, a drift and a value.
 const VERDICT: u16 = 7;
 const DRIFT: u16 = 8;
 const VALUE: u16 = 9;
 
-/// The most columns of a history.
+/// The greatest width of a history.
 const STRIP: u16 = 24;
 
-/// The least columns in which heads over them can be told apart.
+/// The least width at which the columns get headings.
 const HEADED: u16 = 34;
 
-/// The drifts that the strip's height spans.
+/// The range of drifts shown by the sparkline's height.
 const FLOOR: f64 = 1e-17;
 const CEILING: f64 = 1.0;
 
-/// Draws the gauges around the selected one: two rows each where there is room, else one.
+/// Draws the gauges around the selected one: two rows for each if there is room, else one.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
     if gauges.is_empty() {
         canvas.left(row(area, 0), Role::Dim, "  nothing here is conserved");
@@ -73,8 +73,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
     }
 }
 
-/// The selected gauge's reason in full below the list, as far as there are rows that the gauges leave, and the rest of
-/// the area.
+/// Returns the area left for the list, and the lines of the selected gauge's reason below it; no lines if the gauges
+/// leave too few rows.
 fn reason_below(
     canvas: &Canvas<'_>,
     area: Rect,
@@ -90,10 +90,10 @@ fn reason_below(
     (split_rows(area, area.height - lines.len() as u16).0, lines)
 }
 
-/// Of more gauges than this some are out of sight while a reason is read.
+/// The most gauges that must stay visible above the reason.
 const MOST_ABOVE: usize = 3;
 
-/// What the columns are.
+/// Writes the headings of the columns.
 fn heads(canvas: &mut Canvas<'_>, area: Rect, height: usize) {
     let verdict = area.width.saturating_sub(VERDICT);
     canvas.left(columns(area, verdict, VERDICT), Role::Dim, "verdict");
@@ -121,7 +121,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     }
 }
 
-/// That the motion shown is not the one of the law, if a gauge tells so, and how much that is.
+/// Reports the deviation from the law of motion, if a gauge has detected one.
 pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, String)> {
     let gauge = Gauge::departed(&snapshot.gauges)?;
     let (word, role) = match gauge.verdict {
@@ -138,7 +138,7 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
     Some((role, format!("! {name} {word} {drift}")))
 }
 
-/// A sentence on a verdict.
+/// A sentence that explains a verdict.
 fn sentence(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Open => "too short a motion to tell".to_owned(),
@@ -158,7 +158,7 @@ fn sentence(verdict: &Verdict) -> String {
     }
 }
 
-/// The name, why it is conserved, and at the right the verdict.
+/// Draws the name, the reason for its conservation and, at the right, the verdict.
 fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     verdict(canvas, columns(area, area.width.saturating_sub(VERDICT), VERDICT), gauge);
     let area = columns(area, 0, area.width.saturating_sub(VERDICT + 1));
@@ -166,7 +166,7 @@ fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: boo
     canvas.left(columns(area, used + 2, area.width), Role::Dim, &gauge.reason);
 }
 
-/// Value and drift, and the history of the drift on a logarithmic scale.
+/// Draws value, drift, and the history of the drift on a logarithmic scale.
 fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
     drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
@@ -182,7 +182,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     history.render(sparkline, canvas.buffer);
 }
 
-/// Name, value, drift and verdict where there is one row for them all.
+/// Draws name, value, drift and verdict in a single row.
 fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     let at = area.width.saturating_sub(VERDICT);
     verdict(canvas, columns(area, at, VERDICT), gauge);
@@ -193,7 +193,7 @@ fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
 }
 
-/// The word for the verdict; behind it the sign of what happens, where impulses have changed the value.
+/// Draws the word for the verdict, followed by a sign if impulses have changed the value.
 fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let (text, role) = word(&gauge.verdict);
     let used = canvas.left(area, role, text);
@@ -203,16 +203,16 @@ fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     }
 }
 
-/// By how much impulses have changed the value since the reference was taken, if by more than rounding.
+/// The change of the value by impulses since the reference was taken, or `None` if it is within rounding.
 fn given_by_impulses(gauge: &Gauge) -> Option<f64> {
     let given = gauge.reference - gauge.initial;
     (given.abs() > ROUNDING * gauge.scale).then_some(given)
 }
 
-/// A change as small as this beside the terms of a quantity is none.
+/// Changes below this, relative to the terms of a quantity, are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// What there is to say of a gauge's drift.
+/// Describes a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     let sentence = sentence(&gauge.verdict);
     match given_by_impulses(gauge) {
@@ -237,7 +237,7 @@ fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     canvas.right(area, blame(gauge), &number::drift(gauge.drift));
 }
 
-/// The role of a drift: what the physics changes is no fault of the method.
+/// The role of a drift: a change with a physical cause is not an error of the method.
 fn blame(gauge: &Gauge) -> Role {
     let physical = matches!(gauge.verdict, Verdict::Broken(_));
     if physical { Role::Dim } else { word(&gauge.verdict).1 }

@@ -1,27 +1,27 @@
-//! Glyphs: which characters the terminal can be trusted with, and plain ASCII in place of all others.
+//! Glyphs: which characters the terminal can show, and plain ASCII in place of all others.
 //!
-//! In: the locale, text that may hold Greek letters and exponents. Out: a [`Glyphs`], border characters, ASCII text.
-//! Never here: colours, or where anything stands on the screen.
+//! In: the locale, text that may contain Greek letters and exponents. Out: a [`Glyphs`], border characters, ASCII text.
+//! Never here: colours, or positions on the screen.
 
 use std::borrow::Cow;
 
 use ratatui::symbols::border;
 use unicode_width::UnicodeWidthChar;
 
-/// What dots, lines and letters are made of.
+/// The characters used for dots, lines and letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Glyphs {
-    /// Braille patterns, 2×4 dots in a cell; the finest grid that most fonts have.
+    /// Braille patterns: 2×4 dots in a cell, the finest grid that most fonts have.
     Braille,
-    /// Half blocks, 1×2 dots in a cell.
+    /// Half blocks: 1×2 dots in a cell.
     HalfBlock,
-    /// Quadrants, 2×2 dots in a cell without gaps between them.
+    /// Quadrants: 2×2 dots in a cell, without gaps between them.
     Quadrant,
-    /// Sextants, 2×3 dots in a cell; of Unicode 13.
+    /// Sextants: 2×3 dots in a cell; from Unicode 13.
     Sextant,
-    /// Octants, 2×4 dots in a cell; of Unicode 16, and missing from most fonts.
+    /// Octants: 2×4 dots in a cell; from Unicode 16, and missing from most fonts.
     Octant,
-    /// Characters below 0x80 only, chosen by what stands where in a cell: 2×3 places.
+    /// Only characters below 0x80, chosen by which of a cell's 2×3 dots are set.
     Ascii,
 }
 
@@ -39,7 +39,7 @@ const ASCII_BORDER: border::Set<'static> = border::Set {
 impl Glyphs {
     /// Reads the choice from the locale (`LC_ALL`, else `LC_CTYPE`, else `LANG`) and `TERM`.
     ///
-    /// A locale that is not UTF-8 gets ASCII; the Linux console, whose fonts lack braille, gets half blocks.
+    /// A locale other than UTF-8 gets ASCII; the Linux console, whose fonts lack braille, gets half blocks.
     pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Self {
         let get = |name: &str| variable(name).filter(|value| !value.is_empty());
         let term = get("TERM").unwrap_or_default();
@@ -56,11 +56,11 @@ impl Glyphs {
         }
     }
 
-    /// All of them, the most trusted first.
+    /// All sets, the most widely supported first.
     pub const ALL: [Self; 6] =
         [Self::Braille, Self::HalfBlock, Self::Quadrant, Self::Sextant, Self::Octant, Self::Ascii];
 
-    /// What a person calls it.
+    /// The name used in options and settings.
     pub fn name(self) -> &'static str {
         match self {
             Self::Braille => "braille",
@@ -72,7 +72,7 @@ impl Glyphs {
         }
     }
 
-    /// The choice a person names.
+    /// Returns the set with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|glyphs| glyphs.name() == name)
     }
@@ -82,7 +82,7 @@ impl Glyphs {
         self == Self::Ascii
     }
 
-    /// Dots in one cell: columns, rows.
+    /// The number of dots in a cell: columns, rows.
     pub fn dots(self) -> (u16, u16) {
         match self {
             Self::Braille | Self::Octant => (2, 4),
@@ -92,7 +92,7 @@ impl Glyphs {
         }
     }
 
-    /// `unicode`, or `ascii` where nothing else may be shown.
+    /// Returns `unicode`, or `ascii` if only ASCII may be used.
     pub fn pick<T>(self, unicode: T, ascii: T) -> T {
         if self.is_ascii() { ascii } else { unicode }
     }
@@ -102,8 +102,8 @@ impl Glyphs {
         self.pick(border::ROUNDED, ASCII_BORDER)
     }
 
-    /// The text as this terminal may show it, a character in a cell: dots over letters behind them (`θ̇` → `θ′`), or all
-    /// spelt in ASCII (`θ₁²` → `theta1^2`).
+    /// Returns the text as this terminal can show it, one cell per character: dots above letters become primes
+    /// (`θ̇` → `θ′`), or everything is spelt in ASCII (`θ₁²` → `theta1^2`).
     pub fn text(self, text: &str) -> Cow<'_, str> {
         if text.is_ascii() {
             Cow::Borrowed(text)
@@ -115,8 +115,8 @@ impl Glyphs {
     }
 }
 
-/// The text without what stands over a letter: there terminals differ, and some lose the row. Rates of change get
-/// primes, as in the files; other marks are left out.
+/// Returns the text without combining marks, which terminals render differently and some misalign. Marks of rates of
+/// change become primes, as in the files; others are removed.
 fn single(text: &str) -> Cow<'_, str> {
     let over = |c: char| c.width() == Some(0);
     if !text.chars().any(|c| over(c) || undotted(c).is_some()) {
@@ -126,7 +126,7 @@ fn single(text: &str) -> Cow<'_, str> {
     let mut before = ' ';
     let mut messages = text.chars().peekable();
     while let Some(letter) = messages.next() {
-        // A letter with its dot in a word is one of a language.
+        // A dotted letter inside a word belongs to ordinary text.
         let alone = |next: Option<&char>| {
             !before.is_alphabetic() && next.is_none_or(|next| !next.is_alphabetic())
         };
@@ -144,7 +144,7 @@ fn single(text: &str) -> Cow<'_, str> {
         };
         before = letter;
         if let Some(prime) = prime {
-            // θ₁′, not θ′₁
+            // The prime comes after a subscript: θ₁′, not θ′₁.
             while let Some(low) = messages.next_if(|c| subscript(*c).is_some()) {
                 out.push(low);
             }
@@ -154,7 +154,7 @@ fn single(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// The letters that Unicode has with a dot, or two, for rates of change.
+/// Splits a precomposed letter with one dot or two into the letter and the primes for its rate of change.
 fn undotted(letter: char) -> Option<(char, char)> {
     Some(match letter {
         'ȧ' => ('a', '′'),
@@ -170,7 +170,7 @@ fn undotted(letter: char) -> Option<(char, char)> {
     })
 }
 
-/// Spells a text in ASCII. What has no spelling becomes `?`; combining dots become primes, as in `x'`.
+/// Spells a text in ASCII. Characters without a spelling become `?`; combining dots become primes, as in `x'`.
 fn spell(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut raised = false;

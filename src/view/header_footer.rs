@@ -1,4 +1,4 @@
-//! The lines above and below every page: headings, status, and what the focused thing means or what keys do.
+//! The lines above and below every page: tabs, status, and the meaning of the focused item or the key hints.
 //!
 //! In: the application. Out: three rows of cells. Never here: the body between them.
 
@@ -18,7 +18,7 @@ use crate::app::keymap::KEYS;
 use crate::app::{Action, App, Field, HitTarget, Lab, Overlay, Page, Pane, Purpose};
 use crate::experiment::{Snapshot, Status};
 
-/// The pages of a loaded system, with the key of each.
+/// The pages of a loaded system and their keys.
 const PAGES: [(&str, &str, Page); 5] = [
     ("1", "Lab", Page::Lab),
     ("2", "Equations", Page::Equations),
@@ -27,10 +27,9 @@ const PAGES: [(&str, &str, Page); 5] = [
     ("9", "Plain", Page::Plain),
 ];
 
-/// The program's name.
 const NAME: &str = "phaselab";
 
-/// The program's name, the system's, and the pages.
+/// Draws the program's name, the system's name, and the pages.
 pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     let title = match (&app.lab, app.page) {
@@ -41,7 +40,7 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         if app.page == Page::Picker || app.lab.is_none() { Vec::new() } else { tabs(canvas, app) };
     let wide: usize = tabs.iter().map(|(text, _)| text.width()).sum();
     let room = area.width.saturating_sub(wide as u16 + 2);
-    // The pages are worth more than the program's name.
+    // The pages have priority over the program's name.
     let named = room >= NAME.len() as u16 || usize::from(area.width) <= wide;
     let mut used = if named { canvas.left(area, Role::Accent, NAME) } else { 0 };
     if room > used + 10 {
@@ -71,7 +70,7 @@ fn tabs(canvas: &Canvas<'_>, app: &App) -> Vec<Span> {
     spans
 }
 
-/// Time, speed, method and how fast it all goes.
+/// Draws the time, the speed, the method and the rate of computation.
 pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
@@ -83,7 +82,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
     };
     let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
-    // The more important, the earlier: what does not fit is left out from the end.
+    // The pieces are in order of importance; those that do not fit are dropped from the end.
     let mut pieces: Vec<Vec<Span>> =
         vec![
             vec![canvas.span(
@@ -136,7 +135,7 @@ fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
     }
 }
 
-/// The status as a sentence.
+/// Returns the status as a sentence.
 pub(super) fn status_words(q: &Quantities<'_>) -> String {
     let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
     let status = match &snapshot.status {
@@ -158,7 +157,7 @@ pub(super) fn status_words(q: &Quantities<'_>) -> String {
     )
 }
 
-/// A count in five columns: `940`, `12k`, `3.4M`.
+/// Formats a count in five columns: `940`, `12k`, `3.4M`.
 fn short(value: f64) -> String {
     match value {
         v if v < 9_950.0 => format!("{v:.0}"),
@@ -167,7 +166,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// The method with its step and tolerance, in a steady width.
+/// The method with its step and tolerance, in a constant width.
 fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
     let glyphs = canvas.look.glyphs;
     let step = fitted(snapshot.method.step, 2, 7, glyphs);
@@ -177,7 +176,7 @@ fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
     format!("{}{tolerance} h {step:<7}", snapshot.method.name)
 }
 
-/// What is being typed, told or focused, and at the right the most useful keys.
+/// Draws the input, the notification or the meaning of the focused item, and at the right the most useful keys.
 pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     if let Some(Overlay::Field(field)) = &app.overlay {
@@ -190,7 +189,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         _ => String::new(),
     };
     let role = if ended.is_some() { Role::Warn } else { Role::Text };
-    // Where nothing but text is on the page, what is reported has no place above.
+    // The plain page has no room for a notification above the footer.
     let (meaning, role) = match told(app).filter(|_| reads(app)) {
         Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
@@ -198,9 +197,9 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let mut hints = hints(canvas, app);
     let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
     let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
-    // The last two, help and quit, are always there; the others give way to the meaning.
+    // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
     let room = usize::from(area.width);
-    // The reason of a gauge stands nowhere else in full where its pane is small.
+    // If its pane is small, a gauge's reason appears in full nowhere else.
     let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
     let most = if gauge { room } else { room * 2 / 3 };
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
@@ -218,15 +217,15 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
 }
 
-/// Whether the page of plain reading is open, on which nothing may lie over the text.
+/// Whether the plain-text page is open, on which nothing may cover the text.
 fn reads(app: &App) -> bool {
     app.page == Page::Plain
         && !matches!(app.overlay, Some(Overlay::Help { .. } | Overlay::Message(_)))
 }
 
-/// What is reported in passing, or lasts until the file is right.
+/// The current notification, or the error that lasts until the file is correct.
 fn told(app: &App) -> Option<(String, Role)> {
-    // The editor tells in a place of its own.
+    // The editor has its own place for notifications.
     if app.open_buffer().is_some() {
         return None;
     }
@@ -237,10 +236,10 @@ fn told(app: &App) -> Option<(String, Role)> {
     notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
 }
 
-/// Rows that a notice takes at most.
+/// The most rows that a notification takes.
 const NOTICE: usize = 3;
 
-/// What is reported, over the lower frame of the page: a place of its own, so that the keys below stay in sight.
+/// Draws the notification over the lower frame of the page, so that the key hints below stay visible.
 pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     let Some((text, role)) = told(app).filter(|_| !reads(app)) else { return };
     let room = usize::from(body.width.saturating_sub(6));
@@ -255,13 +254,13 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     }
 }
 
-/// What ended the motion, and how to go on.
+/// What ended the motion, and how to continue.
 fn ended(snapshot: &Snapshot) -> Option<String> {
     let Status::Ended(event) = &snapshot.status else { return None };
     Some(format!("{event} ended the motion: r begins it again"))
 }
 
-/// Meaning, unit and range of what is selected.
+/// The meaning, unit and range of the selected item.
 fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
     let glyphs = canvas.look.glyphs;
     if lab.focus == Pane::Gauges {
@@ -283,13 +282,13 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
     canvas.text(&format!("{name}{unit}{about}{range}"))
 }
 
-/// A key and what it does, in a word.
+/// A key and a word for its action.
 struct Hint {
     spans: Vec<Span>,
     action: Action,
 }
 
-/// The keys worth a hint here, the innermost place first; the ones for help and quitting come last.
+/// The most useful keys in the current context, innermost first; help and quit come last.
 fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let rows = app.places().iter().flat_map(|place| {
         KEYS.iter().filter(move |row| {
@@ -305,7 +304,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     rows.map(hint).collect()
 }
 
-/// What is typed, and what is wrong with it.
+/// Draws the text being typed, and what is wrong with it.
 fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
     let facts = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),

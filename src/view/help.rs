@@ -1,12 +1,12 @@
-//! The help: every key, from the one table.
+//! The help: every key, from the table of key bindings.
 //!
-//! In: the table of keys. Out: a page of text. Never here: a key that is not in the table.
+//! In: the table of key bindings. Out: a page of text. Never here: a key that is not in the table.
 
 use super::RenderStyle;
 use super::text_page::TextPage;
 use crate::app::keymap::{Binding, KEYS, Place};
 
-/// The page; the places where keys hold now come first.
+/// Builds the page; the active contexts come first.
 pub(super) fn document(look: &RenderStyle, active: &[Place]) -> TextPage {
     let mut page = TextPage::default();
     let (here, elsewhere): (Vec<Place>, Vec<Place>) =
@@ -20,12 +20,12 @@ pub(super) fn document(look: &RenderStyle, active: &[Place]) -> TextPage {
     page
 }
 
-/// The keys of a row, as they are named on keyboards.
+/// The keys of a binding, as they are labelled on keyboards.
 pub(super) fn keys(row: &Binding, look: &RenderStyle) -> String {
     named(&row.key_names().join(" "), look)
 }
 
-/// Names of keys, the arrows as words where they cannot be drawn.
+/// Names of keys, with words for the arrows if they cannot be drawn.
 pub(super) fn named(keys: &str, look: &RenderStyle) -> String {
     const ARROWS: [(&str, &str); 4] = [("↑", "Up"), ("↓", "Down"), ("←", "Left"), ("→", "Right")];
     let spelt =

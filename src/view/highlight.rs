@@ -1,6 +1,6 @@
-//! What was found: a text with the letters marked that fit a search.
+//! Highlighting: a text in which the letters that match a search are marked.
 //!
-//! In: a text, and how it fits. Out: its pieces. Never here: how it is searched.
+//! In: a text and its match. Out: spans. Never here: the search itself.
 
 use unicode_width::UnicodeWidthChar;
 
@@ -8,13 +8,13 @@ use super::canvas::{Canvas, Span};
 use super::theme::Role;
 use crate::app::Fit;
 
-/// The text in pieces, those that were found marked.
+/// Splits the text into spans and highlights those that match.
 pub(super) fn found_in(canvas: &Canvas<'_>, text: &str, (fit, role): (&Fit, Role)) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     let mut last = None;
     for (place, letter) in text.chars().enumerate() {
         let found = fit.messages.binary_search(&place).is_ok();
-        // A combining dot goes with its letter.
+        // A combining mark belongs to its letter.
         let combining = letter.width() == Some(0);
         if last != Some(found) && !combining || spans.is_empty() {
             let marked = canvas.style(Role::Accent).underlined();

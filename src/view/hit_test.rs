@@ -1,6 +1,6 @@
-//! Spots: what lies under a place of the screen, for the mouse.
+//! Hit testing: what lies under a position of the screen, for the mouse.
 //!
-//! In: the application, the look, the area, a place. Out: a [`HitTarget`]. What is drawn says where it stands while it is
+//! In: the application, the render style, the area, a position. Out: a [`HitTarget`]. Areas are registered while they are
 //! drawn, so the two cannot disagree. Never here: what a click does.
 
 use ratatui::buffer::Buffer;
@@ -12,15 +12,15 @@ use super::region::Region;
 use super::screen::paint;
 use crate::app::{App, Grab, HitTarget};
 
-/// All that a screen shows, to be asked by place.
+/// The regions of a screen.
 #[derive(Clone, Debug)]
 pub struct HitMap {
-    /// What lies where; the later lies over the earlier.
+    /// The regions; later ones lie over earlier ones.
     regions: Vec<(Rect, Region)>,
     hold: Option<Grab>,
 }
 
-/// What lies where on the screen of an application.
+/// Collects the regions of an application's screen.
 pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
     let mut buffer = Buffer::empty(area);
     let mut canvas = Canvas { buffer: &mut buffer, look, regions: Some(Vec::new()), cursor: None };
@@ -28,7 +28,7 @@ pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
     HitMap { regions: canvas.regions.unwrap_or_default(), hold: app.hold }
 }
 
-/// What lies at one place of it.
+/// Returns what lies at one position of the screen.
 pub fn hit_test(
     app: &App,
     look: &RenderStyle,
@@ -40,7 +40,7 @@ pub fn hit_test(
 }
 
 impl HitMap {
-    /// What lies at a place; while the mouse holds something, that, wherever the mouse is.
+    /// Returns what lies at a position; during a drag, that is the dragged item wherever the mouse is.
     pub fn at(&self, column: u16, row: u16) -> Option<HitTarget> {
         let at = Position::new(column, row);
         let held = |region: &Region| match (self.hold, region) {
@@ -58,7 +58,7 @@ impl HitMap {
     }
 }
 
-/// The spot of a region at a place, which may be beside it.
+/// The target of a region at a position, which may lie outside it.
 fn resolved(region: Region, area: Rect, at: Position) -> Option<HitTarget> {
     let middle = |at: u16, start: u16, length: u16| {
         (f64::from(at) - f64::from(start) + 0.5) / f64::from(length.max(1))

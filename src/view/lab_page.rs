@@ -1,6 +1,6 @@
-//! The lab's page: every pane in its frame, and over them what stopped the motion.
+//! The lab's page: every pane in its frame, and over them the reason why the motion stopped.
 //!
-//! In: the lab and the layout. Out: cells. Never here: what a single pane shows.
+//! In: the lab and the layout. Out: cells. Never here: the contents of a single pane.
 
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
@@ -17,7 +17,7 @@ use super::{equations, gauges, picture};
 use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, ValueId};
 use crate::experiment::{Failure, Status};
 
-/// Draws all panes that have a place.
+/// Draws all panes of the layout.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
     let field = match &app.overlay {
         Some(Overlay::Field(field)) => Some(field),
@@ -57,7 +57,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
     }
 }
 
-/// From when the gauges measure, if that is not the beginning.
+/// The time from which the gauges measure, if it is not the beginning.
 fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
     let time = lab.snapshot.as_ref()?.gauges.first()?.reference_time;
     let begun = lab.loaded.model.run.start;
@@ -65,7 +65,7 @@ fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
     (time != begun).then(|| canvas.span(Role::Dim, text()))
 }
 
-/// The names of lists that share a frame, the one that is shown in full.
+/// The titles of lists that share a frame; the title of the shown one is highlighted.
 fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
     let mut spans = Vec::new();
     for pane in panes {
@@ -78,7 +78,7 @@ fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
     spans
 }
 
-/// The names in a frame are spots; between two of them stands a line.
+/// Makes the titles in a frame clickable; a line separates neighbouring titles.
 fn tab_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
     let mut from = 3;
     for (index, (text, _)) in title.iter().enumerate() {
@@ -147,7 +147,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
     }
 }
 
-/// A box over the panes that says why the motion cannot go on.
+/// Draws a box over the panes that explains why the motion cannot continue.
 fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
     let width = area.width.saturating_sub(4).min(70);
     let text = canvas.text(&capitalised(&fault.message));

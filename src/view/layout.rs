@@ -1,4 +1,4 @@
-//! The layout: where the parts of the screen stand. A pure function of the area and of what is focused.
+//! The layout: the areas of the screen's parts, as a pure function of the area and the focus.
 //!
 //! In: an area. Out: rectangles. Never here: drawing.
 
@@ -7,14 +7,14 @@ use ratatui::layout::Rect;
 use super::wrap::words;
 use crate::app::{Lab, Pane, ValueId};
 
-/// The least screen on which anything can be done.
+/// The smallest usable screen.
 pub(super) const LEAST: (u16, u16) = (40, 10);
 
-/// The least size of a plot beside others, and of a column of lists.
+/// The smallest size of a plot beside others, and of a column of lists.
 const PLOT: (u16, u16) = (50, 13);
 const LISTS: (u16, u16) = (40, 52);
 
-/// A screen's parts: a line of headings, the body, a line of status where there is one, a line of hints.
+/// A screen's parts: a header, the body, a status line if there is one, and a line of hints.
 pub(super) struct Screen {
     pub(super) header: Rect,
     pub(super) body: Rect,
@@ -35,20 +35,20 @@ impl Screen {
     }
 }
 
-/// Something that has a place among the panes of the lab.
+/// The content of an area of the lab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slot {
     /// A pane that can be focused.
     Pane(Pane),
-    /// The parameters or, while they are focused, the initial values; both names are in the frame.
+    /// The parameters or, while they are focused, the initial values; both titles are in the frame.
     Values(Pane),
-    /// One of all three lists, whose names are in the frame.
+    /// One of the three lists; all titles are in the frame.
     Lists(Pane),
-    /// The law of motion, where there is room to spare.
+    /// The law of motion, if there is room to spare.
     Law,
 }
 
-/// Where the panes of the lab stand.
+/// The areas of the lab's panes.
 pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let Rect { width, height, .. } = area;
     if lab.zoomed {
@@ -68,10 +68,10 @@ pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     }
 }
 
-/// Rows for why the selected gauge is watched.
+/// Rows for the reason of the selected gauge.
 const REASON: u16 = 3;
 
-/// Plots at the left, lists in a column at the right.
+/// Places plots at the left and lists in a column at the right.
 fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let lists = (area.width * 3 / 10).clamp(LISTS.0, LISTS.1);
     let (left, right) = split_columns(area, area.width - lists);
@@ -80,7 +80,7 @@ fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// Two plots above, values and gauges below.
+/// Places two plots above, and values and gauges below.
 fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let wanted = (lab.count(ValueId::Parameter) as u16).max(gauges + 1) + 2;
@@ -93,7 +93,7 @@ fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// Plots in two rows: two large ones, and below as many as there is room for.
+/// Places plots in two rows: two large ones, and below them as many as fit.
 fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let below = usize::from((area.width / PLOT.0).max(1));
     let count = lab.plots.len();
@@ -108,12 +108,12 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// The lists one below the other, and the law of motion if rows are left.
+/// Places the lists below each other, then the law of motion if rows are left.
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
-    // A frame takes two rows; a gauge two and their heads one; the meaning of the selected parameter two, the reason of the
-    // selected gauge some more.
+    // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes two, and
+    // the reason of the selected gauge some more.
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
@@ -122,7 +122,7 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let mut heights = wants.map(|want| want.max(4));
     let mut total: u16 = heights.iter().sum();
     while total > area.height {
-        // The tallest gives way first.
+        // The tallest list shrinks first.
         let tallest = (0..3).max_by_key(|&i| heights[i]).unwrap_or(0);
         heights[tallest] -= 1;
         total -= 1;
@@ -145,7 +145,7 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// Rows for what the selected parameter means: as many as the longest text needs, at least two, at most four.
+/// Rows for the meaning of the selected parameter: as many as the longest text needs, from two to four.
 fn meaning(lab: &Lab, width: u16) -> u16 {
     let room = usize::from(width.saturating_sub(5));
     let facts =
@@ -154,7 +154,7 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
     (longest.unwrap_or(0) + 1).clamp(2, 4)
 }
 
-/// The first `room` plots; a focused one beyond them takes the last place.
+/// The first `room` plots; a focused plot beyond them replaces the last.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
     if let (Pane::Plot(focused), Some(last)) = (lab.focus, shown.last_mut()) {
@@ -165,22 +165,22 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
 
 fn plot_slot(lab: &Lab) -> Slot {
     let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
-    // Where there is room for one picture it is the motion itself.
+    // If there is room for one picture only, it is the scene.
     let motion = lab.plots.iter().position(|plot| plot.kind.is_scene());
     Slot::Pane(focused.unwrap_or(Pane::Plot(motion.unwrap_or(0))))
 }
 
-/// The list shown where there is room for one.
+/// The list shown if there is room for only one.
 fn list(lab: &Lab) -> Pane {
     if matches!(lab.focus, Pane::Plot(_)) { Pane::Parameters } else { lab.focus }
 }
 
-/// The list of values shown where there is room for one.
+/// The list of values shown if there is room for only one.
 fn values(lab: &Lab) -> Pane {
     if lab.focus == Pane::Initial { Pane::Initial } else { Pane::Parameters }
 }
 
-/// Panes side by side in equal widths.
+/// Places panes side by side in equal widths.
 fn across(area: Rect, panes: &[Pane]) -> Vec<(Slot, Rect)> {
     let count = panes.len().max(1) as u16;
     let edge = |i: u16| area.x + (u32::from(area.width) * u32::from(i) / u32::from(count)) as u16;
@@ -191,14 +191,14 @@ fn across(area: Rect, panes: &[Pane]) -> Vec<(Slot, Rect)> {
     panes.iter().enumerate().map(place).collect()
 }
 
-/// The first `width` columns, and the others.
+/// Splits off the first `width` columns.
 pub(super) fn split_columns(area: Rect, width: u16) -> (Rect, Rect) {
     let width = width.min(area.width);
     let left = Rect { width, ..area };
     (left, Rect { x: left.right(), width: area.width - width, ..area })
 }
 
-/// The first `height` rows, and the others.
+/// Splits off the first `height` rows.
 pub(super) fn split_rows(area: Rect, height: u16) -> (Rect, Rect) {
     let height = height.min(area.height);
     let above = Rect { height, ..area };

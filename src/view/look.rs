@@ -1,4 +1,4 @@
-//! How everything looks on one terminal.
+//! The render style of one terminal.
 //!
 //! In: what the terminal can show, and a theme. Out: a [`RenderStyle`]. Never here: cells.
 
@@ -6,7 +6,7 @@ use super::glyphs::Glyphs;
 use super::theme::Theme;
 use crate::app::App;
 
-/// How the screen looks: what the terminal can show, and in which colours.
+/// The glyphs and colours with which everything is drawn.
 #[derive(Clone, Debug)]
 pub struct RenderStyle {
     /// The colours.
@@ -16,7 +16,7 @@ pub struct RenderStyle {
 }
 
 impl RenderStyle {
-    /// The look in the theme that a person chose, if it is another than this one's.
+    /// The style with the theme chosen by the user, or `None` if that is already this one's.
     pub(super) fn chosen_by(&self, app: &App) -> Option<Self> {
         let name = app.theme_shown().filter(|name| *name != self.theme.palette().name)?;
         Some(Self { theme: self.theme.renamed(name)?, glyphs: self.glyphs })

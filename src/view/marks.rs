@@ -1,6 +1,6 @@
-//! Marks of what happened to a motion: one sign on a plot for each event and impulse that has room.
+//! Marks of what happened during a motion: one marker on a plot for each event and impulse that fits.
 //!
-//! In: occurrences and the trail. Out: points of a plot with names, a legend. Never here: what an event does.
+//! In: occurrences and the trail. Out: named points of a plot, a legend. Never here: what an event does.
 
 use ratatui::layout::Position;
 
@@ -9,28 +9,28 @@ use super::plot::{Frame, Marker, Pen, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
 
-/// The newest occurrences are marked; of very many the older ones are not.
+/// The most occurrences that are marked; the newest come first.
 const MOST: usize = 256;
 
-/// More names than this are not reported in a heading.
+/// The most names listed in a heading.
 const NAMES: usize = 3;
 
-/// Cells between two marks.
+/// The least distance of two marks, in cells.
 const APART: [u16; 2] = [3, 2];
 
-/// The points of a plot at which something happened, the newest first.
+/// The points of a plot at which something happened, newest first.
 pub(super) struct Marks<'a> {
     points: Vec<(&'a str, [f64; 2])>,
 }
 
 impl<'a> Marks<'a> {
-    /// Nothing happened.
+    /// An empty set of marks.
     pub(super) fn none() -> Self {
         Self { points: Vec::new() }
     }
 
-    /// Where a plot's two quantities were, read from a row of the trail (time, then the channels), when something
-    /// happened; just after it, if it was an impulse.
+    /// Finds the points of a plot at which something happened. `place` reads a point from a row of the trail (time, then the
+    /// channels). For an impulse, the point is the one just after it.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
         let mut points = Vec::new();
         let mut rows = q.snapshot.trail.rows().rev().peekable();
@@ -39,7 +39,7 @@ impl<'a> Marks<'a> {
             while let Some(row) = rows.next_if(|row| row[0] > occurrence.time) {
                 later = Some(row);
             }
-            // What is older than the trail has no place any more.
+            // Occurrences older than the trail have no point.
             let Some(earlier) = rows.peek() else { break };
             let share = later.map_or(0.0, |later| {
                 ((occurrence.time - earlier[0]) / (later[0] - earlier[0])).clamp(0.0, 1.0)
@@ -53,7 +53,7 @@ impl<'a> Marks<'a> {
         Self { points }
     }
 
-    /// Draws those that have room beside each other, the newest first.
+    /// Draws as many marks as fit without overlap, newest first.
     pub(super) fn draw(&self, raster: &mut Raster, frame: &Frame, pen: &Pen) {
         let mut taken: Vec<Position> = Vec::new();
         for (_, point) in &self.points {
@@ -68,7 +68,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// What happened in a cell or beside it.
+    /// Returns what happened in a cell or beside it.
     pub(super) fn at(&self, frame: &Frame, at: Position) -> Option<&'a str> {
         let here = |(_, point): &&(&str, [f64; 2])| {
             let cell = frame.cell(*point);
@@ -78,7 +78,7 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// The names of what happened lately, for a plot's heading.
+/// The names of the most recent occurrences, for a plot's heading.
 pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<Span> {
     let mut names: Vec<&str> = Vec::new();
     for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {

@@ -1,6 +1,6 @@
 //! A pop-up list over the page.
 //!
-//! In: the menu. Out: cells. Never here: what its lines do.
+//! In: the menu. Out: cells. Never here: what its items do.
 
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
@@ -14,13 +14,13 @@ use super::values::window;
 use super::wrap::{capitalised, words, words_in};
 use crate::app::{Choice, Fit, HitTarget, Item, Menu};
 
-/// Draws the list in the middle of an area, with what the selected line means below.
+/// Draws the list in the middle of an area, with the meaning of the selected item below it.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     let width = width(canvas, menu).clamp(MOST.0, MOST.1).min(area.width.saturating_sub(2));
     let shown = menu.found();
     let search = u16::from(menu.filter.is_some());
     let about = about(canvas, menu, (width, area.height));
-    // As high as for all its lines, so that it does not jump while they are searched.
+    // The height fits all items, so that it does not change during a search.
     let most = (area.height * 3 / 5).max(24);
     let wanted = (menu.items.len() as u16).clamp(1, most) + 2 + search + about;
     let height = wanted.min(area.height.saturating_sub(u16::from(area.height > 12) * 2));
@@ -71,7 +71,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             Some(reason) => (Role::Warn, format!("{}: {reason}", capitalised(refused(item)))),
             None => (Role::Text, item.about.clone()),
         };
-        // What the line had to cut is read here.
+        // A label that is cut in its row is shown here in full.
         let whole = canvas.text(&item.label).width() <= columns_of.room(canvas, item).into();
         let text = if whole { text } else { format!("{}. {text}", capitalised(&item.label)) };
         let text = canvas.text(&text);
@@ -82,23 +82,23 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     }
 }
 
-/// The columns of a list: at least, and at most.
+/// The least and greatest width of a list.
 const MOST: (u16, u16) = (78, 120);
 
-/// Columns between the parts of a line.
+/// Columns between the parts of a row.
 const GAP: u16 = 2;
 
-/// Where what is said about a line begins at the latest.
+/// The rightmost column at which a note may begin.
 const NOTE: u16 = 48;
 
-/// The columns that all labels and keys need, and something of what is said beside them.
+/// The width that fits all labels and keys, and part of the notes.
 fn width(canvas: &Canvas<'_>, menu: &Menu) -> u16 {
     let line = |item: &Item| canvas.text(&item.label).width() + keys_of(canvas, item).width();
     let widest = menu.items.iter().map(line).max().unwrap_or(0).min(usize::from(MOST.1)) as u16;
     widest + 3 * GAP + 2
 }
 
-/// Rows for what the selected line means, the same for all lines: as many as the longest needs, where there is room.
+/// Rows for the meaning of the selected item, the same for all items: as many as the longest needs, if there is room.
 fn about(canvas: &Canvas<'_>, menu: &Menu, (width, height): (u16, u16)) -> u16 {
     let most = if height > 14 { 6 } else { 2 };
     let inner = usize::from(width.saturating_sub(4));
@@ -106,18 +106,18 @@ fn about(canvas: &Canvas<'_>, menu: &Menu, (width, height): (u16, u16)) -> u16 {
     menu.items.iter().map(needs).max().unwrap_or(0).saturating_add(1).clamp(2, most)
 }
 
-/// The keys of a line as they are named on keyboards.
+/// The keys of an item as they are labelled on keyboards.
 fn keys_of(canvas: &Canvas<'_>, item: &Item) -> String {
     named(&item.keys, canvas.look)
 }
 
-/// Where the columns of the lines stand.
+/// The columns of the rows.
 struct Columns {
-    /// All columns of a line.
+    /// The width of a row.
     width: u16,
-    /// Columns of the labels, beyond which stands what is said about a line whose label is no longer.
+    /// The width of the labels; the note begins after it unless the label is longer.
     label: u16,
-    /// Columns of the longest keys.
+    /// The width of the longest keys.
     keys: u16,
 }
 
@@ -132,7 +132,7 @@ impl Columns {
         Self { width, label: label.min(NOTE).min(width * 3 / 4), keys }
     }
 
-    /// The columns that the label of a line may take: up to its keys.
+    /// The columns available to an item's label, up to its keys.
     fn room(&self, canvas: &Canvas<'_>, item: &Item) -> u16 {
         let keys = keys_of(canvas, item).width() as u16;
         let right = if keys > 0 { keys + GAP } else { 0 };
@@ -140,7 +140,7 @@ impl Columns {
     }
 }
 
-/// A line: its label with the letters found, what is said about it or why not, the keys at the right.
+/// Draws a row: the label with the matching letters highlighted, the note or the reason it is disabled, and the keys.
 fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &Columns) {
     let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
     let label = found_in(canvas, &item.label, (fit, role));
@@ -160,10 +160,10 @@ fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &
     }
 }
 
-/// What is said about a line needs so many columns beside it.
+/// The least width of a note.
 const LEAST_NOTE: u16 = 8;
 
-/// Why a line cannot be taken, in three words.
+/// A short reason why an item cannot be selected.
 fn refused(item: &Item) -> &'static str {
     match item.choice {
         Choice::Method(_) => "not for this system",

@@ -1,6 +1,6 @@
-//! The page of notes: what the file says about itself, and what it expects.
+//! The page of notes: the file's description of itself, and its expectations.
 //!
-//! In: the model. Out: a page of text. Never here: whether the expectations hold; `phaselab check` tests that.
+//! In: the model. Out: a page of text. Never here: whether the expectations are met; `phaselab check` tests that.
 
 use super::RenderStyle;
 use super::number::brief;
@@ -8,7 +8,7 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 
-/// The page.
+/// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let model = &lab.loaded.model;
     let mut page = TextPage::default();

@@ -1,33 +1,33 @@
-//! Numbers as people read them: few digits, a steady width, a true minus sign and raised exponents.
+//! Numbers for people: few digits, a steady width, a true minus sign and raised exponents.
 //!
-//! In: any `f64`. Out: short text, in ASCII where [`Glyphs`] ask for it. Never here: machine formats, which are
+//! In: any `f64`. Out: short text, in ASCII if [`Glyphs`] require it. Never here: machine formats, which are
 //! shortest round-trip decimals and belong to the command line.
 
 use unicode_width::UnicodeWidthStr;
 
 use super::glyphs::Glyphs;
 
-/// A moving value: always `significant` digits (1 to 17), so that its width changes only with its size.
+/// Formats a changing value: always `significant` digits (1 to 17), so that its width changes only with its magnitude.
 ///
-/// `0.1235`, `12.35`, `12346`, `1.235×10⁻¹²`; zero, the infinities and NaN are words of their own.
+/// Examples: `0.1235`, `12.35`, `12346`, `1.235×10⁻¹²`. Zero, the infinities and NaN have forms of their own.
 pub fn readable(value: f64, significant: usize, glyphs: Glyphs) -> String {
     format(value, significant, glyphs, false)
 }
 
-/// A moving value in a column: as [`readable`], with as many of the digits as fit.
+/// Formats a changing value in a column: like [`readable`], with as many of the digits as fit.
 pub fn fitted(value: f64, significant: usize, width: usize, glyphs: Glyphs) -> String {
     let texts = (1..=significant.max(1)).rev().map(|digits| readable(value, digits, glyphs));
-    // Digits beside a power of ten are dear; `2e-15` is shorter than `2×10⁻¹⁵`.
+    // A power of ten leaves room for few digits; `2e-15` is shorter than `2×10⁻¹⁵`.
     let short = signed(format!("{value:.0e}"), glyphs);
     texts.chain([short]).find(|text| text.width() <= width).unwrap_or_else(|| "#".repeat(width))
 }
 
-/// A value that stands still: as [`readable`], without zeros at the end (`1`, not `1.000`).
+/// Formats a constant value: like [`readable`], without trailing zeros (`1`, not `1.000`).
 pub fn brief(value: f64, significant: usize, glyphs: Glyphs) -> String {
     format(value, significant, glyphs, true)
 }
 
-/// The size of an error: two digits and an exponent (`3.1e-16`); exactly nothing is `0`.
+/// Formats the size of an error: two digits and an exponent (`3.1e-16`); an exact zero is `0`.
 pub fn drift(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
@@ -38,19 +38,19 @@ pub fn drift(value: f64) -> String {
     }
 }
 
-/// A power of ten as a factor: `×10⁻³`, or `x1e-3`.
+/// Formats a power of ten as a factor: `×10⁻³`, or `x1e-3`.
 pub fn power(exponent: i32, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() { format!("x1e{exponent}") } else { format!("×10{}", raised(exponent)) }
 }
 
-/// An integer in superscripts.
+/// Formats an integer in superscripts.
 pub fn raised(number: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let plain = number.to_string();
     plain.chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect()
 }
 
-/// The minus sign of these glyphs in place of the hyphen.
+/// Replaces the hyphen by the minus sign of these glyphs.
 pub fn signed(text: String, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() { text } else { text.replace('-', "−") }
 }
@@ -64,7 +64,7 @@ fn format(value: f64, significant: usize, glyphs: Glyphs, trim: bool) -> String 
         return signed(text.replace("inf", glyphs.pick("∞", "inf")), glyphs);
     }
     let significant = significant.clamp(1, 17);
-    // Rounded first: 9.9996 to four digits is 10.00, of another size.
+    // The value is rounded first, because 9.9996 to four digits is 10.00, of another magnitude.
     let scientific = format!("{value:.*e}", significant - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
@@ -82,7 +82,7 @@ fn format(value: f64, significant: usize, glyphs: Glyphs, trim: bool) -> String 
     }
 }
 
-/// Without the zeros after the point.
+/// Removes trailing zeros after the decimal point.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -1,4 +1,4 @@
-//! The page of numbers: everything that can be seen of the present state, as text.
+//! The page of numbers: all quantities of the current state, as text.
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
@@ -10,10 +10,10 @@ use super::theme::Role;
 use crate::experiment::EventCount;
 use crate::system::{Channel, ChannelKind};
 
-/// A heading, and which channels stand under it.
+/// A heading, and the test for the channels listed under it.
 type Group = (&'static str, fn(&ChannelKind) -> bool);
 
-/// The page.
+/// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
     let glyphs = q.look.glyphs;
@@ -63,7 +63,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     page
 }
 
-/// Each event and impulse: how often it has happened, and when last.
+/// Lists each event and impulse: how often it has happened, and when it last did.
 fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
     let event_log = &q.snapshot.occurrences;
     if event_log.is_empty() {

@@ -1,6 +1,6 @@
 //! The picker: the systems by topic, a search, and the selected system's summary and moving preview.
 //!
-//! In: the picker's state and the lab that previews. Out: cells. Never here: loading.
+//! In: the picker's state and the lab of the preview. Out: cells. Never here: loading.
 
 use ratatui::layout::Rect;
 use tui_input::Input;
@@ -16,13 +16,13 @@ use super::wrap::{capitalised, words};
 use crate::app::{App, Fit, HitTarget, Picker};
 use crate::preset::{Entry, Origin};
 
-/// Columns of the list where something stands beside it.
+/// The least and greatest width of the list if it has something beside it.
 const LIST: (u16, u16) = (34, 46);
 
-/// On narrow screens of this height the preview has room below the list.
+/// The height from which a narrow screen has room for the preview below the list.
 const TALL: u16 = 20;
 
-/// Draws list and preview.
+/// Draws the list and the preview.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if area.width < 64 {
         let about = if area.height > 12 { 4 } else { 0 };
@@ -81,7 +81,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let mut here = 0;
     for (place, (index, fit)) in shown.iter().enumerate() {
         let entry = &picker.entries[*index];
-        // What is found stands in the order in which it fits, not by topic.
+        // Search results are ordered by quality of the match, not by topic.
         if picker.sought().is_none() && topic != Some(entry.topic()) {
             topic = Some(entry.topic());
             lines.push(Line::Topic(entry.topic()));
@@ -131,7 +131,7 @@ fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {
     canvas.point(columns(field, cursor, 1).as_position());
 }
 
-/// What the selected system is; returns the rows used.
+/// Draws a description of the selected system, and returns the number of rows used.
 fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &Entry) -> u16 {
     let width = usize::from(area.width);
     let mut lines: Vec<(Role, String)> = Vec::new();
@@ -150,7 +150,7 @@ fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &Entry) -> u16 {
     lines.len().min(usize::from(area.height)) as u16
 }
 
-/// The selected system in motion, or why it cannot be shown.
+/// Draws the selected system in motion, or the reason why it cannot be shown.
 fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     let text = columns(area, 1, area.width.saturating_sub(2));
     if let Some(failure) = app.picker.failure.as_ref().filter(|f| f.name == entry.name) {

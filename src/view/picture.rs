@@ -1,7 +1,7 @@
 //! The picture of any plot: what its instrument describes, in the characters and colours of this terminal.
 //!
-//! In: a plot, its picture as data, the trail. Out: cells, and where the axes stand. Never here: what a single kind of plot
-//! shows.
+//! In: a plot, its picture as data, the trail. Out: cells, and the frame of the axes. Never here: what is specific to one
+//! kind of plot.
 
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -20,16 +20,16 @@ use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
 };
 
-/// For how many seconds of the wall clock, at the file's own speed, a window on time reaches back.
+/// The length of a time window in seconds of the wall clock, at the file's own speed.
 const SECONDS: f64 = 20.0;
 
-/// A level curve is left out if others share its cells along more than this part of its way, in ASCII and with dots.
+/// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
 const CROWDED: [f64; 2] = [0.25, 0.35];
 
-/// In more cells than this all levels have room.
+/// The number of cells above which all levels are drawn.
 const ROOMY: u32 = 2000;
 
-/// The heading: what is shown, the present values as far as they have room, and what is being computed.
+/// Builds the heading: what is shown, as many current values as fit, and what is being computed.
 pub(super) fn title(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
@@ -54,7 +54,7 @@ pub(super) fn title(
     groups(pieces, room)
 }
 
-/// An entry of a heading that is no curve.
+/// An entry of a heading other than a curve.
 fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
     let valued = |name: &str, value: f64| {
         let value = readable(value, 4, canvas.look.glyphs);
@@ -72,7 +72,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
     }
 }
 
-/// The curves of a heading: their numbers and channels.
+/// The curves of a heading: their indices and channels.
 fn curves(heading: &Heading) -> Vec<(usize, usize)> {
     let curve = |entry: &Entry| match entry {
         Entry::Curve(index, channel) => Some((*index, *channel)),
@@ -81,7 +81,7 @@ fn curves(heading: &Heading) -> Vec<(usize, usize)> {
     heading.entries.iter().filter_map(curve).collect()
 }
 
-/// Each curve in its colour with its present value; where not all have room, without the values.
+/// Each curve in its colour with its current value; without values if they do not all fit.
 fn keys(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
@@ -104,7 +104,7 @@ fn keys(
     } else if heading.given {
         [vec![head], named].concat()
     } else {
-        // What a curve is called is worth more than what the picture is.
+        // The names of the curves have priority over the name of the picture.
         if let Some((first, _)) = named.first_mut().and_then(|key| key.first_mut()) {
             *first = first.trim_start().to_owned();
         }
@@ -112,18 +112,18 @@ fn keys(
     }
 }
 
-/// How a curve is drawn, and what it is called.
+/// A sample of a curve's line, and its name.
 fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
     let theme = &canvas.look.theme;
     let [unicode, ascii] = theme.series(index).dash.sample();
     let sample = canvas.look.glyphs.pick(unicode, ascii);
-    // A colour is seen on one character, a pattern on three.
+    // A colour is visible on one character; a pattern needs three.
     let plain = theme.depth() != ColourDepth::None;
     let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 
-/// Draws the picture, and says where its axes stand, if it has some.
+/// Draws the picture, and returns the frame of its axes if it has any.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
@@ -232,7 +232,7 @@ fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
     }
 }
 
-/// Separatrices, and as many levels of the energy as have room beside each other.
+/// Draws separatrices, and as many energy levels as fit beside each other.
 fn levels(
     canvas: &Canvas<'_>,
     raster: &mut Raster,
@@ -258,7 +258,7 @@ fn levels(
         let mut drawn = blank.clone();
         trace(&mut drawn, &landscape.separatrices, &plain);
         for level in &landscape.levels {
-            // Curves that fill the same cells are no curves any more.
+            // Curves that share most of their cells cannot be told apart.
             let mut alone = blank.clone();
             trace(&mut alone, level, &plain);
             if alone.shared(&drawn) <= crowded {
@@ -272,7 +272,7 @@ fn levels(
     }
 }
 
-/// The stretch of time shown: it stands still until it is full, then moves along.
+/// The time window: it is fixed until it is full, then moves along.
 fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
     let speed = q.lab.loaded.model.run.speed;
     let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
@@ -283,7 +283,7 @@ fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
     Scale::linear(end - span + shift, end + shift)
 }
 
-/// One axis for all quantities: their names stand in the frame, the unit here if they share it.
+/// One axis for all quantities: their names are in the frame, and the axis has the unit if they share it.
 fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Axis {
     if let [only] = channels {
         return q.axis(*only, None, (viewport, 1));

@@ -1,6 +1,6 @@
-//! The plain reading: everything the screen says, in order, as lines of text without pictures, columns or bars.
+//! The plain-text page: everything on the screen, in order, as lines of text without pictures, columns or bars.
 //!
-//! In: the lab and the snapshot that is read. Out: a page of text. Never here: anything that changes by itself.
+//! In: the lab and the snapshot to be read. Out: a page of text. Never here: anything that changes without input.
 
 use super::gauges::{finding, word};
 use super::header_footer::status_words;
@@ -11,10 +11,10 @@ use crate::app::keymap::{KEYS, Place};
 use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;
 
-/// Places whose keys are reported of.
+/// The contexts whose keys are listed.
 const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
 
-/// The page.
+/// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
     let mut say = |text: String| page.line(&q.look.glyphs.text(&text));
@@ -79,7 +79,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     page
 }
 
-/// What happened and what was reported, the newest first.
+/// Lists occurrences and notifications, newest first.
 fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
@@ -95,7 +95,7 @@ fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(S
     }
 }
 
-/// Of very many occurrences the newest are read.
+/// The most occurrences that are listed; the newest come first.
 const MOST: usize = 10;
 
 /// A value with its name, its meaning, its unit and its range.
@@ -118,12 +118,12 @@ fn name(q: &Quantities<'_>, facts: &ValueInfo) -> String {
     q.look.glyphs.pick(&facts.shown, &facts.name).clone()
 }
 
-/// A unit behind its number.
+/// A unit after its number.
 fn after(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
-/// A key as it is read out.
+/// The spoken name of a key.
 fn spoken(name: String) -> String {
     let words = [
         ("↑", "Up"),

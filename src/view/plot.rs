@@ -1,7 +1,7 @@
-//! A plot for a terminal: sub-cell dots in layers, axes, ticks and a camera.
+//! Plots for a terminal: sub-cell dots in layers, axes, ticks and a camera.
 //!
-//! In: points in data coordinates as `f64`, whatever their bits. Out: cells of a ratatui buffer.
-//! Never here: anything of phaselab. A number that cannot be drawn is left out, never a panic or a long loop.
+//! In: points in data coordinates as `f64`, with any bits. Out: cells of a ratatui buffer.
+//! Never here: anything of phaselab. A number that cannot be drawn is left out; it never causes a panic or a long loop.
 
 pub mod axes;
 pub mod camera;

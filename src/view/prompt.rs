@@ -1,6 +1,6 @@
 //! The prompt for brackets and conserved quantities, over the page.
 //!
-//! In: the prompt, the lab for present values. Out: cells. Never here: how an answer is found.
+//! In: the prompt, the lab for current values. Out: cells. Never here: the computation of an answer.
 
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
@@ -14,10 +14,10 @@ use crate::app::{Lab, Prompt};
 use crate::expr::{Expr, Zero};
 use crate::mechanics::Class;
 
-/// More pieces than this are not written out on a screen.
+/// Expressions with more nodes than this are not written out.
 const MOST: u64 = 1_000;
 
-/// What stands where nothing has been asked yet.
+/// The text shown before the first question.
 const HELP: &str = "Two expressions with a comma between them give Poisson's bracket; one alone asks whether it is \
 conserved. H is the energy, p_x a momentum, x' a velocity; observables of the file are written out.";
 
@@ -50,7 +50,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     let cursor = prompt.input.visual_cursor().saturating_sub(scroll) as u16;
     canvas.point(columns(field, used + cursor, 1).as_position());
     if let Some(mistake) = &prompt.mistake {
-        // A caret under each letter of what is wrong.
+        // A caret under each character that is wrong.
         let text = prompt.input.value();
         let before = text.get(..mistake.span.start).unwrap_or(text).chars().count();
         let wrong = text.get(mistake.span.start..mistake.span.end).unwrap_or("").chars().count();
@@ -153,7 +153,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
     page.lines
 }
 
-/// What the rate of change is: by the bracket where that is all of it, else along the motion with all that acts.
+/// The label of the rate of change: the bracket if that is the whole rate, else the derivative along the motion.
 fn rate_head(lab: &Lab) -> &'static str {
     let model = &lab.loaded.model;
     let forced = model.mechanics.forces().iter().any(|f| *f != Expr::ZERO)
@@ -165,7 +165,7 @@ fn rate_head(lab: &Lab) -> &'static str {
     }
 }
 
-/// Rows in the making.
+/// The rows being built.
 struct Page<'a, 'b> {
     canvas: &'a Canvas<'b>,
     width: usize,
@@ -179,7 +179,7 @@ impl Page<'_, '_> {
         self.lines.extend(wrapped.map(|line| vec![(line, self.canvas.style(role))]));
     }
 
-    /// `head = e`, broken where it is too long.
+    /// Adds `head = e`, broken into lines if it is too long.
     fn formula(&mut self, inquiry: &Inquiry, head: &str, e: Expr) {
         let body = if inquiry.weight(e) > MOST {
             format!("… ({} pieces: phaselab bracket prints them)", inquiry.weight(e))

@@ -1,4 +1,4 @@
-//! A quantity of the loaded system: its name, its unit, its values and the axis it is drawn on.
+//! A quantity of the loaded system: its name, its unit, its values and its axis.
 //!
 //! In: a channel of the system and the snapshot. Out: text and scales. Never here: cells.
 
@@ -11,7 +11,7 @@ use crate::expr::Expr;
 use crate::instrument::{Present, Viewport};
 use crate::model::Point;
 
-/// Quantities of a lab, as its snapshot has them.
+/// The quantities of a lab in a snapshot.
 #[derive(Clone, Copy)]
 pub(super) struct Quantities<'a> {
     pub(super) lab: &'a Lab,
@@ -20,17 +20,17 @@ pub(super) struct Quantities<'a> {
 }
 
 impl<'a> Quantities<'a> {
-    /// The quantities of a lab that has been seen in motion.
+    /// The quantities in the lab's newest snapshot, or `None` if there is none.
     pub(super) fn of(lab: &'a Lab, look: &'a RenderStyle) -> Option<Self> {
         Some(Self { lab, snapshot: lab.seen()?, look })
     }
 
-    /// The quantities as a snapshot has them, if it fits the system.
+    /// The quantities in a snapshot, or `None` if it does not fit the system.
     pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a RenderStyle) -> Option<Self> {
         lab.fits(snapshot).then_some(Self { lab, snapshot, look })
     }
 
-    /// The same as instruments look at it.
+    /// The same data in the form that instruments take.
     pub(super) fn present(&self) -> Present<'a> {
         self.lab.present_of(self.snapshot)
     }
@@ -43,12 +43,12 @@ impl<'a> Quantities<'a> {
         self.look.glyphs.text(&name).into_owned()
     }
 
-    /// A channel's unit, in brackets, or nothing.
+    /// A channel's unit, or an empty text.
     pub(super) fn unit(&self, channel: usize) -> &'a str {
         self.lab.loaded.system.channels().get(channel).map_or("", |c| &c.unit)
     }
 
-    /// A channel's value now.
+    /// A channel's current value.
     pub(super) fn value(&self, channel: usize) -> f64 {
         self.snapshot.values.get(channel).copied().unwrap_or(f64::NAN)
     }
@@ -58,7 +58,7 @@ impl<'a> Quantities<'a> {
         self.snapshot.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN))
     }
 
-    /// The bounds of a channel that is more than rounding beside others of its kind and unit; else theirs.
+    /// The range of a channel. If it is only rounding error beside channels of the same kind and unit, their range.
     fn extent(&self, channel: usize) -> (f64, f64) {
         let (lo, hi) = self.bounds(channel);
         let channels = self.lab.loaded.system.channels();
@@ -76,12 +76,12 @@ impl<'a> Quantities<'a> {
         if size(channel) < ROUNDING * greatest { (-greatest, greatest) } else { (lo, hi) }
     }
 
-    /// After what a channel repeats.
+    /// The period of a channel, if it has one.
     pub(super) fn period(&self, channel: usize) -> Option<f64> {
         self.lab.loaded.system.period(channel, &self.snapshot.parameters)
     }
 
-    /// Where an expression of the model or of what follows from it is found: a number, or a channel.
+    /// The source of an expression's value: a number, or a channel.
     pub(super) fn place(&self, expression: Expr) -> Source {
         if let Some(number) = self.lab.loaded.equations.pool.as_number(expression) {
             return Source::Number(number.value());
@@ -90,17 +90,17 @@ impl<'a> Quantities<'a> {
         channel.map_or(Source::Number(f64::NAN), Source::Channel)
     }
 
-    /// The present value of an expression of a shape.
+    /// The current value of an expression of a shape.
     pub(super) fn number(&self, expression: Expr) -> f64 {
         self.place(expression).read(&self.snapshot.values)
     }
 
-    /// Where a point of a shape is now.
+    /// The current position of a point of a shape.
     pub(super) fn point(&self, point: &Point) -> [f64; 3] {
         point.map(|expression| self.number(expression))
     }
 
-    /// The axis of a channel that shows all of the motion, or the range given, through a lens.
+    /// The axis of a channel over the whole motion, or over the given range, seen through a viewport.
     pub(super) fn axis(
         &self,
         channel: usize,
@@ -130,27 +130,27 @@ impl<'a> Quantities<'a> {
     }
 }
 
-/// What is smaller than this beside its like is zero but for rounding.
+/// Values below this, relative to similar ones, are rounding errors.
 const ROUNDING: f64 = 1e-13;
 
-/// The middle of the turn in which all values between two lie: a motion about the top is not torn in two. Where they take
-/// most of a turn, or more, zero.
+/// The centre of the turn that contains all values between the two, so that a motion about the top is not split. If they
+/// take most of a turn or more, it is zero.
 fn turn_of(lo: f64, hi: f64, period: f64) -> f64 {
     let half = period / 2.0;
     if hi - lo < 0.8 * period { (f64::midpoint(lo, hi) / half).round() * half } else { 0.0 }
 }
 
-/// Where a number comes from.
+/// The source of a number.
 #[derive(Clone, Copy)]
 pub(super) enum Source {
-    /// It is always the same.
+    /// A constant.
     Number(f64),
-    /// The channel of this index.
+    /// The channel with this index.
     Channel(usize),
 }
 
 impl Source {
-    /// The value in a row of channels.
+    /// Reads the value from a row of channels.
     pub(super) fn read(self, values: &[f64]) -> f64 {
         match self {
             Self::Number(number) => number,
@@ -159,7 +159,7 @@ impl Source {
     }
 }
 
-/// A scale through a lens; `axis` is 0 across, 1 upwards.
+/// A scale seen through a viewport; `axis` is 0 for horizontal, 1 for vertical.
 pub(super) fn through(scale: Scale, (viewport, axis): (Viewport, usize)) -> Scale {
     let scale = if viewport.log && axis == 1 { Scale::log(scale.lo, scale.hi) } else { scale };
     if viewport.zoom[axis] == 1.0 && viewport.pan[axis] == 0.0 {

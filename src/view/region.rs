@@ -1,16 +1,16 @@
-//! A part of the screen as the mouse finds it.
+//! A part of the screen that the mouse can point at.
 //!
-//! In: what is drawn there. Out: a [`Region`]. Never here: places.
+//! In: what is drawn there. Out: a [`Region`]. Never here: positions.
 
 use super::plot::{Frame, Scale};
 use crate::app::{HitTarget, ValueId};
 
-/// What something on the screen is for the mouse, told while it is drawn.
+/// What a part of the screen is for the mouse; it is registered during drawing.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Region {
-    /// It hides what was there before.
+    /// It hides what is below it.
     Blank,
-    /// The same spot wherever it is touched.
+    /// The whole region is one target.
     Plain(HitTarget),
     /// The bar of a value.
     Bar(ValueId, Scale),

@@ -1,6 +1,6 @@
 //! The whole screen: which panes and pages there are, and which lie over which.
 //!
-//! In: an [`App`]. Out: cells. Never here: what a pane shows.
+//! In: an [`App`]. Out: cells. Never here: the contents of a pane.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -25,7 +25,7 @@ use super::workbench;
 use super::wrap;
 use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 
-/// Draws the whole screen over a blank area, and says how far its page of text could be scrolled.
+/// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
 pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
     let themed = look.chosen_by(app);
     let look = themed.as_ref().unwrap_or(look);
@@ -40,7 +40,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
         too_small(canvas, area);
         return Drawn::default();
     }
-    // What is read keeps still, and says the status itself.
+    // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     let screen = Screen::of(area, status);
     header_footer::header(canvas, screen.header, app);
@@ -115,7 +115,7 @@ fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll
     page.draw(canvas, inner, scroll)
 }
 
-/// What stands on a screen on which nothing else has room.
+/// Draws the message for a screen that is too small for anything else.
 fn too_small(canvas: &mut Canvas<'_>, area: Rect) {
     let needed = format!(
         "phaselab needs {}x{} characters, here are {}x{}; q leaves it",

@@ -1,15 +1,15 @@
-//! The numbers by which a terminal is reported how to write: select graphic rendition, the `m` of ECMA-48.
+//! The parameters of select graphic rendition (SGR), the `m` sequence of ECMA-48.
 //!
-//! In: colours and modifiers. Out: numbers. Never here: the sequence round them, or which of them a terminal has.
+//! In: colours and modifiers. Out: numbers. Never here: the sequence around them, or what a terminal supports.
 
 use ratatui::style::{Color, Modifier};
 
-/// Where the numbers of colours begin, before and behind the characters.
+/// The first parameter of foreground colours.
 pub const FOREGROUND: u16 = 30;
-/// The same behind them.
+/// The first parameter of background colours.
 pub const BACKGROUND: u16 = 40;
 
-/// Modifiers, what turns each on and what turns it off. Bold and dim end together.
+/// Each modifier with the parameters that turn it on and off. Bold and dim are turned off together.
 pub const MODIFIERS: [(Modifier, u16, u16); 9] = [
     (Modifier::BOLD, 1, 22),
     (Modifier::DIM, 2, 22),
@@ -22,12 +22,12 @@ pub const MODIFIERS: [(Modifier, u16, u16); 9] = [
     (Modifier::CROSSED_OUT, 9, 29),
 ];
 
-/// What turns modifiers on.
+/// The parameters that turn modifiers on.
 pub fn weights(modifier: Modifier) -> impl Iterator<Item = u16> {
     MODIFIERS.into_iter().filter(move |(m, ..)| modifier.contains(*m)).map(|(_, on, _)| on)
 }
 
-/// From whatever was before to these modifiers and colours alone.
+/// The parameters that reset the style and set these modifiers and colours.
 pub fn afresh(modifier: Modifier, fg: Color, bg: Color) -> Vec<u16> {
     let mut numbers = vec![0];
     numbers.extend(weights(modifier));
@@ -39,7 +39,7 @@ pub fn afresh(modifier: Modifier, fg: Color, bg: Color) -> Vec<u16> {
     numbers
 }
 
-/// What chooses a colour on a ground, [`FOREGROUND`] or [`BACKGROUND`].
+/// The parameters that select a colour for a ground, [`FOREGROUND`] or [`BACKGROUND`].
 pub fn colour(colour: Color, ground: u16) -> Vec<u16> {
     let bright = ground + 60;
     match colour {
@@ -65,7 +65,7 @@ pub fn colour(colour: Color, ground: u16) -> Vec<u16> {
     }
 }
 
-/// Numbers as they stand in a sequence.
+/// The parameters as they are written in a sequence.
 pub fn written(numbers: &[u16]) -> String {
     numbers.iter().map(u16::to_string).collect::<Vec<_>>().join(";")
 }

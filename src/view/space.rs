@@ -1,6 +1,6 @@
-//! The motion in space: the file's shapes, seen through the camera, with the tracks they leave.
+//! The motion in space: the file's shapes and the tracks they leave, seen through the camera.
 //!
-//! In: shapes, channels, the camera. Out: cells. Never here: what the shapes mean.
+//! In: shapes, channels, the camera. Out: cells. Never here: the meaning of the shapes.
 
 mod body;
 mod reference_frame;
@@ -20,7 +20,7 @@ use body::Outline;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
 
-/// The layers of the picture, the lowest first.
+/// The layers of the picture, from the lowest.
 const GROUND: u8 = 0;
 const TRACK: u8 = 1;
 const SOLID: u8 = 2;
@@ -29,10 +29,10 @@ const BODY: u8 = 3;
 /// The apparent forces, in the order of their colours.
 const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 
-/// The longest apparent force seen so far is this part of the picture.
+/// The length of the longest apparent force so far, as a fraction of the picture.
 const LONGEST: f64 = 0.25;
 
-/// The picture inside the frame.
+/// Draws the picture inside the frame.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &CameraPose) {
     if area.is_empty() {
         return;
@@ -56,7 +56,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
 }
 
-/// The directions of the axes, small in the lower left corner.
+/// Draws the directions of the axes in the lower left corner.
 fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     if area.width < 30 || area.height < 14 {
         return;
@@ -71,7 +71,7 @@ fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     canvas.write(origin.into(), 1, "·", canvas.style(Role::Dim));
 }
 
-/// The names of the apparent forces, each in its colour, in the upper left corner.
+/// Draws the names of the apparent forces in their colours in the upper left corner.
 fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
     if area.width < 24 || usize::from(area.height) < 8 {
         return;
@@ -85,7 +85,7 @@ fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
     }
 }
 
-/// Draws shape after shape.
+/// Draws the shapes of a scene.
 struct ScenePainter<'a> {
     raster: Raster,
     frame: Frame,
@@ -140,7 +140,7 @@ impl ScenePainter<'_> {
         }
     }
 
-    /// Where a point of a shape is now, as seen from the frame.
+    /// The current position of a point of a shape in the reference frame.
     fn point(&self, point: &Point) -> [f64; 3] {
         let r = self.q.point(point);
         self.reference_frame
@@ -148,7 +148,7 @@ impl ScenePainter<'_> {
             .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
     }
 
-    /// A direction of a shape now, as seen from the frame.
+    /// The current components of a direction in the reference frame.
     fn direction(&self, direction: &Point) -> [f64; 3] {
         let v = self.q.point(direction);
         self.reference_frame
@@ -156,7 +156,7 @@ impl ScenePainter<'_> {
             .map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
     }
 
-    /// Draws the apparent forces on the particles of the frame, and says which of them there are.
+    /// Draws the apparent forces on the frame's particles, and returns which of them are present.
     fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
         let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
         let greatest = |vector: &Point| {
@@ -204,7 +204,7 @@ impl ScenePainter<'_> {
         self.raster.polyline(&self.frame, flat, pen);
     }
 
-    /// A zigzag of eight turns between two straight ends; it keeps its width while it is stretched.
+    /// Draws a zigzag of eight turns between two straight ends; its width does not depend on its extension.
     fn spring(&mut self, from: [f64; 3], to: [f64; 3], pen: &Pen) {
         let (a, b) = (self.flat(from), self.flat(to));
         let along = [b[0] - a[0], b[1] - a[1]];
@@ -224,7 +224,7 @@ impl ScenePainter<'_> {
         self.raster.polyline(&self.frame, points, pen);
     }
 
-    /// A body: a disc as large as its radius, or one sign where that is smaller than a cell.
+    /// Draws a point mass: a disc of its radius, or a marker if that is smaller than a cell.
     fn mass(&mut self, at: [f64; 3], radius: Option<f64>) {
         let style = self.q.look.theme.curve(self.bodies);
         let pen = Pen::new(style, BODY);
@@ -243,7 +243,7 @@ impl ScenePainter<'_> {
         self.bodies += 1;
     }
 
-    /// The pieces of the model's body and its principal axes, its centre of mass at a point.
+    /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.
     fn body(&mut self, at: &Point) {
         let Some(outline) = Outline::of(self.q) else { return };
         let at = self.q.point(at);
@@ -274,7 +274,7 @@ impl ScenePainter<'_> {
     fn track(&mut self, point: &Point) {
         let sources = point.map(|expression| self.q.place(expression));
         let rows = self.q.snapshot.trail.rows().filter_map(|row| row.get(1..));
-        // Each past point is seen from the frame as it stood then: the row is that of its own time.
+        // Each past point is transformed to the reference frame at its own time.
         let past = rows.map(|row| {
             let r = sources.map(|source| source.read(row));
             self.flat(
@@ -290,7 +290,7 @@ impl ScenePainter<'_> {
         self.tracks += 1;
     }
 
-    /// A shaft with a head of two strokes, an eighth of its length.
+    /// Draws a shaft with a head of two strokes, an eighth of its length.
     fn arrow(&mut self, foot: [f64; 3], along: [f64; 3], pen: &Pen) {
         let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
         let (a, b) = (self.flat(foot), self.flat(tip));

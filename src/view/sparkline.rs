@@ -1,6 +1,6 @@
-//! Strips of one row: a history of values, and a value within its range.
+//! One-row charts: a history of values, and a value within its range.
 //!
-//! In: any numbers. Out: cells. Never here: a panic on NaN or on a value outside its range, as ratatui's gauges have.
+//! In: any numbers. Out: cells. Never here: a panic on NaN or on a value outside its range, unlike ratatui's gauges.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,16 +10,16 @@ use ratatui::widgets::Widget;
 use super::glyphs::Glyphs;
 use super::plot::Scale;
 
-/// A history, the newest value at the right end; each column shows the greatest value of its share.
+/// A history with the newest value at the right; each column shows the greatest of its values.
 #[derive(Clone, Copy, Debug)]
 pub struct History<'a> {
-    /// Oldest first. NaN leaves a gap.
+    /// The values, oldest first. NaN leaves a gap.
     pub values: &'a [f64],
-    /// Bottom and top.
+    /// The vertical scale.
     pub scale: Scale,
     /// Style of the columns.
     pub style: Style,
-    /// What they are made of.
+    /// The characters used.
     pub glyphs: Glyphs,
 }
 
@@ -38,13 +38,13 @@ impl Widget for History<'_> {
         for column in 0..columns {
             let share = |column: usize| column * self.values.len() / columns;
             let values = &self.values[share(column)..share(column + 1)];
-            // `max` passes over NaN.
+            // `max` ignores NaN.
             let value = values.iter().copied().fold(f64::NAN, f64::max);
             if value.is_nan() {
                 continue;
             }
             let fraction = self.scale.fraction(value);
-            // A value with no place on a logarithmic scale is below all of it.
+            // A value that a logarithmic scale cannot show is below its range.
             let fraction = if fraction.is_nan() { 0.0 } else { fraction.clamp(0.0, 1.0) };
             let step = ((fraction * steps.len() as f64) as usize).min(steps.len() - 1);
             let place = (start + column as u16, area.bottom() - 1);
@@ -55,7 +55,7 @@ impl Widget for History<'_> {
     }
 }
 
-/// A value within its range: `━━━━●────`; beyond an end it becomes an arrow there, without a value there is no knob.
+/// A value within its range: `━━━━●────`. Outside the range an arrow marks the end; NaN has no knob.
 #[derive(Clone, Copy, Debug)]
 pub struct RangeBar {
     /// The value.
@@ -66,7 +66,7 @@ pub struct RangeBar {
     pub filled: Style,
     /// Style of the rest.
     pub rest: Style,
-    /// What it is made of.
+    /// The characters used.
     pub glyphs: Glyphs,
 }
 
@@ -79,7 +79,7 @@ impl Widget for RangeBar {
         let fraction = self.scale.fraction(self.value);
         let last = f64::from(area.width - 1);
         let knob = (!fraction.is_nan()).then(|| (fraction.clamp(0.0, 1.0) * last).round() as u16);
-        // A knob at the very end is no sign of trouble if rounding put it there.
+        // Rounding at an end of the range must not turn the knob into an arrow.
         let slack = 1e-9;
         let sign = match fraction {
             f if f < -slack => self.glyphs.pick("◂", "<"),

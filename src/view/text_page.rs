@@ -1,6 +1,6 @@
 //! A page of text: headings, paragraphs and labelled formulas, wrapped and scrolled.
 //!
-//! In: blocks of text. Out: rows, and how many of them lie beyond the screen. Never here: what the text says.
+//! In: blocks of text. Out: rows, and how many of them lie beyond the screen. Never here: the content of the text.
 
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
@@ -11,16 +11,16 @@ use super::theme::Role;
 use super::wrap::{formula, words};
 use crate::app::Drawn;
 
-/// Lines longer than this are hard to read.
+/// The greatest line length that is easy to read.
 const MEASURE: u16 = 110;
 
-/// Columns of a label with a text behind it, of a name and of a number; on narrow pages what is left for a unit.
+/// Columns of an item's label, of a name and of a number; on narrow pages, the columns left for a unit.
 const LABEL: usize = 20;
 const NAME: usize = 30;
 const NUMBER: usize = 20;
 const MARGIN: usize = 8;
 
-/// A page of text in the making.
+/// A page of text being built.
 #[derive(Default)]
 pub(super) struct TextPage {
     blocks: Vec<Block>,
@@ -38,7 +38,7 @@ enum Block {
 }
 
 impl TextPage {
-    /// A heading, with space above it.
+    /// Adds a heading with space above it.
     pub(super) fn heading(&mut self, text: &str) {
         if !self.blocks.is_empty() {
             self.blocks.push(Block::Gap);
@@ -46,12 +46,12 @@ impl TextPage {
         self.blocks.push(Block::Heading(text.to_owned()));
     }
 
-    /// A paragraph.
+    /// Adds a paragraph.
     pub(super) fn words(&mut self, role: Role, text: impl Into<String>) {
         self.blocks.push(Block::Words(role, text.into()));
     }
 
-    /// `label = body`, and a remark after it.
+    /// Adds `label = body` and a remark after it.
     pub(super) fn formula(&mut self, label: &str, body: String, remark: &str) {
         self.blocks.push(Block::Formula {
             label: label.to_owned(),
@@ -60,34 +60,34 @@ impl TextPage {
         });
     }
 
-    /// Pieces in one row, which is not wrapped.
+    /// Adds spans in one row, which is not wrapped.
     pub(super) fn row(&mut self, pieces: Vec<(Role, String)>) {
         self.blocks.push(Block::Row(pieces));
     }
 
-    /// A label, and behind it a text that is wrapped below its own beginning.
+    /// Adds a label and a text beside it, wrapped with a hanging indent.
     pub(super) fn item(&mut self, label: &str, text: &str) {
         self.blocks.push(Block::Item { label: label.to_owned(), text: text.to_owned() });
     }
 
-    /// A name, a number below those of other names, its unit, and what else is to be said; narrow pages have the number
-    /// below the name where that is long.
+    /// Adds a name, a number aligned with those of other names, its unit, and further spans. Narrow pages put the number
+    /// below a long name.
     pub(super) fn value(&mut self, name: &str, value: &str, unit: &str, rest: Vec<(Role, String)>) {
         let (name, value, unit) = (name.to_owned(), value.to_owned(), unit.to_owned());
         self.blocks.push(Block::Value { name, value, unit, rest });
     }
 
-    /// A line by itself, wrapped if it must be.
+    /// Adds a single line, wrapped if necessary.
     pub(super) fn line(&mut self, text: &str) {
         self.blocks.push(Block::Line(text.to_owned()));
     }
 
-    /// An empty row.
+    /// Adds an empty row.
     pub(super) fn gap(&mut self) {
         self.blocks.push(Block::Gap);
     }
 
-    /// Draws the rows from `scroll` on, as far as the area goes.
+    /// Draws the rows from `scroll` on.
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let width = area.width.saturating_sub(3).min(MEASURE);
         let lines = self.lines(canvas, width.into());
@@ -102,8 +102,8 @@ impl TextPage {
         Drawn { beyond, rows: area.height, ..Drawn::default() }
     }
 
-    /// Draws the screenful of rows in which a line stands, the cursor at its beginning. Rows turn by whole screenfuls,
-    /// so that they keep still while they are read.
+    /// Draws the screenful of rows that contains a line, with the cursor at its beginning. Rows are scrolled by whole
+    /// screenfuls, so that they do not move while they are read.
     pub(super) fn read(self, canvas: &mut Canvas<'_>, area: Rect, line: usize) -> Drawn {
         let width = area.width.saturating_sub(2).min(MEASURE);
         let lines = self.lines(canvas, width.into());
@@ -202,7 +202,7 @@ impl TextPage {
     }
 }
 
-/// A label and its text.
+/// The rows of a label and its text.
 fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<Span>> {
     let label = format!("  {}", canvas.text(label));
     let column = LABEL.min(width / 3);
@@ -221,7 +221,7 @@ fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<S
     lines
 }
 
-/// A number between its name and its unit.
+/// The rows of a number between its name and its unit.
 fn value(
     canvas: &Canvas<'_>,
     width: usize,
@@ -238,7 +238,7 @@ fn value(
         let head = canvas.span(Role::Text, format!("{name}{gap}"));
         return vec![[vec![head, number, unit], rest].concat()];
     }
-    // the numbers stand below each other here too
+    // The numbers are aligned here too.
     let column = width.saturating_sub(NUMBER + MARGIN);
     let gap = " ".repeat(column.saturating_sub(name.width()));
     let fits = name.width() + value.width() < column + NUMBER;
@@ -261,7 +261,7 @@ fn value(
     lines
 }
 
-/// A bar at the right edge that shows which part of the rows is in view, if not all of them are.
+/// Draws a scroll bar at the right edge if not all rows are in view.
 fn scroll_bar(canvas: &mut Canvas<'_>, area: Rect, first: usize, total: usize) {
     let rows = usize::from(area.height);
     if total <= rows || rows < 3 {

@@ -1,7 +1,7 @@
-//! Themes: what each part of the screen means, resolved to the styles a terminal can show.
+//! Themes: the roles of the screen's parts, resolved to the styles a terminal can show.
 //!
-//! In: a palette of [`PALETTES`] and a [`ColourDepth`]. Out: a [`Theme`], which is asked by [`Role`].
-//! Never here: where a role is used. Without colour the roles differ by bold, dim, reverse and underline alone.
+//! In: a palette of [`PALETTES`] and a [`ColourDepth`]. Out: a [`Theme`], which maps each [`Role`] to a style.
+//! Never here: the use of a role. Without colour the roles differ by bold, dim, reverse and underline alone.
 
 mod dash;
 mod palettes;
@@ -17,26 +17,26 @@ use ramps::Ramps;
 pub use dash::Dash;
 pub use palettes::{PALETTES, Palette};
 
-/// What a piece of the screen is for.
+/// The purpose of a part of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     /// Ordinary text, in the terminal's own colour.
     Text,
-    /// Text of less weight: units, ticks, hints.
+    /// Secondary text: units, ticks, hints.
     Dim,
-    /// What draws the eye: the value that moves, a hint's key.
+    /// Emphasized text: a changing value, the key of a hint.
     Accent,
     /// Titles of panes and pages.
     Title,
-    /// Frames and axes of panes without the focus.
+    /// Axes, and frames of panes without the focus.
     Border,
     /// The frame of the pane with the focus.
     Focus,
-    /// A verdict: as it should be.
+    /// A good verdict.
     Good,
-    /// A verdict: to be watched.
+    /// A verdict that needs attention.
     Warn,
-    /// A verdict: wrong, and errors.
+    /// A bad verdict, or an error.
     Bad,
     /// The selected row of a list.
     Selected,
@@ -63,27 +63,27 @@ impl Role {
         Self::Level,
     ];
 
-    /// Whether words are set in this role, so that it needs a text's contrast (4.5 to 1); lines need 2 to 1.
+    /// Whether the role is used for text, which needs a contrast of 4.5 to 1; lines need 2 to 1.
     pub fn is_text(self) -> bool {
         !matches!(self, Self::Border | Self::Level)
     }
 }
 
-/// One colour of a palette: in full, among the sixteen, and what stands for it without colour.
+/// One colour of a palette: in 24 bits, among the sixteen, and its substitute without colour.
 #[derive(Clone, Copy, Debug)]
 pub struct PaletteColour {
-    /// The colour itself; `None` is the terminal's own foreground.
+    /// The colour; `None` is the terminal's own foreground.
     pub rgb: Option<Rgb>,
-    /// Its stand-in among the terminal's sixteen.
+    /// The nearest of the terminal's sixteen colours.
     pub ansi: Color,
-    /// Weight, used at every depth.
+    /// Modifiers used at every depth.
     pub weight: Modifier,
-    /// What replaces the colour where there is none.
+    /// Modifiers that replace the colour if there is none.
     pub mono: Modifier,
 }
 
 impl PaletteColour {
-    /// The style that shows this ink at a depth.
+    /// The style of this colour at a depth.
     pub fn style(&self, depth: ColourDepth) -> Style {
         let style = Style::new().add_modifier(self.weight);
         match (depth, self.rgb) {
@@ -96,31 +96,31 @@ impl PaletteColour {
     }
 }
 
-/// A step of a fading ramp: how it is coloured and what share of its dots is drawn.
+/// A step of a fading ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shade {
     /// The style of the dots.
     pub style: Style,
-    /// Share of the dots that are drawn, 0 to 1; below 1 only where colour cannot say how old they are.
+    /// Share of the dots that are drawn, 0 to 1; it is below 1 only if colour cannot show their age.
     pub coverage: f64,
     /// The pattern along a line.
     pub dash: Dash,
 }
 
-/// Series with a colour of their own.
+/// The number of series with a colour of their own.
 pub const CURVES: usize = 7;
 
-/// Steps of a trail from oldest to newest; few, so that a frame changes few cells.
+/// The number of steps of a trail, from oldest to newest; it is small, so that a frame changes few cells.
 const AGES: usize = 8;
 
-/// Steps of the density ramp from sparse to dense.
+/// The number of steps of the density ramp, from sparse to dense.
 const DENSITIES: usize = 12;
 
 /// The styles of a palette at one depth.
 #[derive(Clone, Debug)]
 pub struct Theme {
     palette: &'static Palette,
-    /// What the terminal can show, of which the palette may use less.
+    /// The depth of the terminal; the palette may use less.
     asked: ColourDepth,
     depth: ColourDepth,
     roles: [Style; Role::ALL.len()],
@@ -130,17 +130,17 @@ pub struct Theme {
 }
 
 impl Theme {
-    /// The theme of that name at a depth, `None` if there is no such palette.
+    /// The theme with this name at a depth, or `None` if there is no such palette.
     pub fn named(name: &str, depth: ColourDepth) -> Option<Self> {
         PALETTES.iter().find(|palette| palette.name == name).map(|p| Self::new(p, depth))
     }
 
-    /// The default theme: for dark terminals, and still legible on light ones.
+    /// The default theme: it is made for dark terminals, and legible on light ones.
     pub fn dark(depth: ColourDepth) -> Self {
         Self::new(&PALETTES[0], depth)
     }
 
-    /// A palette's styles at a depth.
+    /// The theme of a palette at a depth.
     pub fn new(palette: &'static Palette, depth: ColourDepth) -> Self {
         let asked = depth;
         let depth = depth.min(palette.most);
@@ -172,7 +172,7 @@ impl Theme {
         self
     }
 
-    /// The same theme with another number of steps in its trails: fewer change fewer cells a frame.
+    /// The same theme with another number of steps in its trails; with fewer steps, a frame changes fewer cells.
     #[must_use]
     pub fn with_ages(self, ages: usize) -> Self {
         let ramps = Ramps { palette: self.palette, depth: self.depth };
@@ -180,7 +180,7 @@ impl Theme {
         Self { trails, ..self }
     }
 
-    /// The theme of another palette for the same terminal, if there is one of that name.
+    /// The theme of another palette for the same terminal, or `None` if there is none with this name.
     pub fn renamed(&self, name: &str) -> Option<Self> {
         Some(Self::named(name, self.asked)?.with_ages(self.trails[0].len()))
     }
@@ -190,17 +190,17 @@ impl Theme {
         self.palette
     }
 
-    /// How much colour it may use.
+    /// The depth of colour it uses.
     pub fn depth(&self) -> ColourDepth {
         self.depth
     }
 
-    /// The style of words about the n-th series; the colours repeat after the last.
+    /// The style of text about the n-th series; the colours repeat after the last.
     pub fn curve(&self, series: usize) -> Style {
         self.curves[series % CURVES]
     }
 
-    /// What the line of the n-th series is drawn with; without colour each has a pattern of its own.
+    /// The style of the line of the n-th series; without colour each series has its own dash pattern.
     pub fn series(&self, series: usize) -> Shade {
         let dash = match self.depth {
             ColourDepth::None => Dash::ALL[series % Dash::ALL.len()],
@@ -209,7 +209,7 @@ impl Theme {
         Shade { style: self.curve(series), coverage: 1.0, dash }
     }
 
-    /// What a line of a role is drawn with; without colour what stands behind the motion is dotted.
+    /// The style of a line of a role; without colour, level curves and the like are dotted.
     pub fn line(&self, role: Role) -> Shade {
         let behind = matches!(role, Role::Level | Role::Border | Role::Dim);
         let dotted = self.depth == ColourDepth::None && behind;
@@ -219,13 +219,13 @@ impl Theme {
 
     /// The fading trail of the n-th series, from nearly the background to its colour, brightened.
     ///
-    /// The contrast with the background never falls from one step to the next. Without colour old steps are
+    /// The contrast with the background never decreases from one step to the next. Without colour, old steps are
     /// dimmed and thinned out.
     pub fn trail(&self, series: usize) -> &[Shade] {
         &self.trails[series % CURVES]
     }
 
-    /// The shades of a cloud of points from sparse to dense, of rising contrast.
+    /// The shades of a cloud of points from sparse to dense, with increasing contrast.
     pub fn density(&self) -> &[Shade] {
         &self.density
     }

@@ -1,6 +1,6 @@
-//! A list of values: parameters or initial values, each with its number, unit and, where it has a range, a bar.
+//! A list of values: parameters or initial values, each with its number, its unit and, if it has a range, a bar.
 //!
-//! In: the lab's values and what is selected. Out: cells. Never here: how a value is changed.
+//! In: the lab's values and the selection. Out: cells. Never here: how a value is changed.
 
 use ratatui::layout::{Position, Rect};
 use ratatui::widgets::Widget;
@@ -19,11 +19,11 @@ use crate::model;
 /// Columns of a number.
 const NUMBER: u16 = 10;
 
-/// The most columns of a name and of a unit.
+/// The greatest widths of a name and of a unit.
 const NAME: u16 = 12;
 const UNIT: u16 = 11;
 
-/// Where the columns of a list stand: as wide as its longest name and unit.
+/// The columns of a list: as wide as its longest name and unit.
 struct Columns {
     number: u16,
     unit: u16,
@@ -33,18 +33,18 @@ struct Columns {
 /// A list of values.
 pub(super) struct Values<'a> {
     pub(super) lab: &'a Lab,
-    /// Parameters or initial values.
+    /// Makes the identifier: parameters or initial values.
     pub(super) kind: fn(usize) -> ValueId,
-    /// The selected one.
+    /// The index of the selected value.
     pub(super) selected: usize,
-    /// Whether keys go to this list.
+    /// Whether the list has the focus.
     pub(super) focused: bool,
-    /// The field open for one of them.
+    /// The field in which one of the values is being edited.
     pub(super) field: Option<&'a Field>,
 }
 
 impl Values<'_> {
-    /// Draws the rows around the selected one and, if there is room, what it means.
+    /// Draws the rows around the selected one and, if there is room, its meaning.
     pub(super) fn draw(&self, canvas: &mut Canvas<'_>, area: Rect) {
         let count = self.lab.count(self.kind);
         if count == 0 {
@@ -65,7 +65,7 @@ impl Values<'_> {
         }
     }
 
-    /// What the selected value means, as far as rows are left over.
+    /// The meaning of the selected value, as far as there are rows left.
     fn about(&self, area: Rect, count: usize) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
         let facts = self.lab.value_info((self.kind)(self.selected));
@@ -122,7 +122,7 @@ impl Values<'_> {
     }
 }
 
-/// The bar of a value within its range, if it has one and there is room.
+/// Draws the bar of a value within its range, if it has one and there is room.
 fn bar(
     canvas: &mut Canvas<'_>,
     area: Rect,
@@ -146,7 +146,7 @@ fn bar(
     canvas.region(place, Region::Bar(target, scale));
 }
 
-/// The text of a field, with its end in view, and its cursor.
+/// Draws the text of a field with its end in view, and its cursor.
 pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
     if area.width < 2 {
         return;
@@ -164,7 +164,7 @@ pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
     canvas.point(Position::new(cursor, area.y));
 }
 
-/// The first row of a list that keeps the selected one in view, as near the middle as can be.
+/// The first visible row of a list that shows the selected one as near the middle as possible.
 pub(super) fn window(selected: usize, count: usize, rows: usize) -> usize {
     selected.saturating_sub(rows / 2).min(count.saturating_sub(rows))
 }

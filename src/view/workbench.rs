@@ -1,4 +1,4 @@
-//! The workbench: a system's file being edited, its mistakes in their places, and beside it the system in motion.
+//! The workbench: the editor of a system's file with its diagnostics, and beside it the system in motion.
 //!
 //! In: the workbench, the lab. Out: cells, and how much of the text they show. Never here: what is wrong with a text.
 
@@ -17,13 +17,13 @@ use crate::app::{
     App, Asking, BufferDiagnostic, Caret, Drawn, Lab, Notification, SheetState, SourceBuffer,
 };
 
-/// From this width on the motion has room beside the text.
+/// The width from which the motion is shown beside the text.
 const WIDE: u16 = 112;
 
-/// The rows below the text: what is known of it, and the mistake at the cursor.
+/// The rows below the text, for its status and the diagnostic at the cursor.
 const FOOT: u16 = 4;
 
-/// Draws the workbench, and the lab where there is room beside it.
+/// Draws the workbench, and the lab if there is room beside it.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
@@ -51,13 +51,13 @@ pub(super) fn draw(
     drawn
 }
 
-/// The text with numbers of lines and marks of mistakes at its left.
+/// Draws the text with line numbers and diagnostic marks at its left.
 fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
     let all = sheet.editor.lines();
     let digits = all.len().to_string().len().max(2) as u16;
     let margin = digits + 3;
     let body = columns(area, margin, area.width.saturating_sub(margin));
-    // the last column is for the mark of a line that goes on
+    // The last column is for the mark of a line that continues.
     let wide = body.width.saturating_sub(1);
     let (first, from) = sheet.follow(area.height.into(), wide.into());
     let from = in_sight(canvas, sheet, from, wide);
@@ -78,7 +78,7 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
 
-/// One line from a column on.
+/// Draws one line from a column on.
 fn write(
     canvas: &mut Canvas<'_>,
     at: Rect,
@@ -92,13 +92,13 @@ fn write(
     let comment = comment(line);
     let plain = if line.trim_start().starts_with('[') { Role::Title } else { Role::Text };
     let mut used = 0;
-    // one place more than there are characters: the cursor may stand behind the last
+    // There is one more position than there are characters, because the cursor may be after the last.
     for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {
         let mut room = [0; 4];
         let shown = shown(canvas, c, &mut room);
         let width = shown.width() as u16;
         if used + width > at.width {
-            // the line goes on
+            // The line continues.
             let mark = Rect { x: at.right().saturating_sub(1), width: 1, ..at };
             canvas.left(mark, Role::Dim, canvas.look.glyphs.pick("…", ">"));
             break;
@@ -131,8 +131,8 @@ fn put(canvas: &mut Canvas<'_>, at: Position, shown: &str, style: Style) {
     }
 }
 
-/// What a character is shown as: itself where it has cells of its own; under ASCII glyphs `<theta>`, by what it is spelt
-/// as; any other `<U+6F22>`, by its number. So nothing is taken for what it is not.
+/// How a character is shown: as itself if it occupies cells of its own, in ASCII by its spelling (`<theta>`), otherwise by
+/// its number (`<U+6F22>`). Thus every character can be identified.
 fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str> {
     let itself = c.width().is_some_and(|width| width > 0);
     let text: &'r str = c.encode_utf8(room);
@@ -145,12 +145,12 @@ fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str
     Cow::Owned(spelt)
 }
 
-/// The first column shown, so far on that the cursor is in sight also where characters take several cells.
+/// The first column shown, chosen so that the cursor is visible even if characters take several cells.
 fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -> usize {
     let cursor = sheet.editor.cursor();
     let line = sheet.editor.lines().get(cursor.row).map_or("", String::as_str);
     let cells = |c: char| shown(canvas, c, &mut [0; 4]).width();
-    // the character under the cursor too, or the blank behind the last
+    // This includes the character under the cursor, or the blank after the last.
     let seen = line.chars().chain([' ']).take(cursor.column + 1);
     let widths: Vec<usize> = seen.map(cells).collect();
     let mut from = from.min(cursor.column);
@@ -162,12 +162,12 @@ fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -
     from
 }
 
-/// Whether a mistake is underlined here; one without extent has a place of one character.
+/// Whether a diagnostic underlines this position; an empty one covers one character.
 fn covers(flaw: &BufferDiagnostic, spot: Caret) -> bool {
     spot == flaw.from || flaw.from <= spot && spot < flaw.to
 }
 
-/// Where the comment of a line begins, quotes passed over.
+/// The column at which a line's comment begins; quoted text is skipped.
 fn comment(line: &str) -> Option<usize> {
     let mut quote = None;
     for (column, c) in line.chars().enumerate() {
@@ -181,7 +181,7 @@ fn comment(line: &str) -> Option<usize> {
     None
 }
 
-/// What is known of the text, or what is asked for; what is reported in passing stands in the place of the first.
+/// Draws the status of the text or the open prompt; a notification replaces the first line.
 fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Option<&Notification>) {
     if let Some(asking) = &sheet.asking {
         return self::asking(canvas, area, asking, notice);
@@ -218,7 +218,7 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
     let message = words(&canvas.text(&text), width);
     let help = help.map_or_else(Vec::new, |help| words(&canvas.text(&help), width));
     let role = if flaw.warning { Role::Warn } else { Role::Text };
-    // the help keeps its row where both are long
+    // The help keeps its row if both are long.
     let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
     let shown = message.iter().take(room).map(|line| (role, line));
     let helped = help.iter().map(|line| (Role::Accent, line));
@@ -229,7 +229,7 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
     }
 }
 
-/// What is reported in passing; how many rows it takes.
+/// Draws a notification and returns the number of rows it takes.
 fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification) -> usize {
     let role = if notice.error { Role::Bad } else { Role::Good };
     let lines = words(&canvas.text(&notice.text), area.width.into());

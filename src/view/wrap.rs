@@ -1,15 +1,15 @@
 //! Wrapping: paragraphs and formulas in lines of a given width.
 //!
-//! In: text. Out: its lines. Never here: styles, or where the lines stand.
+//! In: text. Out: its lines. Never here: styles, or the positions of lines.
 
 use unicode_width::UnicodeWidthStr;
 
-/// The lines of a paragraph, broken at spaces; a word longer than a line is broken where it must.
+/// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
     fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0)
 }
 
-/// The lines of a paragraph, at most so many: the last then holds all that is left, so that who writes it marks the cut.
+/// The lines of a paragraph, at most `rows` of them: the last contains all the rest, so that the caller can mark the cut.
 pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
     let mut lines = words(text, width);
     if lines.len() > rows {
@@ -19,14 +19,14 @@ pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
     lines
 }
 
-/// The text with a capital at its beginning.
+/// The text with its first letter capitalised.
 pub(super) fn capitalised(text: &str) -> String {
     let mut messages = text.chars();
     messages.next().map_or_else(String::new, |first| first.to_uppercase().chain(messages).collect())
 }
 
-/// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses where that is enough, else within
-/// them, else at spaces and before `*`. All lines but the first are indented.
+/// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses if that suffices, else inside them,
+/// else at spaces and before `*`. All lines but the first are indented.
 pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
     let room = width.saturating_sub(indent).max(1);
     let mut pieces = Vec::new();
@@ -34,10 +34,10 @@ pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
     fill(pieces.into_iter(), width, indent)
 }
 
-/// How deep in parentheses a formula is broken before its operators.
+/// The depth of parentheses down to which a formula is broken before its operators.
 const DEEPEST: usize = 6;
 
-/// Cuts a formula into pieces that fit, each with whether a space parts it from the one before.
+/// Cuts a formula into pieces that fit; the flag tells whether a space precedes the piece.
 fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, bool)>) {
     for term in terms(text, depth) {
         if term.width() <= room {
@@ -46,7 +46,7 @@ fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, boo
             break_up(&term, room, depth + 1, pieces);
         } else {
             for (i, factor) in factors(&term).into_iter().enumerate() {
-                // What follows a `*` sign stands close to it.
+                // There is no space after a `*` sign.
                 let spaced = i == 0 || factor.starts_with(' ');
                 pieces.push((factor.trim_start().to_owned(), spaced));
             }
@@ -54,7 +54,7 @@ fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, boo
     }
 }
 
-/// A formula cut before each `+`, `−`, `-` and `=` that stands between spaces at most so deep in parentheses.
+/// Cuts a formula before each `+`, `−`, `-` and `=` between spaces that is at most `depth` deep in parentheses.
 fn terms(text: &str, depth: usize) -> Vec<String> {
     let mut terms: Vec<String> = Vec::new();
     let mut open = 0_usize;
@@ -73,7 +73,7 @@ fn terms(text: &str, depth: usize) -> Vec<String> {
     terms
 }
 
-/// A long term cut at its spaces (kept at the front of what follows) and before each `*`.
+/// Cuts a long term at its spaces, which stay in front of the next piece, and before each `*`.
 fn factors(term: &str) -> Vec<String> {
     let mut factors = vec![String::new()];
     for character in term.chars() {
@@ -87,7 +87,7 @@ fn factors(term: &str) -> Vec<String> {
     factors
 }
 
-/// Fills lines with pieces; each comes with whether a space parts it from the one before.
+/// Fills lines with pieces; the flag tells whether a space precedes the piece.
 fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usize) -> Vec<String> {
     let width = width.max(1);
     let indent = indent.min(width / 2);
@@ -113,7 +113,7 @@ fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usiz
                 fresh = true;
                 continue;
             }
-            // Alone on its line and still too long: cut by letters.
+            // The piece is alone on its line and still too long, so it is cut between letters.
             let room = width.saturating_sub(line.width()).max(1);
             let (head, rest) = split(&piece, room);
             line.push_str(&head);
@@ -128,7 +128,7 @@ fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usiz
     lines
 }
 
-/// The first `room` columns of a text (at least one letter), and the rest.
+/// Splits off the first `room` columns of a text, at least one character.
 fn split(text: &str, room: usize) -> (String, String) {
     let mut head = String::new();
     for (index, character) in text.char_indices() {

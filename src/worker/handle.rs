@@ -1,4 +1,4 @@
-//! The worker as those who talk to it see it.
+//! The handle by which other threads use the worker.
 //!
 //! In: commands. Out: the newest snapshot. Never here: the loop on the thread.
 
@@ -16,32 +16,32 @@ use super::thread::Message;
 use crate::cancel::Cancel;
 use crate::experiment::{Command, Snapshot};
 
-/// The name of the worker's thread, for a panic hook to tell it from the one that owns the
-/// terminal.
+/// The name of the worker's thread, by which a panic hook distinguishes it from the thread that
+/// owns the terminal.
 pub const THREAD_NAME: &str = "phaselab worker";
 
-/// How long the end of a worker is waited for: a step looks at its token far sooner, and one that
-/// does not must not hold up the end of the program.
+/// How long a worker may take to end. A step normally checks its token far sooner, and one that
+/// does not must not delay the end of the program.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// A thread and the two ways to and from it. Dropping it ends the thread.
+/// A thread with its mailbox and its snapshot slot. Dropping it ends the thread.
 #[derive(Debug)]
 pub struct Worker {
     mailbox: Sender<Message>,
     slot: Arc<ArcSwapOption<Snapshot>>,
     seen: Option<Arc<Snapshot>>,
     epoch: u64,
-    /// Stops what is being computed.
+    /// Cancels the current computation.
     cancel: Cancel,
     /// Closed when the thread has ended.
     end: Receiver<()>,
 }
 
 impl Worker {
-    /// A worker with nothing to do yet.
+    /// Creates a worker without an experiment.
     ///
     /// # Errors
-    /// Where the system has no thread to give.
+    /// Returns an error if the system cannot create a thread.
     pub fn idle() -> io::Result<Worker> {
         let (mailbox, messages) = mpsc::channel();
         let slot = Arc::new(ArcSwapOption::empty());
@@ -54,18 +54,18 @@ impl Worker {
         Ok(Worker { mailbox, slot, seen: None, epoch: 0, cancel: Cancel::new(), end })
     }
 
-    /// A worker with an experiment, which is of epoch 1.
+    /// Creates a worker with an experiment, which has epoch 1.
     ///
     /// # Errors
-    /// Where the system has no thread to give.
+    /// Returns an error if the system cannot create a thread.
     pub fn spawn(subject: impl Runnable + 'static) -> io::Result<Worker> {
         let mut worker = Worker::idle()?;
         worker.load(subject);
         Ok(worker)
     }
 
-    /// Puts another experiment in the place of the present one; its snapshots are of the epoch
-    /// returned, and none of another epoch follows them.
+    /// Replaces the experiment. Its snapshots have the returned epoch, and no snapshot of another
+    /// epoch follows them.
     pub fn load(&mut self, mut subject: impl Runnable + 'static) -> u64 {
         self.epoch += 1;
         self.cancel.cancel();
@@ -75,17 +75,17 @@ impl Worker {
         self.epoch
     }
 
-    /// The epoch of what was loaded last; 0 before anything was.
+    /// The epoch of the last loaded experiment; 0 if there was none.
     pub fn epoch(&self) -> u64 {
         self.epoch
     }
 
-    /// Hands over a command. It is obeyed before the next slice, and a snapshot follows at once.
+    /// Sends a command. It is executed before the next slice, and a snapshot follows at once.
     pub fn tell(&self, command: Command) {
         self.send(Message::Execute(command));
     }
 
-    /// The newest snapshot of the present epoch, if it was not returned before.
+    /// The newest snapshot of the current epoch, unless it was already returned.
     pub fn newest(&mut self) -> Option<Arc<Snapshot>> {
         let newest = self.slot.load_full().filter(|s| s.epoch == self.epoch)?;
         if self.seen.as_ref().is_some_and(|seen| Arc::ptr_eq(seen, &newest)) {
@@ -96,7 +96,7 @@ impl Worker {
     }
 
     fn send(&self, letter: Message) {
-        // a thread that is gone cannot be reported anything; there is nothing to be done about it
+        // the message is of no use to a thread that has ended
         let _ = self.mailbox.send(letter);
     }
 }
@@ -107,7 +107,7 @@ impl Drop for Worker {
         self.send(Message::Stop);
         // its panics were caught where they happened; nothing is ever sent
         if let Err(RecvTimeoutError::Timeout) = self.end.recv_timeout(PATIENCE) {
-            // a step that does not look at its token ends with the program
+            // a step that does not check its token ends with the program
         }
     }
 }

@@ -1,12 +1,12 @@
-//! Keeps simulated time at a chosen speed against the wall clock.
+//! Runs simulated time at a chosen speed relative to wall time.
 
 use std::time::{Duration, Instant};
 
 /// How far simulated time may fall behind before the lost time is given up, so that an experiment
-/// too slow for its speed does not rush when it becomes fast again.
+/// that was too slow does not rush when it becomes fast again.
 const MOST_BEHIND: Duration = Duration::from_millis(50);
 
-/// A pair of moments that belong together, and the speed since.
+/// A simulated time, its instant of wall time, and the speed since.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     wall: Instant,
@@ -15,12 +15,13 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Simulated `time` is now, and runs at `speed`.
+    /// Starts at simulated `time` with `speed`.
     pub(super) fn new(now: Instant, time: f64, speed: f64) -> Pace {
         Pace { wall: now, time, speed }
     }
 
-    /// The simulated time that it should be; infinite when flat out. `time` is what it is.
+    /// The simulated time that should be reached now; infinite for an unlimited speed. `time` is
+    /// the time actually reached.
     pub(super) fn target(&mut self, now: Instant, time: f64) -> f64 {
         if self.speed.is_infinite() {
             return f64::INFINITY;
@@ -48,7 +49,7 @@ mod tests {
         let mut pace = Pace::new(start, 1.0, 2.0);
         assert!(near(pace.target(after(45), 1.0), 1.09));
         assert!(near(pace.target(after(90), 1.09), 1.18));
-        // of 60 ms ten are, for good
+        // of 60 ms, 10 ms are lost for good
         let mut pace = Pace::new(start, 1.0, 2.0);
         assert!(near(pace.target(after(60), 1.0), 1.1));
         assert!(near(pace.target(after(70), 1.1), 1.12));

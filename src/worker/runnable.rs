@@ -1,28 +1,28 @@
-//! What a worker can keep in motion. There is one in the program, the [`Experiment`]; tests have
-//! others, which panic or count.
+//! The subject of a worker. The program has only one kind, the [`Experiment`]; tests have others,
+//! which panic or count.
 
 use crate::cancel::Cancel;
 use crate::experiment::{Command, Experiment, Progress, Snapshot, Status};
 
-/// Something that obeys commands, moves in time and can be looked at.
+/// Something that executes commands, advances in time and takes snapshots.
 pub trait Runnable: Send {
-    /// Gives all snapshots this epoch.
+    /// Sets the epoch of all further snapshots.
     fn set_epoch(&mut self, epoch: u64);
-    /// The token that stops what it computes, also in the middle of a step.
+    /// The token that cancels its computations, even within a step.
     fn cancel(&self) -> Cancel {
         Cancel::new()
     }
-    /// Does what a command asks.
+    /// Executes a command.
     fn execute(&mut self, command: Command);
-    /// Moves on to a time in at most `budget` steps.
+    /// Advances to a time in at most `budget` steps.
     fn advance(&mut self, time: f64, budget: u64) -> Progress;
-    /// The present time.
+    /// The current time.
     fn time(&self) -> f64;
-    /// Simulated seconds per second of the wall clock; infinite means flat out.
+    /// Simulated seconds per second of wall time; infinite for as fast as possible.
     fn speed(&self) -> f64;
     /// Whether time runs.
     fn status(&self) -> Status;
-    /// What can be seen of it now.
+    /// Takes a snapshot of the current state.
     fn snapshot(&self) -> Snapshot;
 }
 

@@ -1,7 +1,8 @@
-//! Jobs on a thread of their own, beside the worker's: one at a time, and the newest is the one that counts.
+//! Background jobs, each on its own thread beside the worker's: one at a time, and the newest replaces the last.
 //!
-//! In: [`Job`]s with their numbers. Out: how far the one under way is, and what became of it, once. A job that is replaced, or
-//! whose owner goes, is asked to stop, and what it still returns is dropped. Never here: what is computed, and who asked.
+//! In: [`Job`]s with their numbers. Out: the progress of the current job, and its outcome once. A job that is
+//! replaced, or whose owner is dropped, is cancelled, and its result is discarded. Never here: what is computed, and
+//! for whom.
 
 use std::fmt;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -10,12 +11,12 @@ use std::time::Duration;
 
 use crate::job::{Job, Outcome, Progress, Share};
 
-/// A derivation goes as deep as its expressions are nested, and a stranger's file may nest them far.
+/// A derivation recurses as deeply as its expressions are nested, and an untrusted file may nest them deeply.
 const STACK: usize = 64 << 20;
 
-/// A place on the side where one job runs at a time.
+/// Runs one background job at a time.
 pub struct Side<T> {
-    /// What its threads are called.
+    /// The name of its threads.
     name: &'static str,
     sender: Sender<(u64, Outcome<T>)>,
     receiver: Receiver<(u64, Outcome<T>)>,
@@ -23,25 +24,25 @@ pub struct Side<T> {
 }
 
 impl<T: Send + 'static> Side<T> {
-    /// A place with nothing to do; the name is that of its threads.
+    /// Creates an idle instance with a name for its threads.
     pub fn new(name: &'static str) -> Self {
         let (sender, receiver) = channel();
         Self { name, sender, receiver, under_way: None }
     }
 
-    /// Begins a job, and stops the one before.
+    /// Starts a job and cancels the one before.
     pub fn begin(&mut self, ticket: u64, job: Job<T>) {
         self.begin_with(ticket, job, Progress::new());
     }
 
-    /// The same, where the progress is known to somebody else too.
+    /// Like [`begin`](Side::begin), with a progress that the caller shares.
     pub fn begin_with(&mut self, ticket: u64, job: Job<T>, progress: Progress) {
         self.stop();
         self.under_way = Some((ticket, progress.clone()));
         let sender = self.sender.clone();
         let work = move || {
             let outcome = job.run(&progress);
-            // what was computed may be large, and nobody waits for a job that was stopped
+            // a result may be large, and the result of a cancelled job is not needed
             if !matches!(outcome, Outcome::Cancelled) {
                 // the program may have ended meanwhile
                 let _ = sender.send((ticket, outcome));
@@ -54,33 +55,33 @@ impl<T: Send + 'static> Side<T> {
         }
     }
 
-    /// The job under way is no longer wanted.
+    /// Cancels the current job.
     pub fn stop(&mut self) {
         if let Some((_, progress)) = self.under_way.take() {
             progress.cancel();
         }
     }
 
-    /// Whether a job is under way.
+    /// Whether a job is running.
     pub fn is_busy(&self) -> bool {
         self.under_way.is_some()
     }
 
-    /// The number of the job under way, and how far it is.
+    /// The number and progress of the current job.
     pub fn share(&self) -> Option<(u64, Share)> {
         self.under_way.as_ref().map(|(ticket, progress)| (*ticket, progress.share()))
     }
 
-    /// What became of the job, once it has ended.
+    /// The outcome of the job, once it has ended.
     pub fn take(&mut self) -> Option<(u64, Outcome<T>)> {
         let newest = self.under_way.as_ref()?.0;
         let ended = self.receiver.try_iter().find(|(ticket, _)| *ticket == newest)?;
-        // its token may be that of what it made
+        // the job's token may be the token of its result
         self.under_way = None;
         Some(ended)
     }
 
-    /// The same, waited for so long; `None` where there was none, or it takes longer.
+    /// Waits this long for the outcome. Returns `None` if there is no job or it takes longer.
     pub fn wait(&mut self, time: Duration) -> Option<Outcome<T>> {
         let (newest, _) = self.under_way.take()?;
         let (ticket, outcome) = self.receiver.recv_timeout(time).ok()?;

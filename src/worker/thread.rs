@@ -16,20 +16,20 @@ use crate::experiment::{Command, Failure, Progress, Snapshot, Status};
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
 
-/// What can lie in the mailbox.
+/// A message to the worker.
 pub(super) enum Message {
     /// A command for the subject.
     Execute(Command),
-    /// Another subject, and its epoch.
+    /// A new subject with its epoch.
     Load(u64, Box<dyn Runnable>),
-    /// The end.
+    /// Ends the thread.
     Stop,
 }
 
-/// The end was asked for.
+/// The thread was asked to end.
 struct Stopped;
 
-/// Works until told to stop.
+/// Runs until it receives [`Message::Stop`].
 pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) {
     let mut bench = WorkerLoop {
         messages,
@@ -43,7 +43,7 @@ pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) 
     while bench.turn().is_ok() {}
 }
 
-/// The worker's own state.
+/// The worker's state.
 struct WorkerLoop<'a> {
     messages: &'a Receiver<Message>,
     slot: &'a ArcSwapOption<Snapshot>,
@@ -56,7 +56,7 @@ struct WorkerLoop<'a> {
 }
 
 impl WorkerLoop<'_> {
-    /// One round: letters, a slice of work, a snapshot, and sleep where there is time.
+    /// One iteration: messages, a slice of work, a snapshot, and sleep if there is time.
     fn turn(&mut self) -> Result<(), Stopped> {
         self.read_letters()?;
         let Some(subject) = self.running() else {
@@ -86,7 +86,7 @@ impl WorkerLoop<'_> {
         self.subject.as_deref().filter(|subject| subject.status() == Status::Running)
     }
 
-    /// Sleeps so long, or until a letter comes.
+    /// Sleeps for this long, or until a message comes.
     fn wait(&mut self, time: Duration) -> Result<(), Stopped> {
         match self.messages.recv_timeout(time) {
             Ok(letter) => self.handle(letter),
@@ -106,8 +106,8 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Does what a letter asks, and shows what came of it. Simulated time goes on without a
-    /// hitch, unless the letter was about it.
+    /// Handles a message and publishes the result. Simulated time continues without interruption,
+    /// unless the message changed it.
     fn handle(&mut self, letter: Message) -> Result<(), Stopped> {
         let before = self.clockwork();
         match letter {
@@ -130,13 +130,13 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// What the pace depends on: whether time runs, from where, and how fast.
+    /// The inputs of the pace: whether time runs, the current time, and the speed.
     fn clockwork(&self) -> Option<(bool, f64, f64)> {
         let subject = self.subject.as_deref()?;
         Some((subject.status() == Status::Running, subject.time(), subject.speed()))
     }
 
-    /// Puts a snapshot into the slot.
+    /// Publishes a snapshot.
     fn publish(&mut self) {
         if let Some(snapshot) = self.guarded(|subject| subject.snapshot()) {
             self.slot.store(Some(Arc::new(snapshot)));
@@ -144,11 +144,11 @@ impl WorkerLoop<'_> {
         self.published = Instant::now();
     }
 
-    /// Lets the subject do something; where it panics it is given up, and the newest snapshot
-    /// says so.
+    /// Lets the subject do something. If it panics, it is dropped, and the newest snapshot reports
+    /// the panic.
     fn guarded<T>(&mut self, act: impl FnOnce(&mut dyn Runnable) -> T) -> Option<T> {
         let subject = self.subject.as_deref_mut()?;
-        // the subject is dropped if it panics, so nobody sees what it left undone
+        // the subject is dropped if it panics, so its half-done state is never seen
         match catch_unwind(AssertUnwindSafe(|| act(subject))) {
             Ok(result) => Some(result),
             Err(panic) => {

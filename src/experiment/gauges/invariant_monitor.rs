@@ -1,55 +1,56 @@
-//! One gauge's own memory: what its quantity was, how far it has been from that, and what to think of it.
+//! The state of one gauge: its reference value, its drift, and the verdict.
 //!
-//! In: values, and what moves. Out: a [`Gauge`]. Never here: where the values come from.
+//! In: values, and the size of the moving terms. Out: a [`Gauge`]. Never here: where the values come from.
 
 use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::TermWatch;
 
-/// The gauge that is constant by the law of the energy's change.
+/// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const LEDGER: &str = "energy ledger";
 
-/// One gauge's own memory.
+/// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
     pub(super) name: String,
     shown: String,
     reason: String,
-    /// Whether that follows from the law of motion.
+    /// Whether it follows from the law of motion that the quantity is constant.
     proved: bool,
-    /// Why it is not constant, where it is not.
+    /// The reason why it is not constant, if it is not.
     broken: Option<String>,
     pub(super) channel: usize,
-    /// Which quantity of a [`TermWatch`] it is, less the work where it is the ledger.
+    /// The index of its quantity in a [`TermWatch`]; the ledger subtracts the work.
     quantity: Option<usize>,
-    /// What its rounding is measured by.
+    /// The expression that its rounding error is measured with.
     pub(super) expression: Expr,
     /// Whether its reference jumps with an impulse.
     jumps: bool,
     /// Its value when the reference was taken.
     initial: f64,
-    /// What distances are measured from: the initial value, and what impulses have added to it.
+    /// The value that distances are measured from: the initial value plus the jumps of impulses.
     reference: f64,
-    /// The same, added up from its terms in `f64`.
+    /// The reference as the sum of its terms in `f64`.
     rough_reference: f64,
-    /// What its terms were at rest when the reference was taken.
+    /// The terms at rest when the reference was taken.
     at_rest: Vec<f64>,
     /// The greatest error of its value since then, in units of ε.
     rounding: f64,
-    /// How much of it moves on the mean.
+    /// The mean size of its moving part.
     moving: Mean,
     /// The greatest distance from the reference since then.
     farthest: f64,
-    /// The greatest distance over what moved on the mean until then, or at that time where that was more.
+    /// The greatest drift: a distance over the mean moving part up to that time, or over the moving part at that time
+    /// if it was greater.
     worst: f64,
-    /// When it left its value by more than it may.
+    /// When its drift first exceeded the limit.
     left: Option<f64>,
-    /// The distances, with their signs.
+    /// The signed distances.
     distances: History,
 }
 
-/// What a monitor is about.
+/// The quantity that a monitor watches.
 pub(super) struct Subject {
     pub(super) name: String,
     pub(super) shown: String,
@@ -88,7 +89,7 @@ impl InvariantMonitor {
         }
     }
 
-    /// Takes the present as the reference.
+    /// Takes the current value as the reference.
     pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
         self.initial = values[self.channel];
         self.reference = self.initial;
@@ -102,7 +103,7 @@ impl InvariantMonitor {
         self.distances = History::new();
     }
 
-    /// Goes on from what another monitor of this name knew of the same quantity.
+    /// Continues from the saved reference of the same quantity.
     pub(super) fn restore(&mut self, known: &Reference, time: f64) {
         self.rough_reference += known.from - self.reference;
         self.reference = known.from;
@@ -114,7 +115,7 @@ impl InvariantMonitor {
         self.left = known.left;
     }
 
-    /// An impulse has led from some values to others.
+    /// Shifts the reference by the jump of an impulse.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
         let jump = after[self.channel] - before[self.channel];
         if self.jumps && jump.is_finite() {
@@ -123,28 +124,28 @@ impl InvariantMonitor {
         }
     }
 
-    /// Its value, as uncertain as this many units of ε.
+    /// Records the rounding error of its value, in units of ε.
     pub(super) fn measure(&mut self, error: f64) {
         if error.is_finite() {
             self.rounding = self.rounding.max(error);
         }
     }
 
-    /// Its value as its terms add up in `f64`.
+    /// Its value as the sum of its terms in `f64`.
     fn rough(&self, terms: &TermWatch) -> Option<f64> {
         let quantity = self.quantity.filter(|&quantity| terms.has(quantity))?;
         let work = if self.jumps { 0.0 } else { terms.work() };
         Some(terms.value(quantity) - work)
     }
 
-    /// How much of it moves; and its terms may have grown since its error was measured.
+    /// The size of its moving part. Also updates the rounding error, since the terms may have grown.
     fn moving(&mut self, terms: &TermWatch) -> f64 {
         let Some(quantity) = self.quantity else { return 0.0 };
         self.measure(terms.size(quantity));
         terms.moving(quantity, &self.at_rest)
     }
 
-    /// Takes note of a value known to its last digit; `floor` is what rounding may do to a value of size 1.
+    /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
     pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
         let distance = values[self.channel] - self.reference;
         let moving = self.moving(terms);
@@ -152,24 +153,24 @@ impl InvariantMonitor {
         distance
     }
 
-    /// The same, one of those that the history is made of.
+    /// Records an accurate value for the history as well.
     pub(super) fn sample(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) {
         let distance = self.look(time, values, terms, floor);
         self.distances.push(time, distance);
     }
 
-    /// Takes note of the value at the end of a step, or within. What rounding explains says nothing here.
+    /// Records the value at the end of a step or within it. A distance that rounding explains is ignored.
     pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
         let Some(value) = self.rough(terms) else { return };
         let distance = value - self.rough_reference;
         let moving = self.moving(terms);
-        // what moves after a motion was ruined is no measure of it
+        // the moving part of a lost motion is no measure of it
         if self.worst <= LOST {
             self.moving.note(time, moving);
         }
         if distance.abs() > floor * self.rounding {
             self.note(time, distance, moving, floor);
-            // where rows lie within a step, they are the history
+            // if there are rows within a step, these make the history
             if !dense {
                 self.distances.push(time, distance);
             }
@@ -185,14 +186,14 @@ impl InvariantMonitor {
             let moving = moving.max(self.moving.value());
             let drift = if moving > 0.0 { distance / moving } else { distance / self.rounding };
             self.worst = self.worst.max(drift);
-            // rows lie before the end of the step that was looked at first
+            // rows lie before the end of the step, which was recorded first
             if drift > LEFT && self.left.is_none_or(|left| time < left) {
                 self.left = Some(time);
             }
         }
     }
 
-    /// What drift is relative to: how much moves on the mean; where nothing does, what the terms are worth.
+    /// The scale of drift: the mean moving part, or the size of the terms if nothing moves.
     fn scale(&self) -> f64 {
         let moving = self.moving.value();
         if moving > 0.0 { moving } else { self.rounding }
@@ -201,7 +202,7 @@ impl InvariantMonitor {
     pub(super) fn show(&self, values: &[f64], since: f64, floor: f64) -> Gauge {
         let value = values[self.channel];
         let (scale, rounding) = (self.scale(), floor * self.rounding);
-        // what is rounding is small beside what is rounded
+        // a rounding error is small compared with the terms
         let drift = |distance: f64| match distance {
             0.0 => 0.0,
             _ if distance <= rounding => distance / scale.max(self.rounding),
@@ -241,17 +242,17 @@ impl InvariantMonitor {
     }
 }
 
-/// A mean over time of something looked at again and again.
+/// A mean over time of a sampled quantity.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mean {
-    /// When it was last looked at.
+    /// The time of the last sample.
     time: f64,
     value: f64,
     weight: f64,
 }
 
 impl Mean {
-    /// The one of a past so long.
+    /// A mean with an earlier weight.
     fn of(value: f64, weight: f64, time: f64) -> Mean {
         Mean { time, value, weight }
     }

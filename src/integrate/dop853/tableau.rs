@@ -1,24 +1,24 @@
-//! The coefficients of Dormand and Prince's method of order 8 with its two error estimates and
-//! its interpolant of order 7, as E. Hairer and G. Wanner publish them with Solving Ordinary
-//! Differential Equations I (second edition, II.5 and II.6). The tests check them against the
-//! order conditions.
+//! The coefficients of Dormand and Prince's method of order 8 with its two error estimates and its
+//! interpolant of order 7, as E. Hairer and G. Wanner publish them with Solving Ordinary
+//! Differential Equations I (second edition, II.5 and II.6). The tests check them against the order
+//! conditions.
 
-/// A coefficient and the stage whose slope it goes with.
+/// The index of a stage and the coefficient of its slope.
 pub(super) type Term = (usize, f64);
 
 /// One stage.
 pub(super) struct Stage {
-    /// At which part of the step it stands.
+    /// The time of the stage as a part of the step.
     pub(super) at: f64,
-    /// The slopes that lead there.
+    /// The slopes it is computed from.
     pub(super) from: &'static [Term],
 }
 
-/// How many stages the method has.
+/// The number of stages of the method.
 pub(super) const METHOD_STAGES: usize = 12;
 
-/// The stages: those of the method, then its result, whose slope is the next step's first, then
-/// three for the interpolant alone.
+/// The stages: those of the method, then its result, whose slope is the first of the next step,
+/// then three for the interpolant alone.
 pub(super) const STAGES: [Stage; 16] = [
     Stage { at: 0.0, from: &[] },
     Stage { at: 0.052_600_151_958_767_73, from: &[(0, 0.052_600_151_958_767_73)] },
@@ -249,8 +249,8 @@ pub(super) const DENSE: [&[Term]; 4] = [
 mod tests {
     use super::{FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
 
-    /// A rooted tree, by what grows from its root; in one order only, so that equal trees are
-    /// equal.
+    /// A rooted tree, given by the subtrees of its root in a canonical order, so that equal trees
+    /// compare equal.
     #[derive(Clone, PartialEq, PartialOrd, Debug)]
     struct Tree(Vec<Tree>);
 
@@ -277,7 +277,7 @@ mod tests {
         }
     }
 
-    /// All trees of an order: a leaf is put on each node of every tree of the order below.
+    /// All trees of an order, from adding a leaf to each node of every tree of the order below.
     fn trees(order: usize) -> Vec<Tree> {
         if order == 1 {
             return vec![Tree(Vec::new())];

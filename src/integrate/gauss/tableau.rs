@@ -1,4 +1,4 @@
-//! The coefficients of Gauss's methods of two and of three stages.
+//! The coefficients of Gauss's methods with two and three stages.
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, table II.1.1.
 
@@ -7,13 +7,13 @@ use crate::num::{DoubleDouble, Real};
 /// The coefficients of one method.
 #[derive(Clone, Debug)]
 pub(super) struct Tableau {
-    /// c: at which parts of a step the stages stand.
+    /// c, the times of the stages as parts of a step.
     pub(super) nodes: Vec<DoubleDouble>,
     /// b.
     pub(super) weights: Vec<DoubleDouble>,
     /// a, row by row.
     pub(super) matrix: Vec<Vec<DoubleDouble>>,
-    /// Row i: the polynomial through the slopes at the nodes, taken at 1 + c_i.
+    /// Row i: the polynomial through the slopes at the nodes, evaluated at 1 + c_i.
     pub(super) onward: Vec<Vec<f64>>,
 }
 

@@ -1,9 +1,10 @@
-//! Singular configurations of the constraints on the way of a motion: told where they are passed,
-//! and named where they stop it.
+//! Singular configurations of the constraints along a motion: reported where they are passed, and
+//! given as the reason where they stop it.
 //!
-//! At such a place the directions of the constraints depend on each other, and several motions may
-//! meet. One that runs through it smoothly leaves it with the orientation of these directions
-//! reversed: that is how a passage is seen, however long the step. Never here: which constraints hold.
+//! At such a configuration the directions of the constraints are dependent, and several motions may
+//! meet. A motion that passes it smoothly leaves it with the orientation of these directions
+//! reversed; this detects a passage, however long the step. Never here: which constraints are
+//! enforced.
 
 use super::Propagator;
 use crate::integrate::{Settings, Stepper, Stepping, method_named};
@@ -12,59 +13,61 @@ use crate::system::{
     ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
 };
 
-/// Between two looks whose directions are closer than this cosine nothing has been passed.
+/// Between two samples whose directions have at least this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;
 
-/// How often the time between two looks is halved to tell a passage from a fast turn.
+/// The number of times the interval between two samples is halved to distinguish a passage from a
+/// fast rotation.
 const HALVINGS: u32 = 60;
 
-/// A step shorter than this part of the regular ones does not count as one of them, …
+/// A step shorter than this part of the regular ones does not count as regular, …
 const REGULAR: f64 = 0.1;
 
-/// … though these become shorter with each: a motion may become faster for good.
+/// … though the reference shrinks by this factor with each step, since a motion may become faster
+/// permanently.
 const FORGETTING: f64 = 0.9999;
 
-/// A method that may lead past a singular configuration is tried with about so many steps to it, …
+/// A method that may pass a singular configuration is tried with about this many steps to it, …
 const STEPS_THERE: f64 = 50.0;
 
-/// … at most with so many, …
+/// … at most with this many, …
 const MOST_STEPS: u32 = 4000;
 
 /// … and once more with half the step: the results may differ by this part.
 const AGREES: f64 = 1e-3;
 
-/// From where the motion began it is followed beyond the place by this part of the way to it.
+/// A trial from the beginning of the motion goes beyond the place by this part of the time to it.
 const BEYOND: f64 = 0.05;
 
-/// A number that changes by less than this part of the largest of its kind is not looked at.
+/// A number that changes by less than this part of the largest of its kind is ignored.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// So many steps are tried, each a tenth of the one before.
+/// The number of step sizes tried, each a tenth of the one before.
 const STEPS_TRIED: u32 = 3;
 
-/// What is watched of one motion.
+/// The data recorded to detect singular configurations of one motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
-    /// When the directions were looked at last, and what they were.
+    /// The time of the last sample, and its directions.
     seen: Option<(f64, Directions)>,
-    /// Passages that lie before the end of the last step and are still to come.
+    /// Passages before the end of the last step that the current state has not reached.
     ahead: Vec<f64>,
     passed: u64,
     first: Option<f64>,
-    /// A state before steps became much shorter, and the step then.
+    /// A state before steps became much shorter, and the step there.
     regular: Option<State>,
     pace: f64,
-    /// Where it last began, or went on anew.
+    /// The state at which it last began or continued.
     begun: Option<State>,
 }
 
 impl Propagator {
-    /// How often the motion has passed a singular configuration of its constraints, and when first.
+    /// The number of singular configurations passed, and the time of the first.
     pub fn singular_passages(&self) -> (u64, Option<f64>) {
         (self.watch.passed, self.watch.first)
     }
 
-    /// Goes on from the present state, which nothing has led to.
+    /// Restarts from the current state, which does not continue the motion before.
     pub(super) fn watch_from_here(&mut self) {
         self.watch.ahead.clear();
         self.watch.seen = match (&mut self.projector, self.state.form) {
@@ -78,8 +81,8 @@ impl Propagator {
         self.watch.pace = 0.0;
     }
 
-    /// Notes the state from which the next step is taken, if the last one was not much shorter than
-    /// those before.
+    /// Records the state from which the next step is taken, if the last one was not much shorter
+    /// than those before.
     pub(super) fn note_regular(&mut self) {
         let (begin, end) = self.stepper.interval();
         let Watch { regular, pace, .. } = &mut self.watch;
@@ -93,7 +96,7 @@ impl Propagator {
         }
     }
 
-    /// Looks whether the step just taken passes a singular configuration.
+    /// Checks whether the last step passes a singular configuration.
     pub(super) fn watch_step(&mut self) {
         let Some(projector) = &mut self.projector else { return };
         let (begin, end) = self.stepper.interval();
@@ -112,7 +115,7 @@ impl Propagator {
         *seen = Some((end, here));
     }
 
-    /// The motion has come to a time: passages before it have taken place.
+    /// Records the passages before a time that the motion has reached.
     pub(super) fn note_passages(&mut self, time: f64) {
         let Watch { ahead, passed, first, .. } = &mut self.watch;
         ahead.retain(|&passage| {
@@ -124,13 +127,13 @@ impl Propagator {
         });
     }
 
-    /// Forgets what was passed.
+    /// Forgets the passages.
     pub(super) fn forget_passages(&mut self) {
         self.watch = Watch::default();
     }
 
-    /// A fault that a singular configuration explains is reported as that; and any fault at a place that
-    /// another method passes with what passes it.
+    /// Explains an error: one caused by a singular configuration is reported as such, and one at a
+    /// place that another method passes is reported with that method.
     pub fn explained(&mut self, fault: MotionError) -> MotionError {
         let may_be_passed = matches!(
             fault.kind,
@@ -170,8 +173,8 @@ impl Propagator {
         }
     }
 
-    /// Where a motion that stops at a time is followed from, and until when to be past it: from
-    /// nearby, and from where it began.
+    /// The initial states and end times of trials that pass a time at which the motion stops: from
+    /// nearby, and from the beginning of the motion.
     fn around(&self, time: f64) -> Vec<(State, f64)> {
         let mut ways = Vec::new();
         for (from, part) in [(&self.watch.regular, 1.0), (&self.watch.begun, BEYOND)] {
@@ -184,7 +187,7 @@ impl Propagator {
         ways
     }
 
-    /// Another method that leads past a time, if there is one.
+    /// Another method that passes a time, if there is one.
     fn way_past(&mut self, time: f64) -> Option<Passage> {
         let (from, until) = self.around(time).into_iter().next()?;
         let settings = Settings { step: None, tolerance: None };
@@ -198,7 +201,7 @@ impl Propagator {
         if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
     }
 
-    /// A fixed step with which the motion is led past a time, if there is one.
+    /// A fixed step with which the motion passes a time, if there is one.
     fn fixed_past(&mut self, time: f64) -> Option<Passage> {
         let method = method_named("rk4")?;
         for (from, until) in self.around(time) {
@@ -219,7 +222,7 @@ impl Propagator {
         None
     }
 
-    /// The motion led from a state to a time by a method.
+    /// Integrates the motion from a state to a time by a method.
     fn lead_past(
         &mut self,
         method: &'static crate::integrate::Method,
@@ -246,8 +249,8 @@ impl Propagator {
     }
 }
 
-/// Whether two ways from a state end at the same place. Numbers are measured by what they change,
-/// and by the largest of their kind: one may be nothing but rounding.
+/// Whether two integrations from a state end at the same point. Numbers are compared relative to
+/// their change, and to the largest of their kind, since one may be nothing but rounding.
 fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
     let kinds = [0..degrees, degrees..(2 * degrees).min(from.values.len())];
     kinds.into_iter().all(|kind| {
@@ -260,7 +263,7 @@ fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
     })
 }
 
-/// What looks at the directions within a step.
+/// Samples the directions within a step.
 struct Look<'a> {
     projector: &'a mut ConstraintProjector,
     stepper: &'a mut dyn Stepper,
@@ -268,8 +271,8 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// When the directions are reversed between two looks: at least once halfway, then wherever they
-    /// are far apart.
+    /// The times at which the directions are reversed between two samples. Samples at least
+    /// halfway, then wherever the directions are far apart.
     fn passages(
         &mut self,
         (begin, before): (f64, &Directions),

@@ -1,33 +1,34 @@
-//! What happens on the way of a motion: impulses fall, events are passed, constraints are let go.
+//! What happens along a motion: impulses are applied, events occur, constraints are released.
 //!
-//! In: a motion at the time of it. Out: the state after it, and a [`Occurrence`]. Never here: when it is due.
+//! In: a motion at the time of an occurrence. Out: the state after it, and an [`Occurrence`]. Never
+//! here: when it is due.
 
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
 use crate::model::Action;
 use crate::system::{MotionError, MotionErrorKind, State, System};
 
-/// Something that happened.
+/// An occurrence along a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Occurrence {
-    /// The event's or the impulse's name.
+    /// The name of the event or the impulse.
     pub name: String,
-    /// When.
+    /// The time of the occurrence.
     pub time: f64,
-    /// What it was.
+    /// The kind of occurrence.
     pub kind: OccurrenceKind,
 }
 
-/// What happened.
+/// The kind of an occurrence, with its data.
 #[derive(Clone, PartialEq, Debug)]
 pub enum OccurrenceKind {
-    /// An event was passed.
+    /// An event without effect on the motion.
     Mark,
     /// An event ended the motion.
     Stop,
-    /// The constraint of this index was let go.
+    /// An event released the constraint of this index.
     Release(usize),
-    /// An impulse fell.
+    /// An impulse was applied.
     Impulse {
         /// Δp of each coordinate, or the jump of each variable.
         jump: Vec<f64>,
@@ -43,15 +44,15 @@ impl Propagator {
         self.impulse_at(impulse, None)
     }
 
-    /// The present is struck, as by the user's hand.
+    /// Applies an impulse to the current state, as requested by the user.
     ///
     /// # Errors
-    /// Where no motion has the momenta the impulse gives.
+    /// Returns an error if no motion has the momenta after the impulse.
     pub fn apply_impulse_now(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         self.impulse_at(impulse, None)
     }
 
-    /// Strikes the present state.
+    /// Applies an impulse to the current state.
     fn impulse_at(
         &mut self,
         impulse: usize,
@@ -78,7 +79,7 @@ impl Propagator {
         Ok(Occurrence { name, time, kind })
     }
 
-    /// An event is passed, and what it does is done.
+    /// Carries out the action of an event.
     pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, MotionError> {
         self.look_exactly(found.exact)?;
         self.check_accumulation(found)?;
@@ -100,13 +101,13 @@ impl Propagator {
         Ok(Occurrence { name: trigger.name, time: found.exact.high, kind })
     }
 
-    /// Lets a constraint go at the present, which is `state` in the system's own form.
+    /// Releases a constraint at the current state, which is `state` in the system's native form.
     pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), MotionError> {
         let system = self.system.release(constraint, state, &self.parameters);
         self.take_holding(system, state)
     }
 
-    /// Goes on at a state with other constraints held.
+    /// Continues at a state with another set of enforced constraints.
     pub(super) fn take_holding(
         &mut self,
         system: System,
@@ -124,7 +125,7 @@ impl Propagator {
         self.resume(state)
     }
 
-    /// An event that comes again and again without end stops the motion with a reason.
+    /// Returns an error if an event recurs at ever shorter intervals, without end.
     fn check_accumulation(&mut self, found: LocatedEvent) -> Result<(), MotionError> {
         let time = found.exact.high;
         if !self.accumulation[found.event].record(time, self.start) {

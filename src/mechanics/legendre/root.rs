@@ -1,5 +1,5 @@
-//! The transform of κ √(R₀ + ½ ẋ·W ẋ) + b·ẋ + L₀: a relativistic particle in any potential, and
-//! its Hamiltonian back again.
+//! The transform of κ √(R₀ + ½ ẋ·W ẋ) + b·ẋ + L₀: a relativistic particle in any potential, and the
+//! way back from its Hamiltonian.
 //!
 //! With u = p − b and Q = u·W⁻¹u: R = R₀/(1 − 2Q/κ²), ẋ = 2 √R W⁻¹u/κ, and the transform is
 //! −κ √R₀ √(1 − 2Q/κ²) − L₀. For κ = −mc², R₀ = 1, W = −2/c² that is c √(m²c² + p²).
@@ -20,7 +20,7 @@ pub(super) fn transform(
     f: Expr,
 ) -> Option<Transformed> {
     let zeros: HashMap<Symbol, Expr> = from.iter().map(|&s| (s, Expr::ZERO)).collect();
-    // one term with a root, the rest linear in the variables
+    // exactly one term has a root; the others are linear in the variables
     let mut root = None;
     let mut rest = Vec::new();
     for (c, term) in pool.summands(f) {
@@ -79,7 +79,7 @@ pub(super) fn transform(
     Some((pool.simplify_terms(transformed), Ok(speeds)))
 }
 
-/// `term = κ √radicand` with κ free of the variables and the radicand not.
+/// Splits `term = κ √radicand`, where the variables occur in the radicand but not in κ.
 fn split_root(pool: &mut Pool, term: Expr, from: &[Symbol]) -> Option<(Expr, Expr)> {
     let factors = match pool.node(term) {
         Node::Product(c, factors) if c.is_one() => factors.to_vec(),

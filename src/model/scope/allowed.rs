@@ -1,32 +1,34 @@
-//! What kinds of quantities a place in a file may use, and the sentence for each that it may not.
+//! The kinds of quantities that a place in a file may use, and the error message for each of the
+//! others.
 
-/// What may be used where.
+/// The quantities allowed at a place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Allowed {
     /// Parameters only: initial values, periods, the times of impulses.
     Parameters,
-    /// Parameters, but nothing that follows from a body: what the body is made of.
+    /// Parameters, but nothing derived from a body: the pieces of the body.
     Pieces,
-    /// q, t, parameters: how a frame turns, Euler's angles.
+    /// q, t, parameters: the angle and origin of a frame, Euler's angles.
     Configuration,
-    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, forces, constraints and impulses
-    /// beside a Lagrangian.
+    /// q, q̇, t, parameters: a Lagrangian, Rayleigh's function, and forces, constraints and
+    /// impulses of a Lagrangian system.
     Lagrangian,
-    /// q, p, t, parameters: a Hamiltonian, forces and impulses beside it.
+    /// q, p, t, parameters: a Hamiltonian, and forces and impulses of a Hamiltonian system.
     Hamiltonian,
-    /// The variables, t, parameters: the H of brackets, the brackets, forces and impulses.
+    /// The variables, t, parameters: H, brackets, forces and impulses of a Poisson system.
     Poisson,
     /// The variables and parameters: a Casimir.
     Casimir,
     /// q, q̇, p, t, parameters, `energy`: the two sides of a bracket.
     Bracket,
-    /// All that an observable may use but the other motion of a comparison: what an event watches.
+    /// Everything an observable may use except the comparison motion: the expression of an event.
     Event,
-    /// All of it and q̈, λ, `energy`, `action`: observables, views, shapes, expectations.
+    /// Everything, including q̈, λ, `energy` and `action`: observables, views, shapes,
+    /// expectations.
     Observable,
 }
 
-/// What a symbol is to mechanics. Parameters, and whatever else is constant, are not listed.
+/// The role of a symbol in mechanics. Parameters and other constants are not listed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     Time,
@@ -38,16 +40,18 @@ pub(super) enum Kind {
     Action,
     /// λ of a constraint.
     Multiplier,
-    /// A moment, mass or place that follows from the pieces of a body: constant as a parameter is.
+    /// A moment of inertia, mass or position that follows from the pieces of a body; constant like
+    /// a parameter.
     Inertia,
     /// An entry of the matrix of a body's attitude.
     Attitude,
-    /// A coordinate or velocity of the other motion of a comparison.
+    /// A coordinate or velocity of the comparison motion.
     Other,
 }
 
 impl Allowed {
-    /// Why a place, called so in messages, may not use a quantity of some kind, if it may not.
+    /// Why a place, which messages call `place`, may not use a kind of quantity, or `None` if it
+    /// may.
     pub(super) fn refusal(self, kind: Kind, place: &str) -> Option<String> {
         use Allowed::{
             Bracket, Casimir, Configuration, Event, Hamiltonian, Lagrangian, Observable,

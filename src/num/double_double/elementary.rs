@@ -1,4 +1,4 @@
-//! The elementary functions of double-double numbers, to 27 digits and more: series after argument
+//! The elementary functions of double-double numbers, to at least 27 digits: series after argument
 //! reduction for exp, sin and cos; one correction of the `f64` value for their inverses.
 
 use super::DoubleDouble;
@@ -13,10 +13,10 @@ const LN_2: DoubleDouble =
 const HALF_PI: [f64; 3] =
     [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// Beyond this sine and cosine are those of `f64`: the argument has no digits left for more.
+/// Above this, sine and cosine are those of `f64`, because the argument has no more digits.
 const LARGE_ANGLE: f64 = 1e9;
 
-/// The argument of exp is made smaller by this power of two.
+/// The exponential reduces its argument by this power of two.
 const HALVINGS: i32 = 8;
 
 impl DoubleDouble {
@@ -107,7 +107,7 @@ impl Real for DoubleDouble {
         if !y.is_finite() || y.abs() > 690.0 {
             return DoubleDouble::from(y);
         }
-        // ln x = y + ln(x e^−y), the second part tiny
+        // ln x = y + ln(x e^−y), where the second part is tiny
         let e = self * (-DoubleDouble::from(y)).exp() - DoubleDouble::ONE;
         DoubleDouble::from(y) + (e - e * e * 0.5)
     }
@@ -161,7 +161,7 @@ impl Real for DoubleDouble {
         if (self.high == 0.0 && x.high == 0.0) || !self.is_finite() || !x.is_finite() {
             return DoubleDouble::from(angle);
         }
-        // turn the point back by the angle: what is left of it is tiny
+        // rotate the point back by the angle; the remaining angle is tiny
         let (sine, cosine) = DoubleDouble::from(angle).sin_cos();
         let rest = (self * cosine - x * sine) / (x * cosine + self * sine);
         DoubleDouble::from(angle) + rest

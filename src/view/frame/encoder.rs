@@ -1,10 +1,11 @@
-//! The encoder: a backend of ratatui that turns cells into bytes and keeps them.
+//! The encoder: a ratatui backend that turns cells into bytes and stores them.
 //!
-//! In: the cells that have changed, a size, and how many bytes there is room for. Out: the bytes of a frame. Never here:
-//! sending them, hiding the cursor (whoever holds the terminal does, for it has to be shown again), or a question: all
-//! that is asked is answered from what was written.
+//! In: the cells that have changed, a size, and a limit on the number of bytes. Out: the bytes of a frame. Never here:
+//! sending them, hiding the cursor (the owner of the terminal does that, because it must be shown again), or a query:
+//! all questions are answered from what was written.
 //!
-//! What is not a cell is crossterm's [`CrosstermBackend`]; cells are the [`Pen`]'s, whose head says why.
+//! Cells are encoded by the [`Pen`], for the reasons in its module head, and everything else by crossterm's
+//! [`CrosstermBackend`].
 
 use std::collections::BTreeMap;
 use std::io;
@@ -17,27 +18,27 @@ use ratatui::layout::{Position, Size};
 
 use super::pen::Pen;
 
-/// Writes frames down.
+/// Encodes frames.
 #[derive(Debug)]
 pub(super) struct Encoder {
     bytes: Vec<u8>,
     pen: Pen,
-    /// Whether a frame stands between marks.
+    /// Whether a frame is enclosed in synchronization marks.
     synchronized: bool,
     size: Size,
-    /// About how many bytes a frame may have.
+    /// The approximate limit on the bytes of a frame.
     most: usize,
-    /// The screen is to be cleared first.
+    /// Whether the screen must be cleared first.
     clear: bool,
-    /// Cells for which there was no room, by row and column.
+    /// Cells that did not fit in earlier frames, by row and column.
     owed: BTreeMap<(u16, u16), Cell>,
-    /// Where the next frame begins with them.
+    /// The first of them to be written in the next frame.
     next: (u16, u16),
     cursor: Option<Position>,
 }
 
 impl Encoder {
-    /// Of a screen of no size yet.
+    /// Creates an encoder for a screen of zero size.
     pub(super) fn new(synchronized: bool) -> Self {
         Self {
             bytes: Vec::new(),
@@ -52,23 +53,23 @@ impl Encoder {
         }
     }
 
-    /// Begins a frame of a screen of that size, in about so many bytes.
+    /// Begins a frame for a screen of this size, with about `most` bytes at most.
     pub(super) fn begin(&mut self, size: Size, most: usize) {
         (self.size, self.most) = (size, most);
         self.bytes.clear();
     }
 
-    /// The bytes of the frame.
+    /// Takes the bytes of the frame.
     pub(super) fn take(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.bytes)
     }
 
-    /// Whether cells are still to be written.
+    /// Whether cells remain to be written.
     pub(super) fn owes(&self) -> bool {
         !self.owed.is_empty()
     }
 
-    /// Where the cursor was left, if it is to be seen there.
+    /// The position of the cursor, or `None` if it is hidden.
     pub(super) fn cursor(&self) -> Option<Position> {
         self.cursor
     }
@@ -78,7 +79,7 @@ impl Encoder {
         CrosstermBackend::new(&mut self.bytes)
     }
 
-    /// The pen, and where it writes; a frame has begun.
+    /// Begins the frame if necessary, and returns the pen and its output.
     fn pen(&mut self) -> io::Result<(&mut Pen, &mut Vec<u8>)> {
         if self.bytes.is_empty() && self.synchronized {
             queue!(self.bytes, BeginSynchronizedUpdate)?;
@@ -89,7 +90,7 @@ impl Encoder {
         Ok((&mut self.pen, &mut self.bytes))
     }
 
-    /// Writes a cell where there is room for it; whether there was.
+    /// Writes a cell if there is room for it, and returns whether there was.
     fn put(&mut self, (y, x): (u16, u16), cell: &Cell) -> io::Result<bool> {
         let (width, most) = (self.size.width, self.most);
         let room = self.bytes.len() < most;
@@ -100,7 +101,7 @@ impl Encoder {
         Ok(room)
     }
 
-    /// Writes what is owed, from where the last frame ended and round to there again.
+    /// Writes the remaining cells, starting where the last frame stopped and wrapping around.
     fn pay(&mut self) -> io::Result<()> {
         let behind = self.owed.split_off(&self.next);
         let before = std::mem::take(&mut self.owed);

@@ -1,12 +1,12 @@
-//! The pen: cells as the bytes that make a terminal show them, as few as possible.
+//! The pen: encodes cells in as few bytes as possible.
 //!
-//! In: cells and where they stand. Out: bytes. It remembers where the cursor is and how it writes, so that only
+//! In: cells and their positions. Out: bytes. The pen remembers the cursor's position and the current style, so that only
 //! changes are sent. Never here: which cells have changed, or sending anything.
 //!
-//! ratatui's `CrosstermBackend` would do the same with more: a frame of a motion takes a fourth less by this pen in 24 bits
-//! of colour, 30 % less with 256 colours, 40 % with 16 and 28 % with none (`cargo bench --bench frames`). It also writes
-//! the sixteen colours as `38;5;n` (crossterm-rs/crossterm#844), which a terminal that knows no more than sixteen takes
-//! for blinking; and it asks `NO_COLOR` of the process, on which no recorded cast may depend.
+//! ratatui's `CrosstermBackend` would need more bytes: a frame of a motion takes a quarter less with this pen in 24-bit
+//! colour, 30 % less with 256 colours, 40 % with 16 and 28 % with none (`cargo bench --bench frames`). It also writes
+//! the sixteen colours as `38;5;n` (crossterm-rs/crossterm#844), which a terminal limited to sixteen colours interprets
+//! as blinking; and it reads the process's `NO_COLOR`, on which no recorded cast may depend.
 
 use std::io;
 
@@ -19,21 +19,21 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::view::sgr::{self, BACKGROUND, FOREGROUND, MODIFIERS};
 
-/// Modifiers that can be seen on a blank cell.
+/// Modifiers that are visible on a blank cell.
 const ON_BLANKS: Modifier =
     Modifier::REVERSED.union(Modifier::UNDERLINED).union(Modifier::CROSSED_OUT);
 
-/// How many lines down are worth as many line feeds.
+/// The most lines for which line feeds are used to move down.
 const FEEDS: u16 = 4;
 
-/// What the terminal's cursor would do next; `None` where that is not known.
+/// The terminal's cursor and style; `None` if unknown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pen {
     at: Option<(u16, u16)>,
     ink: Option<CellStyle>,
 }
 
-/// How characters are written.
+/// The style of characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct CellStyle {
     fg: Color,
@@ -42,7 +42,7 @@ struct CellStyle {
 }
 
 impl Pen {
-    /// Clears the whole screen, whatever was there and however the pen was left.
+    /// Clears the whole screen, whatever the state of the terminal and of the pen.
     pub(super) fn clear(&mut self, out: &mut Vec<u8>) -> io::Result<()> {
         self.at = None;
         self.ink =
@@ -50,31 +50,31 @@ impl Pen {
         queue!(out, SetAttribute(Attribute::Reset), Clear(ClearType::All))
     }
 
-    /// Writes a cell of a screen so many columns wide.
+    /// Writes a cell of a screen with `width` columns.
     pub(super) fn put(&mut self, out: &mut Vec<u8>, (x, y): (u16, u16), cell: &Cell, width: u16) {
         self.go(out, x, y);
         self.dip(out, cell);
         let symbol = cell.symbol();
         out.extend(symbol.as_bytes());
-        // Terminals disagree on the width of what is more than one character, and on where the cursor is after the last
+        // Terminals disagree on the width of symbols with several characters, and on the cursor's position after the last
         // column.
         let plain = symbol.chars().count() == 1 && symbol.width() == 1;
         let known = plain && x + 1 < width;
         self.at = known.then_some((x + 1, y));
     }
 
-    /// Whether the cursor stands at a cell.
+    /// Whether the cursor is at a cell.
     pub(super) fn is_at(&self, place: (u16, u16)) -> bool {
         self.at == Some(place)
     }
 
-    /// Leaves the cursor at a cell.
+    /// Moves the cursor to a cell and leaves it there.
     pub(super) fn rest(&mut self, out: &mut Vec<u8>, (x, y): (u16, u16)) {
         self.go(out, x, y);
         self.at = Some((x, y));
     }
 
-    /// Moves to a cell by the shortest way.
+    /// Moves to a cell by the shortest sequence.
     fn go(&mut self, out: &mut Vec<u8>, x: u16, y: u16) {
         let Some((column, row)) = self.at else {
             out.extend(place(x, y));
@@ -93,7 +93,7 @@ impl Pen {
         out.extend(ways.into_iter().min_by_key(Vec::len).unwrap_or_default());
     }
 
-    /// Takes up the ink of a cell.
+    /// Switches to the style of a cell.
     fn dip(&mut self, out: &mut Vec<u8>, cell: &Cell) {
         let mut ink = CellStyle { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
         if let (" ", Some(now)) = (cell.symbol(), self.ink) {
@@ -113,7 +113,7 @@ impl Pen {
     }
 }
 
-/// To a place, counted from 0.
+/// Moves to an absolute position, counted from 0.
 fn place(x: u16, y: u16) -> Vec<u8> {
     match (x, y) {
         (0, 0) => sequence(&[], 'H'),
@@ -122,7 +122,7 @@ fn place(x: u16, y: u16) -> Vec<u8> {
     }
 }
 
-/// So many columns to the right.
+/// Moves to the right.
 fn forward(columns: u16) -> Vec<u8> {
     match columns {
         0 => Vec::new(),
@@ -131,7 +131,7 @@ fn forward(columns: u16) -> Vec<u8> {
     }
 }
 
-/// So many columns to the left.
+/// Moves to the left.
 fn back(columns: u16) -> Vec<u8> {
     match columns {
         0..=3 => vec![8; columns.into()],
@@ -145,7 +145,7 @@ fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
     format!("\x1b[{}{last}", numbers.join(";")).into_bytes()
 }
 
-/// From one ink to another.
+/// The SGR parameters that change one style into another.
 fn change(from: CellStyle, to: CellStyle) -> Vec<u16> {
     let mut numbers = Vec::new();
     let mut kept = from.modifier;

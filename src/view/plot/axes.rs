@@ -1,7 +1,7 @@
 //! Axes: lines at the left and below, ticks with labels, titles with units.
 //!
 //! In: two titled scales and an area. Out: the axes on the buffer, and the [`Frame`] left for the plot. The frame is a
-//! pure function of the area, so that the mouse can ask for it too. Never here: data.
+//! pure function of the area, so that mouse handling can compute it too. Never here: data.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -14,27 +14,27 @@ use crate::view::glyphs::Glyphs;
 use crate::view::number::power;
 use crate::view::theme::{Role, Theme};
 
-/// Below this many columns or rows the plot takes all the room and the axes are left out.
+/// The least columns and rows for axes; below them the plot takes all the room.
 const LEAST: (u16, u16) = (16, 5);
 
-/// An axis with its name.
+/// An axis with its title.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What is measured: `θ`.
+    /// The quantity: `θ`.
     pub title: String,
-    /// In what: `rad`; may be empty.
+    /// The unit: `rad`; may be empty.
     pub unit: String,
     /// The range shown.
     pub scale: Scale,
 }
 
 impl Axis {
-    /// An axis from its parts.
+    /// Creates an axis from its parts.
     pub fn new(title: impl Into<String>, unit: impl Into<String>, scale: Scale) -> Self {
         Self { title: title.into(), unit: unit.into(), scale }
     }
 
-    /// `θ [rad] ×10⁻³`, without what is empty.
+    /// Returns `θ [rad] ×10⁻³`, without the empty parts.
     fn heading(&self, exponent: i32, glyphs: Glyphs) -> String {
         let title = glyphs.text(&self.title);
         let unit = match self.unit.as_str() {
@@ -57,13 +57,13 @@ pub struct Axes {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// Whether a unit is as long on both.
+    /// Whether a unit has the same length on both axes.
     pub equal: bool,
-    /// Whether faint dots mark where ticks cross.
+    /// Whether faint dots mark the crossings of ticks.
     pub grid: bool,
 }
 
-/// Where everything stands.
+/// The positions of everything.
 struct Plan {
     frame: Frame,
     x: Ticks,
@@ -72,29 +72,29 @@ struct Plan {
 }
 
 impl Axes {
-    /// Axes with free proportions and no grid.
+    /// Creates axes with free proportions and no grid.
     pub fn new(x: Axis, y: Axis) -> Self {
         Self { x, y, equal: false, grid: false }
     }
 
-    /// With units equally long on both axes, so that circles are round.
+    /// Makes units equally long on both axes, so that circles are round.
     #[must_use]
     pub fn equal(self) -> Self {
         Self { equal: true, ..self }
     }
 
-    /// With a grid of faint dots.
+    /// Adds a grid of faint dots.
     #[must_use]
     pub fn grid(self) -> Self {
         Self { grid: true, ..self }
     }
 
-    /// The frame that is left for the plot.
+    /// Returns the frame left for the plot.
     pub fn frame(&self, area: Rect, glyphs: Glyphs) -> Frame {
         self.plan(area, glyphs).frame
     }
 
-    /// Draws the axes and returns the frame that is left for the plot.
+    /// Draws the axes and returns the frame left for the plot.
     pub fn draw(&self, area: Rect, buffer: &mut Buffer, theme: &Theme, glyphs: Glyphs) -> Frame {
         let plan = self.plan(area, glyphs);
         let mut sheet = StrokeContext { buffer, area, theme, glyphs };
@@ -121,7 +121,7 @@ impl Axes {
             width: area.width - margin,
             height: area.height - titled - 2,
         };
-        // The labels' width depends on the range, which with equal units depends on the width: settled in two rounds.
+        // The width of the labels depends on the range, which with equal units depends on the width; two rounds suffice.
         let mut margin = 6;
         let mut frame = self.over(inside(margin));
         let mut y = Ticks::default();
@@ -144,7 +144,7 @@ impl Axes {
     }
 }
 
-/// As many ticks as have labels that keep apart.
+/// As many ticks as have room for separate labels.
 fn x_ticks(frame: &Frame, area: Rect, glyphs: Glyphs) -> Ticks {
     let most = usize::from(frame.area.width / 6).clamp(2, 12);
     let apart = |ticks: &Ticks| {
@@ -154,7 +154,7 @@ fn x_ticks(frame: &Frame, area: Rect, glyphs: Glyphs) -> Ticks {
     (1..=most).rev().map(|most| Ticks::of(&frame.x, most, glyphs)).find(apart).unwrap_or_default()
 }
 
-/// First column and width of each label of the horizontal axis.
+/// The first column and the width of each label of the horizontal axis.
 fn label_places(ticks: &Ticks, frame: &Frame, area: Rect) -> impl Iterator<Item = (u16, u16)> {
     ticks.marks.iter().filter_map(move |tick| {
         let column = frame.cell([tick.value, frame.y.middle()])?.x;
@@ -164,7 +164,7 @@ fn label_places(ticks: &Ticks, frame: &Frame, area: Rect) -> impl Iterator<Item 
     })
 }
 
-/// The buffer with what every stroke needs.
+/// The buffer and what is needed to draw on it.
 struct StrokeContext<'a> {
     buffer: &'a mut Buffer,
     area: Rect,
@@ -180,7 +180,7 @@ impl StrokeContext<'_> {
         }
     }
 
-    /// Text from a column on, cut at the area's end.
+    /// Writes text from a column on, cut at the end of the area.
     fn write(&mut self, x: u16, y: u16, text: &str, style: Style) {
         let room = self.area.right().min(self.buffer.area.right()).saturating_sub(x);
         if self.buffer.area.contains(Position::new(x, y)) {
@@ -250,7 +250,7 @@ impl StrokeContext<'_> {
             self.put(cell.x, row, self.glyphs.pick("┬", "+"), border);
             self.write(start, row.saturating_add(1), &tick.label, self.theme[Role::Dim]);
         }
-        // The name stands in the line itself, at its end, and costs no row.
+        // The title is in the axis line itself, at its end, and takes no row.
         let long = heading.width() as u16 + 1;
         if !heading.is_empty() && long < width {
             let start = plan.frame.area.right() - long;

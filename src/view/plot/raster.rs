@@ -1,8 +1,8 @@
 //! The raster: dots finer than cells, in layers.
 //!
-//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. Dots of everything
-//! that crosses a cell are united; the cell takes the style of the highest layer and, within it, of the newest dot.
-//! Never here: axes, or what the curves mean.
+//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. The dots of everything
+//! that crosses a cell are combined; the cell takes the style of the highest layer and, within it, of the newest dot.
+//! Never here: axes, or the meaning of the curves.
 
 mod cloud;
 mod letter;
@@ -20,20 +20,20 @@ use crate::view::theme::{Dash, Shade};
 use letter::letter;
 use polyline::Polyline;
 
-/// More cells than this in a row or column are not drawn; no terminal has them.
+/// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
 
-/// Beyond this many plot lengths a point is as good as infinitely far; nearer ones keep their direction exactly.
+/// The distance, in plot lengths, beyond which a point is moved; nearer points keep their exact direction.
 const FAR: f64 = 1e7;
 
-/// What a line is drawn with.
+/// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pen {
-    /// Style of the cells it touches.
+    /// Style of the cells it crosses.
     pub style: Style,
-    /// The higher layer gives a shared cell its style.
+    /// Layer; the highest one in a cell sets its style.
     pub layer: u8,
-    /// Within a layer the greater freshness wins.
+    /// Age rank within a layer; the greatest one wins.
     pub fresh: u8,
     /// Share of the dots that are drawn, 0 to 1.
     pub coverage: f64,
@@ -42,12 +42,12 @@ pub struct Pen {
 }
 
 impl Pen {
-    /// A full line on a layer.
+    /// A solid line on a layer.
     pub fn new(style: Style, layer: u8) -> Self {
         Self { style, layer, fresh: 0, coverage: 1.0, dash: Dash::Full }
     }
 
-    /// The same pen leaving out dots: 0.5 looks dotted, 1 is full.
+    /// The same pen with fewer dots: 0.5 looks dotted, 1 is solid.
     #[must_use]
     pub fn covering(self, coverage: f64) -> Self {
         Self { coverage, ..self }
@@ -64,12 +64,12 @@ impl Pen {
     }
 }
 
-/// A sign of one cell for a point of its own: a body, the present state, a fixed point.
+/// A one-cell marker for a single point: a body, the current state, a fixed point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
-    /// `●`, or `@`: the present state, a mass.
+    /// `●`, or `@`: the current state, a mass.
     Disc,
-    /// `○`, or `o`: a second of the kind, a centre.
+    /// `○`, or `o`: a second of the same kind, a centre.
     Ring,
     /// `×`, or `x`: a saddle, an unstable point.
     Cross,
@@ -80,7 +80,7 @@ pub enum Marker {
 }
 
 impl Marker {
-    /// The character that stands for it.
+    /// The marker's character.
     pub fn symbol(self, glyphs: Glyphs) -> char {
         match self {
             Self::Disc => glyphs.pick('●', '@'),
@@ -92,21 +92,21 @@ impl Marker {
     }
 }
 
-/// One cell: its dots, and who gave it its style.
+/// One cell: its dots, and the origin of its style.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cell {
-    /// One bit per dot, row by row, the left dot of a row first.
+    /// One bit per dot, row by row, starting with the leftmost dot of a row.
     dots: u8,
-    /// Those of the layer that gives the style; ASCII, which cannot show all that cross, shows these.
+    /// The dots of the layer that sets the style; ASCII, which cannot show all crossing lines, shows these.
     upper: u8,
-    /// A character in place of the dots: a marker, or in ASCII the age of a trail.
+    /// A character that replaces the dots: a marker or, in ASCII, the age of a trail.
     sign: Option<char>,
-    /// Layer and freshness of the style, and whether it is a marker's; the greatest wins.
+    /// Layer of the style, whether it is a marker's, and its freshness; the greatest wins.
     rank: (u8, bool, u8),
     style: Style,
 }
 
-/// Dots over an area of cells.
+/// The dots over an area of cells.
 #[derive(Clone, Debug)]
 pub struct Raster {
     area: Rect,
@@ -115,7 +115,7 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// An empty raster over an area of the screen.
+    /// Creates an empty raster over an area of the screen.
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let area =
             Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
@@ -123,20 +123,20 @@ impl Raster {
         Self { area, glyphs, spots: vec![Cell::default(); cells] }
     }
 
-    /// The dots set so far.
+    /// The number of dots set.
     pub fn count(&self) -> usize {
         self.spots.iter().map(|spot| spot.dots.count_ones() as usize).sum()
     }
 
-    /// Takes the dots of another raster of the same area in, whatever they are drawn with there.
+    /// Adds the dots of another raster of the same area; styles are ignored.
     pub fn absorb(&mut self, other: &Self) {
         for (spot, other) in self.spots.iter_mut().zip(&other.spots) {
             spot.dots |= other.dots;
         }
     }
 
-    /// Of the cells with dots, the share in which another raster of the same area has dots too, in ASCII also in the cells
-    /// beside; 0 if there are none.
+    /// The fraction of this raster's non-empty cells in which another raster of the same area has dots too; in ASCII,
+    /// neighbouring cells count as well. It is 0 if there are none.
     pub fn shared(&self, other: &Self) -> f64 {
         let wide = usize::from(self.area.width).max(1);
         let near = |i: usize| {
@@ -149,12 +149,12 @@ impl Raster {
         inked().filter(|i| near(*i)).count() as f64 / inked().count().max(1) as f64
     }
 
-    /// Whether a dot is set; `[0, 0]` is the upper left one.
+    /// Whether a dot is set; `[0, 0]` is at the upper left.
     pub fn is_set(&self, [x, y]: [i32; 2]) -> bool {
         self.place([x, y]).is_some_and(|(cell, bit)| self.spots[cell].dots & bit != 0)
     }
 
-    /// Dots across and down.
+    /// The number of dots: columns, rows.
     pub fn size(&self) -> [i32; 2] {
         let (wide, high) = self.glyphs.dots();
         [
@@ -163,17 +163,17 @@ impl Raster {
         ]
     }
 
-    /// Sets one dot by its place; outside the raster nothing happens.
+    /// Sets one dot; a dot outside the raster is ignored.
     pub fn dot(&mut self, dot: [i32; 2], pen: &Pen) {
         self.ink(dot, pen, None);
     }
 
-    /// A straight line between two points of the frame, clipped.
+    /// Draws a straight line between two points of the frame, clipped.
     pub fn line(&mut self, frame: &Frame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
         self.polyline(frame, [a, b], pen);
     }
 
-    /// A line through points. It is broken where a point has no place (NaN), and where it wraps round an axis.
+    /// Draws a line through points. It is broken at points without a position (NaN) and where it wraps around an axis.
     pub fn polyline(
         &mut self,
         frame: &Frame,
@@ -187,7 +187,7 @@ impl Raster {
         hand.rest();
     }
 
-    /// A fading trail, oldest point first: the points are shared out among the steps of a ramp.
+    /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
     pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
         if ramp.is_empty() {
             return;
@@ -203,7 +203,7 @@ impl Raster {
         hand.rest();
     }
 
-    /// Single dots.
+    /// Draws single dots.
     pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
         let size = self.size();
         for point in points {
@@ -214,7 +214,7 @@ impl Raster {
         }
     }
 
-    /// A circle about a point of the frame, its radius in the units of the axes.
+    /// Draws a circle about a point of the frame, with its radius in the units of the axes.
     pub fn circle(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
         let sides = 128;
         let corner = |side: i32| {
@@ -225,7 +225,7 @@ impl Raster {
         self.polyline(frame, (0..=sides).map(corner), pen);
     }
 
-    /// A marker in the cell under a point, above the dots of its own layer and of all below.
+    /// Draws a marker in the cell of a point, above the dots of its own layer and of all layers below.
     pub fn marker(&mut self, frame: &Frame, point: [f64; 2], marker: Marker, pen: &Pen) {
         let Some(cell) = frame.cell(point) else { return };
         let sign = marker.symbol(self.glyphs);
@@ -241,7 +241,7 @@ impl Raster {
         }
     }
 
-    /// Puts the dots on the screen. Cells without any are left as they were, and so is the background.
+    /// Copies the dots to the screen. Cells without dots do not change, and neither does the background.
     pub fn draw(&self, buffer: &mut Buffer) {
         let width = usize::from(self.area.width);
         for (index, spot) in self.spots.iter().enumerate() {
@@ -259,7 +259,7 @@ impl Raster {
             let y = u32::from(self.area.y) + (index / width) as u32;
             let (Ok(x), Ok(y)) = (u16::try_from(x), u16::try_from(y)) else { continue };
             if let Some(cell) = buffer.cell_mut((x, y)) {
-                // The old modifiers go with the old character.
+                // The old modifiers are removed with the old character.
                 let background = cell.bg;
                 cell.reset();
                 cell.set_char(symbol).set_bg(background).set_style(spot.style);
@@ -269,7 +269,7 @@ impl Raster {
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
         let Some((cell, bit)) = self.place(dot) else { return };
-        // A character in ASCII is there or not; its parts are not thinned.
+        // A character in ASCII is drawn whole or not at all; its parts are not thinned.
         let [wide, high] = if self.glyphs.is_ascii() { self.cell() } else { [1, 1] };
         if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
             return;
@@ -287,13 +287,13 @@ impl Raster {
         }
     }
 
-    /// Dots across and down in a cell.
+    /// The number of dots in a cell: columns, rows.
     fn cell(&self) -> [i32; 2] {
         let (wide, high) = self.glyphs.dots();
         [i32::from(wide), i32::from(high)]
     }
 
-    /// The cell and the bit of a dot.
+    /// The index of a dot's cell, and the bit of the dot.
     fn place(&self, [x, y]: [i32; 2]) -> Option<(usize, u8)> {
         let [wide, high] = self.size();
         if !(0..wide).contains(&x) || !(0..high).contains(&y) {
@@ -307,7 +307,7 @@ impl Raster {
     }
 }
 
-/// The place of a point in dots, y counting downwards; NaN where a coordinate is not finite.
+/// The position of a point in dots, with y downwards; NaN if a coordinate is not finite.
 fn spot_of(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
     let fraction = |scale: &Scale, value: f64| {
         if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
@@ -323,7 +323,7 @@ fn noise([x, y]: [i32; 2]) -> f64 {
         .rem_euclid(1.0)
 }
 
-/// Dots row by row to the order of Unicode's braille block.
+/// Maps dots in row order to the order of Unicode's braille block.
 fn braille(dots: u8) -> char {
     const BITS: [u8; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
     let pattern: u8 = (0..8).filter(|i| dots & (1 << i) != 0).map(|i| BITS[i]).sum();

@@ -1,23 +1,23 @@
-//! Scales and frames: from data to places on the screen and back.
+//! Scales and frames: from data to positions on the screen and back.
 //!
-//! In: values in the units of an axis. Out: fractions of the axis, dots and cells. Never here: what is drawn there.
+//! In: values in the units of an axis. Out: fractions of the axis, dots and cells. Never here: drawing.
 
 use ratatui::layout::{Position, Rect};
 
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 
-/// A cell is about twice as high as it is wide.
+/// The height of a cell relative to its width, approximately.
 pub const CELL_ASPECT: f64 = 2.0;
 
-/// How an axis is divided.
+/// The kind of a scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Evenly.
+    /// Linear.
     Linear,
-    /// Evenly, with ticks at fractions of π.
+    /// Linear, with ticks at fractions of π.
     Angle,
-    /// By decades; only what is positive has a place.
+    /// Logarithmic; only positive values have a position.
     Log,
 }
 
@@ -30,18 +30,18 @@ pub struct Scale {
     pub hi: f64,
     /// How the axis is divided.
     pub kind: Kind,
-    /// Period after which values repeat; they are then shown wrapped about the middle of the range.
+    /// Period after which values repeat; they are then wrapped about the middle of the range.
     pub period: Option<f64>,
 }
 
 impl Scale {
-    /// A linear scale. An empty, reversed or non-finite range becomes a usable one.
+    /// Creates a linear scale. An empty, reversed or non-finite range becomes a usable one.
     pub fn linear(lo: f64, hi: f64) -> Self {
         let (lo, hi) = usable(lo, hi);
         Self { lo, hi, kind: Kind::Linear, period: None }
     }
 
-    /// A logarithmic scale; a range that is not positive becomes the decades just below its upper end.
+    /// Creates a logarithmic scale; a range that is not positive becomes the decades just below its upper end.
     pub fn log(lo: f64, hi: f64) -> Self {
         let hi = if hi.is_finite() && hi > f64::MIN_POSITIVE { hi } else { 1.0 };
         let lo = if lo.is_finite() && lo > 0.0 && lo < hi {
@@ -85,13 +85,13 @@ impl Scale {
         self.with_range(end(0.0), end(1.0))
     }
 
-    /// The range moved by a fraction of its length.
+    /// The range shifted by a fraction of its length.
     #[must_use]
     pub fn panned(&self, fraction: f64) -> Self {
         self.with_range(self.value(fraction), self.value(1.0 + fraction))
     }
 
-    /// The same axis over another range.
+    /// The same axis with another range.
     #[must_use]
     pub fn with_range(&self, lo: f64, hi: f64) -> Self {
         let Self { lo, hi, .. } =
@@ -99,11 +99,11 @@ impl Scale {
         Self { lo, hi, ..*self }
     }
 
-    /// The place of a value on the axis: 0 at `lo`, 1 at `hi`, not clamped; NaN if it has none. Wraps if periodic.
+    /// The position of a value on the axis: 0 at `lo`, 1 at `hi`, not clamped; NaN if it has none. Periodic values wrap.
     pub fn fraction(&self, value: f64) -> f64 {
         let value = self.wrap(value);
         match self.kind {
-            // Halved, because the length of a huge range overflows.
+            // The values are halved, because the length of a huge range overflows.
             Kind::Linear | Kind::Angle => {
                 (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
             }
@@ -114,7 +114,7 @@ impl Scale {
         }
     }
 
-    /// The value at a place on the axis; the inverse of [`Self::fraction`].
+    /// The value at a position on the axis; the inverse of [`Self::fraction`].
     pub fn value(&self, fraction: f64) -> f64 {
         match self.kind {
             Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
@@ -133,7 +133,7 @@ impl Scale {
     fn wrap(&self, value: f64) -> f64 {
         match self.period {
             Some(period) if self.kind != Kind::Log => {
-                // The upper end belongs to the window, so that a range of one period keeps both its ends.
+                // The upper end is part of the window, so that a range of one period contains both its ends.
                 let turns = (value - self.middle()) / period;
                 let turns = if turns.abs() <= 0.5 { 0.0 } else { turns.round() };
                 value - period * turns
@@ -143,7 +143,7 @@ impl Scale {
     }
 }
 
-/// A usable range from any two numbers.
+/// Makes a usable range from any two numbers.
 fn usable(lo: f64, hi: f64) -> (f64, f64) {
     let (lo, hi) = match (lo.is_finite(), hi.is_finite()) {
         (true, true) => (lo.min(hi), lo.max(hi)),
@@ -151,7 +151,7 @@ fn usable(lo: f64, hi: f64) -> (f64, f64) {
         (false, true) => (hi, hi),
         (false, false) => (0.0, 0.0),
     };
-    // Narrower than the numbers can tell apart is as good as empty.
+    // A range too narrow for floating-point numbers counts as empty.
     let size = lo.abs().max(hi.abs());
     if hi - lo > size * 1e-12 && hi - lo > f64::MIN_POSITIVE {
         return (lo, hi);
@@ -167,7 +167,7 @@ pub struct Frame {
     pub x: Scale,
     /// The vertical axis, growing upwards.
     pub y: Scale,
-    /// The cells they cover.
+    /// The cells that they cover.
     pub area: Rect,
 }
 
@@ -177,8 +177,8 @@ impl Frame {
         Self { x, y, area }
     }
 
-    /// The same with one range widened about its middle until a unit is as long on both axes. Logarithmic axes have no
-    /// common unit and stay as they are.
+    /// Widens one range about its middle until a unit has the same length on both axes. Logarithmic axes have no common
+    /// unit and remain unchanged.
     pub fn equal(x: Scale, y: Scale, area: Rect) -> Self {
         if x.kind == Kind::Log || y.kind == Kind::Log {
             return Self::new(x, y, area);
@@ -193,14 +193,14 @@ impl Frame {
         Self { x: widened(&x, wide), y: widened(&y, high), area }
     }
 
-    /// The cell under a point, `None` outside the area.
+    /// The cell that contains a point, or `None` if it is outside the area.
     pub fn cell(&self, [x, y]: [f64; 2]) -> Option<Position> {
         let column = index(self.x.fraction(x), self.area.width)?;
         let row = index(1.0 - self.y.fraction(y), self.area.height)?;
         Some(Position::new(self.area.x.saturating_add(column), self.area.y.saturating_add(row)))
     }
 
-    /// The data coordinates of the middle of a cell, for the cursor's readout.
+    /// The data coordinates of the centre of a cell, for the cursor's readout.
     pub fn at(&self, cell: Position) -> [f64; 2] {
         let middle = |cell: u16, start: u16, length: u16| {
             (f64::from(cell) - f64::from(start) + 0.5) / f64::from(length.max(1))
@@ -211,7 +211,7 @@ impl Frame {
         ]
     }
 
-    /// The number of dots across and down.
+    /// The number of dots: columns, rows.
     pub fn dots(&self, glyphs: Glyphs) -> (u32, u32) {
         let (wide, high) = glyphs.dots();
         (
@@ -221,11 +221,11 @@ impl Frame {
     }
 }
 
-/// Which of `count` equal parts a fraction falls in; the end 1 belongs to the last.
+/// The one of `count` equal parts that contains a fraction; the end 1 belongs to the last.
 fn index(fraction: f64, count: u16) -> Option<u16> {
     if !(0.0..=1.0).contains(&fraction) || count == 0 {
         return None;
     }
-    // On the border of two parts rounding must not decide, or even ticks stand unevenly.
+    // Rounding must not decide at the border of two parts, or even ticks would be spaced unevenly.
     Some(((fraction * f64::from(count) + 1e-9) as u16).min(count - 1))
 }

@@ -1,17 +1,17 @@
-//! Strokes: the dots of straight lines, clipped, thin and countable.
+//! Strokes: the dots of straight lines, clipped, thin and bounded in number.
 //!
-//! In: end points in dot coordinates, any bits. Out: calls with dots inside the plot. Never here: cells or colours.
+//! In: end points in dot coordinates, with any bits. Out: calls with dots inside the plot. Never here: cells or colours.
 
-/// The part of the segment `a`–`b` inside `[0, wide] × [0, high]` (Liang and Barsky, 1984), `None` if there is none.
+/// The part of the segment `a`–`b` inside `[0, wide] × [0, high]` (Liang and Barsky, 1984), or `None` if there is none.
 ///
-/// The ends are finite and not so far apart that their difference overflows.
+/// The ends must be finite and not so far apart that their difference overflows.
 pub(super) fn clip(
     a: [f64; 2],
     b: [f64; 2],
     [wide, high]: [f64; 2],
 ) -> Option<([f64; 2], [f64; 2])> {
     let within = |[x, y]: [f64; 2]| x >= 0.0 && x <= wide && y >= 0.0 && y <= high;
-    // Nearly every segment of a trail.
+    // This is the case for nearly every segment of a trail.
     if within(a) && within(b) {
         return Some((a, b));
     }
@@ -29,15 +29,15 @@ pub(super) fn clip(
         }
     }
     let at = |t: f64| [a[0] + t * dx, a[1] + t * dy];
-    // An end inside is kept to the bit.
+    // An end inside is returned unchanged.
     let first = if enter == 0.0 { a } else { at(enter) };
     let last = if leave == 1.0 { b } else { at(leave) };
     (enter <= leave).then_some((first, last))
 }
 
-/// A pen's tip that follows segments and leaves a line one dot wide.
+/// A pen tip that follows segments and draws a line one dot wide.
 ///
-/// Stepping through a smooth curve visits both dots of every corner of the staircase; the tip looks one dot ahead
+/// Stepping along a smooth curve visits both dots at every corner of the staircase; the tip looks one dot ahead
 /// and leaves those corners out.
 pub(super) struct Tip<Ink> {
     drawn: Option<[i32; 2]>,
@@ -45,7 +45,7 @@ pub(super) struct Tip<Ink> {
 }
 
 impl<Ink: Copy> Tip<Ink> {
-    /// A tip that touches nothing.
+    /// Creates a tip that does not touch the raster.
     pub(super) fn lifted() -> Self {
         Self { drawn: None, pending: None }
     }
@@ -59,7 +59,7 @@ impl<Ink: Copy> Tip<Ink> {
         mut dot: impl FnMut([i32; 2], Ink),
     ) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        // Sampled in the middle of each step, where a line through the corners of dots is clear of them.
+        // Sampled at the middle of each step, where a line through the corners of dots is unambiguous.
         let mut sample = |t: f64| {
             let place = [a[0] + t * dx, a[1] + t * dy];
             let next = std::array::from_fn(|i| (place[i] as i32).clamp(0, last[i]));
@@ -75,7 +75,7 @@ impl<Ink: Copy> Tip<Ink> {
         }
     }
 
-    /// Draws the dot still held back and lifts the pen.
+    /// Draws the pending dot and lifts the pen.
     pub(super) fn lift(&mut self, mut dot: impl FnMut([i32; 2], Ink)) {
         if let Some((pending, ink)) = self.pending.take() {
             dot(pending, ink);

@@ -1,6 +1,6 @@
-//! Ticks: which values of an axis are marked, and the fewest digits that tell them apart.
+//! Ticks: which values of an axis are marked, and the fewest digits that distinguish them.
 //!
-//! In: a [`Scale`] and how many marks there is room for. Out: values with labels, and a common power of ten for the
+//! In: a [`Scale`] and the number of ticks that fit. Out: values with labels, and a common power of ten for the
 //! axis title. Never here: cells.
 
 use std::f64::consts::PI;
@@ -13,23 +13,23 @@ use crate::view::number::{raised, signed};
 /// A marked value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where it stands, in the units of the axis.
+    /// The value, in the units of the axis.
     pub value: f64,
-    /// What is written beside it, to be multiplied by the common power of ten.
+    /// The label, to be multiplied by the common power of ten.
     pub label: String,
 }
 
-/// The marks of an axis.
+/// The ticks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
-    /// In rising order, all within the range.
+    /// In ascending order, all within the range.
     pub marks: Vec<Tick>,
-    /// Power of ten, a multiple of three, that was taken out of all labels.
+    /// The power of ten, a multiple of three, taken out of all labels.
     pub exponent: i32,
 }
 
 impl Ticks {
-    /// At most `most` marks of a scale.
+    /// Returns at most `most` ticks of a scale.
     pub fn of(scale: &Scale, most: usize, glyphs: Glyphs) -> Self {
         let special = match scale.kind {
             Kind::Linear => None,
@@ -40,8 +40,8 @@ impl Ticks {
     }
 }
 
-/// A range for data between `lo` and `hi`: padded by some twentieth and moved out to round numbers, so that it stays
-/// put while the data grow a little. Padding never takes data of one sign across zero.
+/// A range for data between `lo` and `hi`: padded by about a twentieth and extended to round numbers, so that it does
+/// not change while the data grow a little. Padding never extends data of one sign across zero.
 pub fn nice_range(lo: f64, hi: f64) -> (f64, f64) {
     let Scale { lo: low, hi: high, .. } = Scale::linear(lo, hi);
     let half = high / 2.0 - low / 2.0;
@@ -79,7 +79,7 @@ impl Step {
         steps.into_iter().find(|step| step.value() >= length * (1.0 - 1e-12))
     }
 
-    /// The next larger one.
+    /// The next larger step.
     fn next(self) -> Self {
         match self.digit {
             1 => Self { digit: 2, ..self },
@@ -88,7 +88,7 @@ impl Step {
         }
     }
 
-    /// The next smaller one.
+    /// The next smaller step.
     fn previous(self) -> Self {
         match self.digit {
             5 => Self { digit: 2, ..self },
@@ -101,7 +101,7 @@ impl Step {
         self.times(1)
     }
 
-    /// `count` steps, rounded once wherever the power of ten is exact.
+    /// `count` steps, rounded once if the power of ten is exact.
     fn times(self, count: i64) -> f64 {
         let number = (count * self.digit) as f64;
         match self.exponent {
@@ -125,8 +125,8 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
         step = step.next();
         (first, last) = span(step);
     }
-    // Between two marks of a coarse step there may lie a whole range, and one mark says nothing of its length: then marks
-    // of a finer step stand, every one, second or third of them.
+    // A coarse step may leave only one tick in the range, which does not show its scale. Then the ticks of a finer step are
+    // used: every one, or every second or third.
     let fewest = most.min(2) as f64;
     while last - first + 1.0 < fewest && first.abs() < 1e15 {
         step = step.previous();
@@ -137,7 +137,7 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     if first <= 0.0 && last >= 0.0 && last - through_zero >= stride * (fewest - 1.0) {
         first = through_zero;
     }
-    // A range far from zero in very small steps would need more digits than a number has.
+    // A range far from zero in very small steps would need more digits than an `f64` has.
     if first.abs().max(last.abs()) > 1e15 {
         return Ticks::default();
     }
@@ -154,12 +154,12 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     Ticks { marks, exponent }
 }
 
-/// The power of ten to take out of the labels of an axis that reaches to `size`: none for everyday numbers.
+/// The power of ten to take out of the labels of an axis that reaches to `size`; 0 for numbers of ordinary magnitude.
 fn common_exponent(size: f64) -> i32 {
     if (1e-2..1e5).contains(&size) { 0 } else { (math::log10(size) / 3.0).floor() as i32 * 3 }
 }
 
-/// `number` × 10^`exponent`, written out; zero needs no decimals.
+/// Formats `number` × 10^`exponent` in full; zero needs no decimals.
 fn decimal(number: i64, exponent: i32) -> String {
     let digits = number.unsigned_abs().to_string();
     let sign = if number < 0 { "-" } else { "" };
@@ -175,7 +175,7 @@ fn decimal(number: i64, exponent: i32) -> String {
     format!("{sign}{whole}.{part}")
 }
 
-/// Fractions of π, `None` where the range is so small or so large that plain numbers say more.
+/// Fractions of π, or `None` if the range is so small or so large that plain numbers are clearer.
 fn angles(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     // Numerator and denominator of the step.
     const STEPS: [(i64, i64); 9] =
@@ -183,7 +183,7 @@ fn angles(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     if scale.hi - scale.lo < PI / 4.0 {
         return None;
     }
-    // Ends given as multiples of π are a rounding away from their ticks.
+    // Ends given as multiples of π differ from their ticks by rounding.
     let slack = (scale.hi - scale.lo) * 1e-9;
     STEPS.into_iter().find_map(|(over, under)| {
         let step = PI * over as f64 / under as f64;
@@ -200,7 +200,7 @@ fn angles(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     })
 }
 
-/// `over`/`under` × π in lowest terms; `under` is a power of two.
+/// Formats `over`/`under` × π in lowest terms; `under` is a power of two.
 fn of_pi(mut over: i64, mut under: i64, glyphs: Glyphs) -> String {
     while under > 1 && over % 2 == 0 {
         (over, under) = (over / 2, under / 2);
@@ -215,7 +215,7 @@ fn of_pi(mut over: i64, mut under: i64, glyphs: Glyphs) -> String {
     signed(if under == 1 { factor } else { format!("{factor}/{under}") }, glyphs)
 }
 
-/// Powers of ten, or 1, 2, 5 within few decades; `None` below one decade, where even steps are better.
+/// Powers of ten, or 1, 2, 5 within few decades; `None` below one decade, for which linear steps are better.
 fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     let (low, high) = (math::log10(scale.lo) - 1e-9, math::log10(scale.hi) + 1e-9);
     let (first, last) = (low.ceil() as i32, high.floor() as i32);
@@ -244,7 +244,7 @@ fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     } else {
         let count = (last - first + 1) as usize;
         let stride = count.div_ceil(most.max(1)).max(1);
-        // Counted from 10⁰, so that panning does not shift the choice.
+        // Exponents are counted from 10⁰, so that panning does not change the choice.
         (first..=last).filter(|e| e.rem_euclid(stride as i32) == 0).map(|e| mark(1, e)).collect()
     };
     (marks.len() <= most).then_some(Ticks { marks, exponent: 0 })

@@ -1,7 +1,7 @@
-//! A rigid body as it is drawn: the edges and rims of its pieces, and its principal axes, turned as it stands.
+//! A rigid body as it is drawn: the edges and rims of its pieces, and its principal axes, in its current attitude.
 //!
-//! In: the pieces of `[body]`, the attitude's channels, present parameters. Out: lines in space about the centre of
-//! mass. Never here: moments, or how the attitude is found.
+//! In: the pieces of `[body]`, the attitude's channels, current parameters. Out: lines in space about the centre of
+//! mass. Never here: moments of inertia, or the computation of the attitude.
 
 use std::f64::consts::TAU;
 
@@ -12,10 +12,10 @@ use crate::num::{DoubleDouble, math};
 use crate::system::ChannelKind;
 use crate::view::quantity::Quantities;
 
-/// Sides of a rim.
+/// The number of sides of a drawn rim.
 const SIDES: usize = 48;
 
-/// How far the principal axes reach beyond the body.
+/// The length of the principal axes relative to the body.
 const AXES: f64 = 1.25;
 
 type Line = Vec<[f64; 3]>;
@@ -24,14 +24,14 @@ type Line = Vec<[f64; 3]>;
 pub(super) struct Outline {
     /// Rims and edges.
     pub(super) edges: Vec<Line>,
-    /// The principal axes, from the centre of mass on.
+    /// The principal axes, from the centre of mass.
     pub(super) axes: Vec<Line>,
     /// Pieces that are points.
     pub(super) points: Vec<[f64; 3]>,
 }
 
 impl Outline {
-    /// The body of the model now; nothing where there is none.
+    /// The current outline of the model's body, or `None` if it has no body.
     pub(super) fn of(q: &Quantities<'_>) -> Option<Self> {
         let model: &Model = &q.lab.loaded.model;
         let body = model.body.as_ref()?;
@@ -60,14 +60,14 @@ impl Outline {
         Some(outline.standing(q))
     }
 
-    /// The farthest that any part is from the centre of mass.
+    /// The distance of the farthest part from the centre of mass.
     pub(super) fn reach(&self) -> f64 {
         let all = self.edges.iter().chain(&self.axes).flatten().chain(&self.points);
         let far = all.map(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt());
         far.filter(|r| r.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Turned from the body's axes to those of space, by the transpose of A.
+    /// Rotates the outline from the body's axes to those of space, by the transpose of A.
     fn standing(self, q: &Quantities<'_>) -> Self {
         let channels = q.lab.loaded.system.channels();
         let entry = |i: usize| {
@@ -84,7 +84,7 @@ impl Outline {
     }
 }
 
-/// A piece's own point, turned as the piece is in the body.
+/// Transforms a point from a piece's own axes to the body's.
 fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3] {
     match &piece.turn {
         Turn::None => own,
@@ -96,7 +96,7 @@ fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3
     }
 }
 
-/// Turned about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
+/// Rotates a vector about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
 fn about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
     let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
     let n = axis.map(|a| a / length);
@@ -131,7 +131,7 @@ fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
             all.extend(sides((r, -half), (r, half)));
             all
         }
-        // the centre of mass is a quarter of the height above the base
+        // The centre of mass is a quarter of the height above the base.
         Solid::Cone { radius, height } => {
             let (r, h) = (value(*radius), value(*height));
             let mut all = vec![rim(r, -h / 4.0)];

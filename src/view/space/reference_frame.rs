@@ -1,29 +1,29 @@
-//! The seat of whoever looks: the axes of the file, or a frame that moves and turns in them.
+//! The reference frame of the picture: the file's axes, or a frame that moves and turns relative to them.
 //!
-//! In: a frame of the model and rows of channels. Out: where a point is as seen from it, at the time of the row.
-//! Never here: the camera, which stands still in the frame; forces.
+//! In: a frame of the model and rows of channels. Out: a point's coordinates in the frame, at the time of the row.
+//! Never here: the camera, which is fixed in the frame; forces.
 
 use crate::expr::Expr;
 use crate::num::math;
 use crate::system::ChannelKind;
 use crate::view::quantity::{Quantities, Source};
 
-/// A frame, by the channels that say how it stands.
+/// A frame, with the channels of its origin and orientation.
 pub(super) struct ReferenceFrame {
     turn: Turn,
     origin: [Source; 3],
 }
 
-/// How a frame is turned.
+/// The orientation of a frame.
 enum Turn {
-    /// By an angle about an axis.
+    /// Rotated by an angle about an axis.
     Axis { axis: [Source; 3], angle: Source },
-    /// With the body: by the matrix of its attitude, whose first entry is this channel.
+    /// Fixed in the body, given by its attitude matrix; this is the channel of the first entry.
     Body(usize),
 }
 
 impl ReferenceFrame {
-    /// The frame of an index; none for the axes of the file.
+    /// The frame with this index, or `None` for the file's axes.
     pub(super) fn of(q: &Quantities<'_>, frame: Option<usize>) -> Option<Self> {
         let frame = q.lab.loaded.model.frames.get(frame?)?;
         let place = |e: Expr| q.place(e);
@@ -63,7 +63,7 @@ impl ReferenceFrame {
         })
     }
 
-    /// A box that holds whatever the one given holds, seen from here at any time.
+    /// A box that contains the given box as seen from the frame at any time.
     pub(super) fn around(&self, q: &Quantities<'_>, [low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
         let span = |source: Source| match source {
             Source::Number(number) => (number, number),

@@ -1,6 +1,6 @@
-//! The scene: where the points of the shapes are, and the box that holds all they may reach.
+//! The scene: the points of the shapes, and the box that contains all they may reach.
 //!
-//! In: shapes and the bounds of their channels. Out: points, a box that changes seldom. Never here: the camera.
+//! In: shapes and the bounds of their channels. Out: points, and a box that rarely changes. Never here: the camera.
 
 use std::f64::consts::TAU;
 
@@ -12,20 +12,20 @@ use crate::num::math;
 use crate::view::plot::Bounds;
 use crate::view::quantity::{Quantities, Source};
 
-/// What the camera has to show.
+/// The contents of the picture.
 pub(super) struct Scene {
-    /// The box that holds it.
+    /// The box that contains everything.
     pub(super) bounds: Bounds,
 }
 
-/// The two ends of a box.
+/// Two opposite corners of a box.
 type Span3 = [[f64; 3]; 2];
 
 impl Scene {
     /// The scene of a lab.
     ///
-    /// A rod (a line that keeps its length) may swing round its one end: the box holds all its circle from the start, and the
-    /// picture does not shrink while the first swing goes on.
+    /// A rod (a line of constant length) may swing around one of its ends. The box contains its whole circle from the start,
+    /// so that the picture does not shrink during the first swing.
     pub(super) fn of(
         q: &Quantities<'_>,
         eye: CameraPose,
@@ -39,7 +39,7 @@ impl Scene {
         if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
             scene.bounds = Bounds::around(reference_frame.around(q, ends));
         }
-        // Rounded outwards, so that the picture stays still while the box grows a little.
+        // The box is rounded outwards, so that the picture does not move while the motion grows a little.
         if let Some([low, high]) = scene.bounds.ends() {
             let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
             let step = round_step(longest / 10.0);
@@ -116,15 +116,15 @@ impl Scene {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, not above a length.
+/// The greatest of 1, 2 and 5 times a power of ten that does not exceed a length.
 fn round_step(length: f64) -> f64 {
     let power = math::powf(10.0, math::log10(length).floor());
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);
     digit.unwrap_or(1.0) * power
 }
 
-/// What the far end of a rod may reach: where it has been and, in a plane, all round the near end. In space the motion
-/// seldom fills the sphere.
+/// The box that the far end of a rod may reach: its extent so far and, in a plane, the circle around the near end. In
+/// space the motion rarely fills the sphere.
 fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
@@ -141,13 +141,13 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
     })
 }
 
-/// What a point may reach: what is known of it as the end of a rod, or where it has been.
+/// The box that a point may reach: the one found for the end of a rod, or its extent so far.
 fn reach(q: &Quantities<'_>, point: &Point, reached: &[(Point, Span3)]) -> Span3 {
     let known = reached.iter().find(|(other, _)| other == point);
     known.map_or_else(|| extent(q, point), |(_, span)| *span)
 }
 
-/// Where a point has been.
+/// The extent of a point's motion so far.
 fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
     let ends = point.map(|expression| match q.place(expression) {
         Source::Number(number) => (number, number),
@@ -165,7 +165,7 @@ fn grown([low, high]: Span3, by: f64, flat: bool) -> Span3 {
     [[0, 1, 2].map(|k| low[k] - by[k]), [0, 1, 2].map(|k| high[k] + by[k])]
 }
 
-/// The rim of a circle about an axis.
+/// The points of a circle about an axis.
 pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
     let sides = 96;
     let [u, v] = across(normal);
@@ -176,7 +176,7 @@ pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f6
     (0..=sides).map(point).collect()
 }
 
-/// The outline of a square with an edge and a normal.
+/// The outline of a square with the given normal and edge.
 pub(super) fn square(centre: [f64; 3], normal: [f64; 3], edge: f64) -> Vec<[f64; 3]> {
     let [u, v] = across(normal);
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
@@ -185,14 +185,14 @@ pub(super) fn square(centre: [f64; 3], normal: [f64; 3], edge: f64) -> Vec<[f64;
     corners.into_iter().map(corner).collect()
 }
 
-/// Two unit vectors at right angles to a normal and to each other; without a normal those of the plane of x and y.
+/// Two unit vectors orthogonal to a normal and to each other; for a zero normal, those of the x–y plane.
 fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
     let length = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
     if !length.is_finite() || length == 0.0 {
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     }
     let n = normal.map(|v| v / length);
-    // The axis farthest from the normal gives the better start.
+    // An axis far from the normal avoids cancellation.
     let helper = if n[2].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
     let u = unit(cross(helper, n));
     [u, cross(n, u)]

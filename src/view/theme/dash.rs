@@ -1,25 +1,25 @@
-//! Dashes: the patterns by which lines are told apart where there is no colour.
+//! Dashes: the patterns that distinguish lines without colour.
 //!
-//! In: a place along an axis of the raster, in dots. Out: whether a dot is drawn there. Never here: which line has
+//! In: a position along an axis of the raster, in dots. Out: whether a dot is drawn there. Never here: which line has
 //! which pattern.
 
-/// A pattern along a line. It is fixed to the screen, so that a line that moves along does not flicker.
+/// A pattern along a line. It is fixed to the screen, so that a line that moves along itself does not flicker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
-    /// Without gaps.
+    /// A solid line.
     #[default]
     Full,
-    /// Strokes.
+    /// Dashes.
     Dashed,
-    /// Points.
+    /// Dots.
     Dotted,
-    /// A stroke, a point.
+    /// A dash, a dot.
     DashDot,
-    /// A stroke, two points.
+    /// A dash, two dots.
     DashDotDot,
-    /// Points far from each other.
+    /// Widely spaced dots.
     Sparse,
-    /// Long strokes, small gaps.
+    /// Long dashes with small gaps.
     Long,
 }
 
@@ -48,14 +48,14 @@ impl Dash {
         }
     }
 
-    /// Whether the dot at a place along the line is drawn.
+    /// Whether the dot at a position along the line is drawn.
     pub fn covers(self, place: i32) -> bool {
         let dots = self.dots();
         dots[place.rem_euclid(dots.len() as i32) as usize] == b'#'
     }
 
-    /// The character of which the line is made in ASCII, where patterns cannot be drawn; the full one is drawn by its
-    /// shape.
+    /// The character for the line in ASCII, in which patterns cannot be drawn; `None` for the solid line, which is drawn by
+    /// its shape.
     pub fn letter(self) -> Option<char> {
         match self {
             Self::Full => None,

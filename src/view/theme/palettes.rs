@@ -2,8 +2,8 @@
 //!
 //! In: nothing. Out: colours by role. Never here: what a terminal can show of them.
 //!
-//! The series' hues start from the set of M. Okabe and K. Ito, "Color Universal Design" (2008), which people with
-//! the common kinds of colour blindness can tell apart; they are moved in lightness to suit each background.
+//! The series' hues are based on the set of M. Okabe and K. Ito, "Color Universal Design" (2008), which people with
+//! the common kinds of colour blindness can distinguish; their lightness is adjusted to each background.
 
 use ratatui::style::{Color, Modifier};
 
@@ -13,21 +13,21 @@ use crate::view::colour::{ColourDepth, Rgb};
 /// A named set of colours.
 #[derive(Debug)]
 pub struct Palette {
-    /// How it is asked for.
+    /// The name by which it is selected.
     pub name: &'static str,
     /// One line about it.
     pub about: &'static str,
-    /// The terminal background it is made for; it is not painted.
+    /// The terminal background for which it is designed; it is not painted.
     pub background: Rgb,
-    /// The strongest colour on that background.
+    /// The colour with the highest contrast on that background.
     pub foreground: Rgb,
-    /// The inks of [`Role::ALL`], in that order.
+    /// The colours of [`Role::ALL`], in that order.
     pub roles: [PaletteColour; Role::ALL.len()],
     /// The colours of series.
     pub curves: [PaletteColour; CURVES],
-    /// Anchors of the density ramp, sparse to dense, of growing contrast.
+    /// The control colours of the density ramp, from sparse to dense, with increasing contrast.
     pub heat: [PaletteColour; 4],
-    /// The most colour it uses: one of the terminal's own sixteen, or any.
+    /// The greatest depth of colour it uses.
     pub most: ColourDepth,
 }
 
@@ -50,7 +50,7 @@ const fn own(weight: Modifier, mono: Modifier) -> PaletteColour {
     PaletteColour { rgb: None, ansi: Color::Reset, weight, mono }
 }
 
-/// Middle tones: bright enough for black, and still dark enough to be read should the terminal be white.
+/// Medium tones: bright enough on black, and dark enough to be legible if the terminal is white.
 const DARK: Palette = Palette {
     name: "dark",
     about: "for dark terminals, legible on light ones",
@@ -88,7 +88,7 @@ const DARK: Palette = Palette {
     most: ColourDepth::True,
 };
 
-/// Deep tones on white.
+/// Dark tones on white.
 const LIGHT: Palette = Palette {
     name: "light",
     about: "for light terminals",
@@ -126,7 +126,7 @@ const LIGHT: Palette = Palette {
     most: ColourDepth::True,
 };
 
-/// Strong tones on black: all words at 7 to 1 or more, frames and level curves at 4.5.
+/// Strong tones on black: all text has a contrast of at least 7 to 1, frames and level curves 4.5.
 const CONTRAST: Palette = Palette {
     name: "contrast",
     about: "high contrast, for black terminals",
@@ -164,7 +164,7 @@ const CONTRAST: Palette = Palette {
     most: ColourDepth::True,
 };
 
-/// Verdicts in blue, yellow and vermilion; nothing hangs on telling red from green.
+/// Verdicts in blue, yellow and vermilion; nothing depends on distinguishing red from green.
 const COLOUR_BLIND: Palette = Palette {
     name: "colour-blind",
     about: "told apart by people who confuse red and green",
@@ -202,7 +202,7 @@ const COLOUR_BLIND: Palette = Palette {
     most: ColourDepth::True,
 };
 
-/// The sixteen colours that the terminal itself is set to, whatever more it could show.
+/// The sixteen colours configured in the terminal, even if it supports more.
 const TERMINAL: Palette = Palette {
     name: "terminal",
     about: "the terminal's own sixteen colours",

@@ -1,4 +1,4 @@
-//! Ramps: rows of shades whose contrast with the background only grows.
+//! Ramps: sequences of shades whose contrast with the background never decreases.
 //!
 //! In: a palette and a depth. Out: the steps of trails and of density. Never here: which step a dot gets.
 
@@ -14,13 +14,13 @@ pub(super) struct Ramps {
 }
 
 impl Ramps {
-    /// `ages` steps from nearly the background to the ink, brightened.
+    /// `ages` steps from nearly the background to the colour, brightened.
     pub(super) fn trail(&self, ink: &PaletteColour, ages: usize) -> Vec<Shade> {
         let background = self.palette.background;
         let colour = ink.rgb.unwrap_or(self.palette.foreground);
         let newest = colour.mix(self.palette.foreground, 0.35);
         let base = ink.ansi;
-        // Bright is stronger than plain on black, but weaker on white.
+        // Bright has more contrast than plain on black, but less on white.
         let oldest = if self.contrast(Color::DarkGray) < self.contrast(base) {
             Color::DarkGray
         } else {
@@ -47,7 +47,7 @@ impl Ramps {
         })
     }
 
-    /// A ramp from few colours among the sixteen, or from a colour for each place from 0 to 1.
+    /// A ramp of a few of the sixteen colours, or of the colours that `at` gives for positions from 0 to 1.
     fn steps(&self, steps: usize, few: &[Color], at: impl Fn(f64) -> Rgb) -> Vec<Shade> {
         let mut strongest = (0.0, Color::Reset);
         (0..steps)
@@ -64,7 +64,7 @@ impl Ramps {
                     }
                     _ => few[((share * few.len() as f64) as usize).min(few.len() - 1)],
                 };
-                // Rounding to the palette may step back; then the step before is kept.
+                // Rounding to the palette may reduce the contrast; then the previous step is used again.
                 if self.contrast(colour) >= strongest.0 {
                     strongest = (self.contrast(colour), colour);
                 }
@@ -78,7 +78,7 @@ impl Ramps {
     }
 }
 
-/// A step without colour: dim and thin, plain, bold.
+/// A step without colour: dim and thin, plain, or bold.
 fn weight(share: f64) -> Shade {
     let modifier = match share {
         s if s < 0.3 => Modifier::DIM,
@@ -89,7 +89,7 @@ fn weight(share: f64) -> Shade {
     Shade { style, coverage: (0.2 + 1.2 * share).min(1.0), dash: Dash::Full }
 }
 
-/// The bright partner of one of the eight base colours.
+/// The bright counterpart of one of the eight base colours.
 fn brighter(colour: Color) -> Color {
     match colour {
         Color::Red => Color::LightRed,

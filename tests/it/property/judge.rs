@@ -282,7 +282,12 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         if message.contains("belongs to several starts") {
             return Outcome::Stopped;
         }
-        if told.time == 0.0 && told.check.is_empty() && case.by_momentum.is_empty() {
+        let asks_for_less = message.contains("try a smaller step");
+        if told.time == 0.0
+            && told.check.is_empty()
+            && case.by_momentum.is_empty()
+            && !asks_for_less
+        {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
     }
@@ -309,7 +314,9 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         End::Fault(message) if default => {
             return failed(Kind::GivesUp, message);
         }
-        End::Fault(message) if !message.contains("passes it") => {
+        End::Fault(message)
+            if !message.contains("passes it") && !message.contains("try a smaller step") =>
+        {
             return failed(Kind::Unhelpful, message);
         }
         End::Fault(_) => return Outcome::Stopped,

@@ -13,8 +13,8 @@ use crate::view::theme::Shade;
 const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
 
 impl Raster {
-    /// Points shaded by density: the step of the ramp grows with the logarithm of the count in a cell, the fullest
-    /// cell taking the last step.
+    /// Draws points shaded by density: the step of the ramp grows with the logarithm of the count in a cell, and the
+    /// fullest cell gets the last step.
     pub fn cloud(
         &mut self,
         frame: &Frame,

@@ -1,11 +1,11 @@
-//! Letters for dots: the ASCII character that has its ink where the dots of a cell are.
+//! Letters for dots: the ASCII character whose shape is nearest to the dots of a cell.
 //!
-//! In: 2×3 dots. Out: a character below 0x80. Never here: trails, whose characters tell their age, and clouds.
+//! In: 2×3 dots. Out: a character below 0x80. Never here: trails, whose characters show their age, and clouds.
 //!
-//! A line that rises slowly reads `_.-'"`, a steep one `/` and `|`: a character stands for the height at which the line
-//! crosses its cell, so that a curve is one and not a row of steps.
+//! A slowly rising line reads `_.-'"`, a steep one `/` and `|`: the character shows the height at which the line
+//! crosses its cell, so that a curve looks continuous and not like a row of steps.
 
-/// The character for dots, row by row from the top, the left one of a row in the lower bit.
+/// The character for dots, row by row from the top, with the left dot of a row in the lower bit.
 pub(super) fn letter(dots: u8) -> char {
     let [top, middle, bottom] = [0, 2, 4].map(|shift| dots >> shift & 3);
     match (top != 0, middle != 0, bottom != 0) {
@@ -25,7 +25,7 @@ const LEFT: u8 = 1;
 const RIGHT: u8 = 2;
 const BOTH: u8 = 3;
 
-/// In the upper two thirds of the cell.
+/// The character for dots in the upper two thirds of the cell.
 fn upper(top: u8, middle: u8) -> char {
     match (top, middle) {
         (BOTH, BOTH) => '*',
@@ -36,7 +36,7 @@ fn upper(top: u8, middle: u8) -> char {
     }
 }
 
-/// In the lower two thirds.
+/// The character for dots in the lower two thirds.
 fn lower(middle: u8, bottom: u8) -> char {
     match (middle, bottom) {
         (BOTH, BOTH) => 'o',
@@ -47,7 +47,7 @@ fn lower(middle: u8, bottom: u8) -> char {
     }
 }
 
-/// From the top to the bottom.
+/// The character for dots from the top to the bottom.
 fn steep(top: u8, middle: u8, bottom: u8) -> char {
     let falls = top & LEFT != 0 && bottom & RIGHT != 0;
     let rises = top & RIGHT != 0 && bottom & LEFT != 0;
@@ -69,7 +69,7 @@ mod tests {
     fn every_pattern_has_a_character_and_the_heights_differ() {
         let all: String = (0..64).map(letter).collect();
         assert!(all.chars().skip(1).all(|c| c.is_ascii_graphic()), "{all}");
-        // both dots of a row, and a step from each row to the next
+        // Both dots of a row, and a step from each row to the next.
         let rising = [0b11_00_00, 0b01_10_00, 0b00_11_00, 0b00_01_10, 0b00_00_11];
         assert_eq!(rising.map(letter), ['_', ',', '-', '\'', '"']);
         let falling = [0b00_00_11, 0b00_10_01, 0b00_11_00, 0b10_01_00, 0b11_00_00];

@@ -1,33 +1,32 @@
-//! The hand that draws a line: it breaks at gaps, wraps, clips and keeps the line thin.
+//! The polyline: it breaks at gaps, wraps, clips and stays thin.
 //!
-//! In: data points one after the other, each with its pen. Out: inked dots of a raster. Never here: what a dot looks
-//! like.
+//! In: successive data points, each with its pen. Out: dots of a raster. Never here: the appearance of a dot.
 
 use super::{Pen, Raster, spot_of};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::{Frame, Scale};
 use crate::view::plot::stroke::{Tip, clip};
 
-/// What covers less than this is shading, in ASCII of single dots, and no line.
+/// The coverage below which a line is shading and, in ASCII, drawn as single dots.
 const FAINT: f64 = 0.3;
 
-/// Draws through points in data coordinates; [`Polyline::rest`] ends the line.
+/// Draws a line through points in data coordinates; [`Polyline::rest`] ends it.
 pub(super) struct Polyline<'a, 'p> {
     raster: &'a mut Raster,
     frame: Frame,
     size: [i32; 2],
-    /// How many dots one turn of each axis takes, where it is periodic.
+    /// The number of dots in one turn of each axis, if it is periodic.
     turns: [Option<f64>; 2],
     tip: Tip<DotStyle<'p>>,
     at: Option<[f64; 2]>,
     /// The first point of a line, until there is a second.
     lone: Option<([f64; 2], &'p Pen)>,
-    /// Age and number of ages of a trail, which in ASCII choose the character.
+    /// The age and the number of ages of a trail, which choose the character in ASCII.
     fading: Option<(usize, usize)>,
 }
 
 impl<'a, 'p> Polyline<'a, 'p> {
-    /// A hand that has not begun.
+    /// Creates a polyline without points.
     pub(super) fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
         let size = raster.size();
         let turn = |scale: &Scale, dots: i32| Some(scale.turn_length()? * f64::from(dots));
@@ -36,12 +35,12 @@ impl<'a, 'p> Polyline<'a, 'p> {
         Self { raster, frame: *frame, size, turns, tip, at: None, lone: None, fading: None }
     }
 
-    /// From here on the line is `age` of `ages` steps old.
+    /// Sets the age of the following part of the line, one of `ages` steps.
     pub(super) fn fade(&mut self, age: usize, ages: usize) {
         self.fading = Some((age, ages));
     }
 
-    /// Draws on to a point.
+    /// Continues the line to a point.
     pub(super) fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
         let next = spot_of(&self.frame, point, self.size);
         if !next.iter().all(|v| v.is_finite()) {
@@ -56,7 +55,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
         if shift == [0.0, 0.0] {
             self.stroke(from, next, pen);
         } else {
-            // Out over one edge, in over the other.
+            // The line leaves at one edge and enters at the other.
             self.stroke(from, [next[0] - shift[0], next[1] - shift[1]], pen);
             self.lift();
             self.stroke([from[0] + shift[0], from[1] + shift[1]], next, pen);
@@ -72,7 +71,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
         self.at = None;
     }
 
-    /// By how much `next` was moved when it wrapped, in dots; more than half a turn at once is taken for a wrap.
+    /// The shift of `next` by wrapping, in dots; a jump of more than half a turn counts as a wrap.
     fn wrapped(&self, from: [f64; 2], next: [f64; 2]) -> [f64; 2] {
         let turn = |axis: usize| {
             let Some(turn) = self.turns[axis] else { return 0.0 };
@@ -84,14 +83,14 @@ impl<'a, 'p> Polyline<'a, 'p> {
 
     fn stroke(&mut self, from: [f64; 2], next: [f64; 2], pen: &'p Pen) {
         let sign = self.sign(pen);
-        // What is written by signs goes from cell to cell.
+        // Lines of characters are drawn cell by cell.
         let grid = if sign.is_some() { self.raster.cell() } else { [1, 1] };
         let count = [0, 1].map(|i| self.size[i] / grid[i]);
         let inside = clip(from, next, self.size.map(f64::from));
         let Some((a, b)) = inside.filter(|_| !count.contains(&0)) else { return self.lift() };
         let (last, whole) = (count.map(|n| n - 1), b == next);
         let [a, b] = [a, b].map(|point| [0, 1].map(|i| point[i] / f64::from(grid[i])));
-        // The axis along which the line runs, and its pattern with it.
+        // The axis along which the line, and thus its pattern, advances.
         let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
         let ink = DotStyle { pen, sign, along, grid };
         let raster = &mut *self.raster;
@@ -101,7 +100,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
         }
     }
 
-    /// In ASCII, the sign that tells the age of a trail, or which of several lines this is.
+    /// The ASCII character for the age of a trail, or for one of several lines.
     fn sign(&self, pen: &Pen) -> Option<char> {
         if self.raster.glyphs != Glyphs::Ascii {
             return None;
@@ -116,7 +115,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
     }
 }
 
-/// What a dot of a line is put down with.
+/// How a dot of a line is drawn.
 #[derive(Clone, Copy)]
 struct DotStyle<'p> {
     pen: &'p Pen,
@@ -126,17 +125,17 @@ struct DotStyle<'p> {
 }
 
 impl DotStyle<'_> {
-    /// Inks a dot of a line unless it falls in a gap of the pattern.
+    /// Draws a dot of a line unless it is in a gap of the pattern.
     fn put(&self, raster: &mut Raster, dot: [i32; 2]) {
         if self.sign.is_some() || self.pen.dash.covers(dot[self.along]) {
-            // the middle of its cell
+            // The centre of its cell.
             let dot = [0, 1].map(|i| dot[i] * self.grid[i] + self.grid[i] / 2);
             raster.ink(dot, self.pen, self.sign);
         }
     }
 }
 
-/// The character of a trail's age in ASCII.
+/// The ASCII character for the age of a trail.
 fn faded(age: usize, ages: usize) -> char {
     const AGES: [char; 4] = ['.', ':', '+', 'o'];
     AGES[(age * AGES.len() / ages.max(1)).min(AGES.len() - 1)]
