@@ -1,5 +1,4 @@
-//! Tells cargo that the program holds the folder `presets`: a preset added or changed is a reason
-//! to build again.
+//! Rebuilds the program, which embeds the folder `presets`, if a preset is added or changed.
 
 fn main() {
     println!("cargo::rerun-if-changed=presets");

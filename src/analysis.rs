@@ -1,8 +1,8 @@
-//! What can be said of a motion: verdicts on its invariants, answers to questions on brackets, and the [`Landscape`] of
-//! the energy it moves in.
+//! Analysis of a motion: verdicts on its invariants, answers to questions about brackets, and the
+//! [`Landscape`] of its energy.
 //!
-//! In: histories of values, a compiled system. Out: a [`Verdict`], an [`Inquiry`], curves. Never here: files and what they
-//! claim, threads, clocks, terminals.
+//! In: histories of values, a compiled system. Out: a [`Verdict`], an [`Inquiry`], curves. Never
+//! here: files and their claims, threads, wall clocks, terminals.
 
 mod history;
 mod inquiry;

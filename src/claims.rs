@@ -1,8 +1,8 @@
-//! Whether what a file claims of itself is true: what it says is conserved is, and its numbers are
-//! what the motion gives.
+//! Checks the claims of a file: whether the quantities declared conserved are conserved, and the
+//! expected numbers are those of the motion.
 //!
-//! In: a model and what follows from it. Out: a mistake for each claim that is false, at its
-//! place. What is proved symbolically is not integrated. Never here: how claims are written.
+//! In: a model and its equations. Out: a diagnostic for each claim that is false, at its place.
+//! Claims proved symbolically are not integrated. Never here: how claims are written.
 
 mod brackets;
 mod check;

@@ -1,8 +1,8 @@
-//! The command line: one file per subcommand, each over the same stages as the laboratory.
+//! The command line: one file per subcommand, each built on the same stages as the laboratory.
 //!
 //! In: arguments. Out: data on standard output (and nothing else there), mistakes and messages on
-//! standard error, an exit code of [`EXITS`]. Output that nobody reads any more (`| head`) ends a
-//! command quietly, as done. Never here: mechanics, numbers in motion.
+//! standard error, an exit code of [`EXITS`]. If the reader closes the pipe early (`| head`), a
+//! command ends quietly and successfully. Never here: mechanics, the integration of a motion.
 
 mod assignment;
 mod bracket;

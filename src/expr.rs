@@ -1,12 +1,13 @@
-//! Expressions: text in, exact symbolic algebra inside, text out. No physics.
+//! Expressions: text in, exact symbolic algebra inside, text out. They contain no physics.
 //!
 //! A [`Pool`] interns every expression once, in a canonical form (n-ary sums with numeric
-//! coefficients, n-ary products with numeric exponents), so equal means *the same handle* and
-//! common subexpressions are free. An [`Expr`] is such a handle, a [`Symbol`] an interned name.
+//! coefficients, n-ary products with numeric exponents). Equal expressions therefore have *the same
+//! handle*, and common subexpressions are free. An [`Expr`] is such a handle, a [`Symbol`] an
+//! interned name.
 //!
 //! In: source text ([`parse`] → [`Syntax`] with spans → [`Pool`]). Out: derivatives, simplified
-//! forms, zero proofs, and three ways of writing ([`Pool::text`], [`Pool::unicode`],
-//! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numbers in motion.
+//! forms, proofs of vanishing, and three notations ([`Pool::text`], [`Pool::unicode`],
+//! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numerical motion.
 
 mod ball;
 mod conditioning;

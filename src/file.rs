@@ -143,9 +143,9 @@ mod tests {
         for reads in [read, read_regular] {
             assert_eq!(reads(&path, 5).expect("read"), (b"12345".to_vec(), 5));
             assert_eq!(reads(&path, 3).expect("read"), (b"1234".to_vec(), 5));
-            let told = |path: &Path| reads(path, 5).expect_err("no file").to_string();
-            assert_eq!(told(folder.path()), "it is a folder, not a file");
-            assert_eq!(told(Path::new("/dev/zero")), "it is a device, not a file");
+            let text = |path: &Path| reads(path, 5).expect_err("no file").to_string();
+            assert_eq!(text(folder.path()), "it is a folder, not a file");
+            assert_eq!(text(Path::new("/dev/zero")), "it is a device, not a file");
         }
     }
 
@@ -155,10 +155,10 @@ mod tests {
         let path = folder.path().join("pipe");
         let made = std::process::Command::new("mkfifo").arg(&path).status();
         assert!(made.expect("mkfifo can be started").success());
-        let told = |why: io::Error| why.to_string();
-        assert_eq!(told(read_regular(&path, 5).expect_err("no file")), "it is a pipe, not a file");
-        let nobody = "it is a pipe that nothing was written into";
-        assert_eq!(told(read(&path, 5).expect_err("nobody writes")), nobody);
+        let text = |why: io::Error| why.to_string();
+        assert_eq!(text(read_regular(&path, 5).expect_err("no file")), "it is a pipe, not a file");
+        let silent = "it is a pipe that nothing was written into";
+        assert_eq!(text(read(&path, 5).expect_err("nobody writes")), silent);
         let mut shell = std::process::Command::new("sh");
         let mut writer =
             shell.args(["-c", "printf 12345 > \"$0\""]).arg(&path).spawn().expect("sh");

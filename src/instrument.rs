@@ -2,8 +2,8 @@
 //!
 //! A file of this room defines one kind: its name in files, sessions and assertions, the keys of a view, the choices
 //! of the user, what it opens with, its title, its picture as data, its background job, and its measures. In: a
-//! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`]s. Never here: cells and colours (`view` draws
-//! any picture), keys, threads.
+//! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
+//! colours (`view` draws any picture), keys, threads.
 
 mod phase;
 mod picture;
@@ -20,4 +20,6 @@ pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;
 pub use present::{Physics, Present};
 pub use sight::{CameraPose, Sight, Viewport};
-pub use table::{Answer, Axis, INSTRUMENTS, Instrument, Measure, NOT_YET, Need, Offer, listed, named, offers};
+pub use table::{
+    Answer, Axis, INSTRUMENTS, Instrument, Measure, NOT_YET, Need, Offer, listed, named, offers,
+};

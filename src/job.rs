@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn a_panic_is_reported_with_the_name_of_the_job() {
         let job: Job<()> = Job::new("the search", |_| panic!("no way"));
-        let told = "the search stopped by a defect of the program: no way".to_owned();
-        assert_eq!(job.run(&Progress::new()), Outcome::Failed(told));
+        let reason = "the search stopped by a defect of the program: no way".to_owned();
+        assert_eq!(job.run(&Progress::new()), Outcome::Failed(reason));
     }
 }

@@ -1,4 +1,4 @@
-//! The thin binary.
+//! The binary; all of its code is in the library.
 
 use std::process::ExitCode;
 

@@ -1,8 +1,9 @@
-//! The preset file: its text in, a checked [`Model`] out, or every mistake in its place.
+//! The preset file: its text in, a checked [`Model`] or every mistake with its range out.
 //!
-//! The way: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) → `draft` (as
-//! written, nothing looked up) → `check` (names resolved, expressions read) → [`Model`]. Beside it
-//! the [`Catalog`] of shipped and own presets. Never here: equations of motion, and whether what a file claims is true.
+//! The stages: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) →
+//! `draft` (as written, with names unresolved) → `check` (names resolved, expressions parsed) → [`Model`]. There is
+//! also the [`Catalog`] of shipped and user presets. Never here: equations of motion, and whether what a file claims
+//! is true.
 
 mod catalog;
 mod check;

@@ -285,20 +285,20 @@ mod tests {
         assert_eq!(quoted(&at_most), at_most);
         assert_eq!(quoted(&format!("{at_most}y")), format!("{at_most}…"));
         assert_eq!(quoted("a\nb"), "a\\nb");
-        let told = [0.0, 0.25, -3.0, 1e14, 1e15, 1e300, -5e-324, 1e-5].map(number);
+        let shown = [0.0, 0.25, -3.0, 1e14, 1e15, 1e300, -5e-324, 1e-5].map(number);
         let expected =
             ["0", "0.25", "-3", "100000000000000", "1e15", "1e300", "-5e-324", "0.00001"];
-        assert_eq!(told, expected);
+        assert_eq!(shown, expected);
     }
 
     #[test]
     fn errors_of_the_system_are_reported_in_words() {
-        let told = |number| why(&io::Error::from_raw_os_error(number));
+        let shown = |number| why(&io::Error::from_raw_os_error(number));
         // ENOENT, EACCES, ENOSPC, EIO
         let numbers = [2, 13, 28, 5];
         let words = ["no such file or folder", "permission denied", "no space left on the device"];
-        assert_eq!(numbers.map(told)[..3], words);
-        assert!(!numbers.map(told)[3].contains("os error"));
+        assert_eq!(numbers.map(shown)[..3], words);
+        assert!(!numbers.map(shown)[3].contains("os error"));
         assert_eq!(why(&io::Error::other("it is\x07 odd")), "it is\\u{7} odd");
     }
 

@@ -1,9 +1,9 @@
-//! The record room: a script of keys, waits and captions played on a virtual clock, and what comes of it.
+//! Recordings: a script of keys, waits and captions is played on a virtual clock.
 //!
-//! In: a [`Script`] and the system it is about. Out: a [`Recording`], written as a cast for asciinema ([`cast_writer`]) or as a
-//! textual account ([`transcript`]); the same as someone watches ([`ScriptRunner`]); casts read back ([`RecordedCast`]). Time is counted in whole microseconds and passes only
-//! by frames, so the same script gives the same bytes on every machine. Never here: a clock, a terminal, a thread,
-//! a file, the environment.
+//! In: a [`Script`] and its system. Out: a [`Recording`], written as a cast for asciinema ([`cast_writer`]) or as a
+//! transcript ([`transcript`]); a live performance ([`ScriptRunner`]); casts read back ([`RecordedCast`]). Time is
+//! counted in whole microseconds and passes only by frames, so the same script gives the same bytes on every machine.
+//! Never here: a clock, a terminal, a thread, a file, the environment.
 
 pub mod cast_writer;
 pub mod data;

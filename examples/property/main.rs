@@ -38,7 +38,7 @@ const BUDGET: Budget =
     Budget { steps: 100_000, evaluations: 100_000, watchdog: Duration::from_secs(60) };
 
 /// The most cases tried in order to shrink one that fails.
-const LOOKS: u32 = 120;
+const ATTEMPTS: u32 = 120;
 
 /// A thread that hangs keeps running; this many of them would block everything else.
 const MOST_HANGS: u32 = 4;
@@ -103,7 +103,7 @@ fn main() -> Result<ExitCode> {
         let hang = matches!(failure.kind, Kind::Hang | Kind::Slow);
         hangs += u32::from(failure.kind == Kind::Hang);
         let fails = |case: &case::Case| matches!(judged(case, BUDGET), Outcome::Failed(f) if f.kind == failure.kind);
-        let smallest = if hang { case.clone() } else { shrink::shrunk(&case, LOOKS, &fails) };
+        let smallest = if hang { case.clone() } else { shrink::shrunk(&case, ATTEMPTS, &fails) };
         let text = smallest.toml();
         writeln!(out, "as small as it was made:\n{text}")?;
         let last = judged(&smallest, Budget { watchdog: Duration::from_secs(5), ..BUDGET });

@@ -1,26 +1,26 @@
-//! The history of one quantity in bounded memory: equal stretches of time, each with its least,
-//! greatest and mean value, joined two by two whenever there are too many.
+//! The history of one quantity in bounded memory: equal intervals of time, each with its least,
+//! greatest and mean value, joined in pairs whenever there are too many.
 //!
-//! In: values at whatever times. Out: [`Stretch`]es. Never here: what to think of them.
+//! In: values at any times. Out: [`Stretch`]es. Never here: their assessment.
 
-/// How many stretches are kept at most; between half as many and all of them are in use.
+/// The maximal number of intervals; between half and all of them are in use.
 const CAPACITY: usize = 128;
 
-/// A piece of a history.
+/// One interval of a history.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Stretch {
-    /// The time of its first value.
+    /// The time of the first value.
     pub start: f64,
-    /// The time of its last value.
+    /// The time of the last value.
     pub end: f64,
-    /// The least value in it.
+    /// The least value.
     pub least: f64,
-    /// The greatest value in it.
+    /// The greatest value.
     pub greatest: f64,
-    /// The mean of its values.
+    /// The mean of the values.
     pub mean: f64,
     count: u64,
-    /// Which stretch of time it is, counted from the first.
+    /// The index of the interval, counted from the first.
     slot: u64,
 }
 
@@ -30,7 +30,7 @@ impl Stretch {
         Stretch { start, end, least: value, greatest: value, mean: value, count: 1, slot }
     }
 
-    /// The two pieces as one.
+    /// Joins two intervals.
     fn join(&self, other: &Stretch) -> Stretch {
         let count = self.count + other.count;
         let weight = other.count as f64 / count as f64;
@@ -45,27 +45,28 @@ impl Stretch {
         }
     }
 
-    /// The middle of its time.
+    /// The middle of the interval.
     pub fn middle(&self) -> f64 {
         0.5 * (self.start + self.end)
     }
 
-    /// The greatest size of a value in it.
+    /// The largest absolute value.
     pub fn peak(&self) -> f64 {
         self.greatest.abs().max(self.least.abs())
     }
 }
 
-/// A history of values at times that rise on the whole.
+/// A history of values at nearly increasing times.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     stretches: Vec<Stretch>,
-    /// The first time, and how long a stretch is; zero before there are two times.
+    /// The first time, and the length of an interval; zero before there are two times.
     origin: f64,
     width: f64,
 }
 
-/// What rounding may leave a time short of the stretch it begins.
+/// The tolerance for a time just short of the interval it begins because of rounding, as a part of
+/// an interval.
 const EDGE: f64 = 1e-6;
 
 impl History {
@@ -74,7 +75,8 @@ impl History {
         History { stretches: Vec::with_capacity(CAPACITY), origin: 0.0, width: 0.0 }
     }
 
-    /// Adds a value; one that is not finite is passed over. A value may be a little older than the last.
+    /// Adds a value, and ignores one that is not finite. A value may be a little older than the
+    /// last.
     pub fn push(&mut self, time: f64, value: f64) {
         if !value.is_finite() || !time.is_finite() {
             return;
@@ -101,42 +103,42 @@ impl History {
         }
     }
 
-    /// Which stretch a time lies in.
+    /// The index of the interval in which a time lies.
     fn slot(&self, time: f64) -> u64 {
         if self.width > 0.0 { ((time - self.origin) / self.width + EDGE) as u64 } else { 0 }
     }
 
-    /// Makes stretches twice as long.
+    /// Doubles the length of the intervals.
     fn coarsen(&mut self) {
         self.width *= 2.0;
         let mut joined: Vec<Stretch> = Vec::with_capacity(CAPACITY);
-        for stretch in self.stretches.drain(..) {
-            let stretch = Stretch { slot: stretch.slot / 2, ..stretch };
+        for interval in self.stretches.drain(..) {
+            let interval = Stretch { slot: interval.slot / 2, ..interval };
             match joined.last_mut() {
-                Some(last) if last.slot == stretch.slot => *last = last.join(&stretch),
-                _ => joined.push(stretch),
+                Some(last) if last.slot == interval.slot => *last = last.join(&interval),
+                _ => joined.push(interval),
             }
         }
         self.stretches = joined;
     }
 
-    /// The stretches, the oldest first. All are equally long but the last, which may be unfinished; where nothing was
-    /// looked at there is none.
+    /// The intervals, the oldest first. All have the same length except the last, which may be
+    /// incomplete. Intervals without values are omitted.
     pub fn stretches(&self) -> &[Stretch] {
         &self.stretches
     }
 
-    /// How many values went in.
+    /// The number of values added.
     pub fn len(&self) -> u64 {
         self.stretches.iter().map(|s| s.count).sum()
     }
 
-    /// Whether nothing went in.
+    /// Whether no value was added.
     pub fn is_empty(&self) -> bool {
         self.stretches.is_empty()
     }
 
-    /// The greatest size of a value.
+    /// The largest absolute value.
     pub fn peak(&self) -> f64 {
         self.stretches.iter().map(Stretch::peak).fold(0.0, f64::max)
     }

@@ -1,7 +1,8 @@
-//! What a person asks of one expression or two: is G conserved, and what is \[f, g\]?
+//! Questions about one expression or two: is G conserved, and what is \[f, g\]?
 //!
-//! In: a typed text, a model and what follows from it. Out: an [`Inquiry`] with its answer, or a mistake at its place.
-//! Never here: where it is typed or shown; the motion, but for the values one hands in.
+//! In: a typed text, a model and its equations. Out: an [`Inquiry`] with its answer, or a syntax
+//! error with its place. Never here: where the question is typed or shown; the motion, except for
+//! values supplied by the caller.
 
 use crate::cancel::Cancel;
 use crate::diagnostic::SourceRange;
@@ -12,31 +13,31 @@ use crate::model::{Allowed, Model, Observable, Scope};
 /// A question that was understood, and its answer.
 #[derive(Clone, Debug)]
 pub struct Inquiry {
-    /// What follows from the law, grown by what was asked.
+    /// The equations, extended by the question.
     equations: Equations,
-    /// What was asked, and what came of it.
+    /// The question and its answer.
     pub answer: Answer,
 }
 
-/// What came of a question.
+/// The answer to a question.
 #[derive(Clone, Debug)]
 pub enum Answer {
     /// The bracket of two expressions.
     Bracket {
-        /// The one and the other.
+        /// The two expressions.
         sides: [Expr; 2],
         /// \[f, g\] of (q, p, t), or why it is not known in closed form.
         bracket: Result<Expr, NoClosedForm>,
-        /// What it is by names of the file; zero where it vanishes.
+        /// The bracket in terms of names of the file; zero if it vanishes.
         recognised: Option<Recognised>,
-        /// Its values, where there is no closed form.
+        /// Its numerical values, if there is no closed form.
         rule: Option<Box<ChainRule>>,
     },
     /// Whether an expression is conserved.
     Conservation {
         /// The expression.
         of: Expr,
-        /// Whether it is, and how that is known.
+        /// Whether it is conserved, and how that is known.
         class: Class,
         /// Its rate of change along the motion.
         rate: Result<Expr, NoClosedForm>,
@@ -44,19 +45,19 @@ pub enum Answer {
 }
 
 impl Inquiry {
-    /// Reads a question, `f, g` or one expression, and answers it. `H` is the energy where the file has nothing of that
-    /// name; brackets around the whole may be written.
+    /// Parses a question, `f, g` or one expression, and answers it. `H` is the energy if the file
+    /// does not define that name. The whole may be enclosed in brackets.
     ///
     /// # Errors
-    /// What is wrong with the text, with its place in it.
+    /// Returns an error with its place if the text is not valid.
     pub fn of(model: &Model, equations: &Equations, text: &str) -> Result<Inquiry, SyntaxError> {
         Self::with(model, equations, text, equations.pool.cancel())
     }
 
-    /// The same, with a token by which it can be stopped; what it then returns says nothing.
+    /// The same, with a token that cancels it; the result is then meaningless.
     ///
     /// # Errors
-    /// Those of [`Inquiry::of`].
+    /// Returns the errors of [`Inquiry::of`].
     pub fn with(
         model: &Model,
         equations: &Equations,
@@ -92,12 +93,13 @@ impl Inquiry {
         if unicode { pool.unicode(e) } else { pool.text(e) }
     }
 
-    /// How many pieces an expression has.
+    /// The number of nodes of an expression.
     pub fn weight(&self, e: Expr) -> u64 {
         self.equations.pool.weight(e)
     }
 
-    /// The value of the bracket, or of the rate, where the symbols have these values; `None` where it has none.
+    /// The value of the bracket, or of the rate, for these values of the symbols, or `None` if it
+    /// has none.
     pub fn value(&self, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
         let of = |e: Expr| Some(self.equations.pool.evaluate(e, at)).filter(|v| v.is_finite());
         match &self.answer {
@@ -110,7 +112,7 @@ impl Inquiry {
     }
 }
 
-/// The parts between the commas that stand in no parentheses, each with its first byte.
+/// The parts separated by commas outside parentheses, each with the offset of its first byte.
 fn parts(text: &str) -> Vec<(usize, &str)> {
     let trimmed = text.trim();
     let begin = text.len() - text.trim_start().len();
@@ -139,7 +141,7 @@ fn parts(text: &str) -> Vec<(usize, &str)> {
     parts
 }
 
-/// One expression, its mistakes placed in the whole text.
+/// Parses one expression, with errors placed in the whole text.
 fn read(
     model: &Model,
     equations: &mut Equations,
@@ -178,7 +180,7 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Answer
 }
 
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
-    // asked as if the file declared it
+    // treated as if the file declared it
     let name = "what is asked".to_owned();
     let observable =
         Observable { name, expression: of, conserved: None, place: SourceRange::default() };
@@ -196,7 +198,7 @@ fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
 }
 
 impl Answer {
-    /// Whether the bracket vanishes, or what was asked is conserved, and how that is known.
+    /// Whether the bracket vanishes, or the expression is conserved, and how that is known.
     pub fn vanishes(&self) -> Zero {
         match self {
             Answer::Bracket { recognised: Some(known), .. } if known.expression == Expr::ZERO => {

@@ -1,8 +1,8 @@
-//! The landscape of the energy over the phase plane of one degree of freedom: level curves, saddles and the
-//! separatrices through them.
+//! The landscape of the energy over the phase plane of one degree of freedom: level curves, saddles
+//! and the separatrices through them.
 //!
-//! In: the compiled system and the region of the motion. Out: a [`Landscape`]. Never here: when to survey anew, or
-//! how it is drawn.
+//! In: the compiled system and the region of the motion. Out: a [`Landscape`]. Never here: when to
+//! compute it again, or how it is drawn.
 
 mod level;
 mod saddle;
@@ -13,13 +13,14 @@ use crate::system::{Form, Observer, System};
 pub use level::Grid;
 use saddle::saddles;
 
-/// Points of the grid across and upwards.
+/// The number of grid points, horizontal and vertical.
 const GRID: [usize; 2] = [161, 121];
 
-/// Points of the coarse grid that is searched for saddles; odd, so that it has a middle row.
+/// The number of points per side of the coarse grid that is searched for saddles; odd, so that it
+/// has a middle row.
 const SEARCH: usize = 81;
 
-/// How many levels are drawn.
+/// The number of levels.
 const LEVELS: usize = 11;
 
 /// A curve in the phase plane, through coordinates and rates.
@@ -30,15 +31,15 @@ pub type Curve = Vec<[f64; 2]>;
 pub struct Landscape {
     /// The least and greatest coordinate, and the least and greatest rate.
     pub window: [[f64; 2]; 2],
-    /// Curves of equal energy, about evenly apart; those of one energy together.
+    /// Curves of equal energy, about evenly spaced, grouped by energy.
     pub levels: Vec<Vec<Curve>>,
-    /// Curves of the energies of saddles, which part kinds of motion.
+    /// Curves at the energies of saddles, which separate kinds of motion.
     pub separatrices: Vec<Curve>,
-    /// Where the saddles are.
+    /// The positions of the saddles.
     pub saddles: Vec<[f64; 2]>,
 }
 
-/// What is surveyed.
+/// The phase plane to survey.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane<'a> {
     /// A system of one degree of freedom.
@@ -49,13 +50,13 @@ pub struct Plane<'a> {
     pub time: f64,
     /// Whether the plane is (q, q̇) or (q, p).
     pub form: Form,
-    /// After what the coordinate repeats, if it does.
+    /// The period of the coordinate, if it is periodic.
     pub period: Option<f64>,
 }
 
 impl Landscape {
-    /// Surveys the energy around a motion, given by its least and greatest coordinate and rate; nothing where there is
-    /// no energy to be seen.
+    /// Surveys the energy around a motion, given by its least and greatest coordinate and rate.
+    /// Returns `None` if the energy has no finite values there.
     pub fn survey(plane: &Plane<'_>, motion: [[f64; 2]; 2]) -> Option<Self> {
         if !motion.as_flattened().iter().all(|v| v.is_finite()) {
             return None;
@@ -99,16 +100,16 @@ impl Energy {
     }
 }
 
-/// `count` values evenly from one end to the other.
+/// Returns `count` evenly spaced values from one end to the other.
 pub(super) fn spread([from, to]: [f64; 2], count: usize) -> Vec<f64> {
     let last = (count - 1) as f64;
     (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
 }
 
-/// Where saddles are looked for: somewhat beyond one period, or beyond the motion, and about zero where the motion
-/// is not too far from there.
+/// The region in which saddles are searched for: somewhat more than one period, or than the motion,
+/// and around zero if the motion is not too far from there.
 fn search_region([x, y]: [[f64; 2]; 2], period: Option<f64>) -> [[f64; 2]; 2] {
-    let across = if let Some(period) = period {
+    let horizontal = if let Some(period) = period {
         [-0.55 * period, 0.55 * period]
     } else {
         let (middle, half) = middle_and_half(x);
@@ -117,10 +118,10 @@ fn search_region([x, y]: [[f64; 2]; 2], period: Option<f64>) -> [[f64; 2]; 2] {
     };
     let far = y[0].abs().max(y[1].abs()) * 1.5;
     let far = if far > 0.0 { far } else { 1.0 };
-    [across, [-far, far]]
+    [horizontal, [-far, far]]
 }
 
-/// The middle of a range, and half its length or something that can stand for it.
+/// The middle of a range, and half its length, or a substitute if that is negligible.
 fn middle_and_half([lo, hi]: [f64; 2]) -> (f64, f64) {
     let middle = lo / 2.0 + hi / 2.0;
     let half = hi / 2.0 - lo / 2.0;
@@ -141,7 +142,7 @@ fn wider(range: [f64; 2], by: f64) -> [f64; 2] {
     [middle - by * half, middle + by * half]
 }
 
-/// The window that holds the motion and, where they are not far larger, the separatrices.
+/// The window that contains the motion and, if they are not far larger, the separatrices.
 fn window(
     energy: &mut Energy,
     motion: [[f64; 2]; 2],
@@ -152,10 +153,11 @@ fn window(
     let mut x = period.map_or(motion[0], |period| [-period / 2.0, period / 2.0]);
     let mut y = motion[1];
     if let Some(top) = separatrices.iter().copied().reduce(f64::max) {
-        // Round a whole turn everything else is flat beside the separatrix; elsewhere it may be out of reach.
+        // For a periodic coordinate everything else is flat compared with the separatrix; otherwise
+        // it may be out of reach.
         let farthest = if period.is_some() { 1e6 } else { 50.0 };
-        let across = if period.is_some() { x } else { wider(search[0], 1.6) };
-        if let Some([wide, high]) = reach(energy, across, search[1], top, farthest) {
+        let horizontal = if period.is_some() { x } else { wider(search[0], 1.6) };
+        if let Some([wide, high]) = reach(energy, horizontal, search[1], top, farthest) {
             let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
             x = if period.is_some() { x } else { join(x, wide) };
             y = join(y, high);
@@ -164,43 +166,44 @@ fn window(
     [if period.is_some() { x } else { wider(x, 1.15) }, wider(y, 1.15)]
 }
 
-/// How far the region below an energy reaches within the range across, and upwards; `None` where it does not end
-/// within `farthest` times the range upwards.
+/// The horizontal and vertical extent of the region below an energy within the horizontal range.
+/// Returns `None` if it does not end within `farthest` times the vertical range.
 fn reach(
     energy: &mut Energy,
-    across: [f64; 2],
-    mut up: [f64; 2],
+    horizontal: [f64; 2],
+    mut vertical: [f64; 2],
     top: f64,
     farthest: f64,
 ) -> Option<[[f64; 2]; 2]> {
-    let positions = spread(across, SEARCH);
-    let limit = up.map(|end| end * farthest);
-    // Widened by fours until the region ends inside, then looked at once more in its own range.
+    let positions = spread(horizontal, SEARCH);
+    let limit = vertical.map(|end| end * farthest);
+    // Widened by factors of four until the region ends inside, then sampled once more in its own
+    // range.
     let mut closer = false;
-    while up[1] <= limit[1] {
-        let rates = spread(up, SEARCH);
+    while vertical[1] <= limit[1] {
+        let rates = spread(vertical, SEARCH);
         let values = energy.grid(&positions, &rates);
         let below = |i: usize, j: usize| values[j * SEARCH + i] <= top;
         let row = |j: usize| (0..SEARCH).any(|i| below(i, j));
         let column = |i: usize| (0..SEARCH).any(|j| below(i, j));
         let (low, high) = ((0..SEARCH).find(|&j| row(j))?, (0..SEARCH).rfind(|&j| row(j))?);
         if low == 0 || high == SEARCH - 1 {
-            up = up.map(|end| end * 4.0);
+            vertical = vertical.map(|end| end * 4.0);
             continue;
         }
-        up = [rates[low - 1], rates[high + 1]];
-        if closer || up[1] - up[0] > 0.5 * (rates[SEARCH - 1] - rates[0]) {
+        vertical = [rates[low - 1], rates[high + 1]];
+        if closer || vertical[1] - vertical[0] > 0.5 * (rates[SEARCH - 1] - rates[0]) {
             let left = (0..SEARCH).find(|&i| column(i))?;
             let right = (0..SEARCH).rfind(|&i| column(i))?;
-            return Some([[positions[left], positions[right]], up]);
+            return Some([[positions[left], positions[right]], vertical]);
         }
         closer = true;
     }
     None
 }
 
-/// Energies whose curves are about evenly apart, as around a quadratic valley; `None` where the energy is flat or
-/// nowhere finite.
+/// Energies whose curves are about evenly spaced, as around a quadratic minimum. Returns `None` if
+/// the energy is constant or nowhere finite.
 fn levels(values: &[f64]) -> Option<Vec<f64>> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);

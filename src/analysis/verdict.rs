@@ -1,44 +1,44 @@
-//! What to think of a quantity that should not change (the notes' invariants, and what a method
-//! makes of them): at the rounding floor, swinging within bounds, drifting away, or lost.
+//! The assessment of a quantity that should be conserved: at the rounding floor, oscillating within
+//! bounds, drifting away, or lost.
 //!
-//! In: the [`History`] of its distance from the reference. Out: a [`Verdict`]. Never here: where the values
-//! come from, or the law of a quantity that the physics itself changes.
+//! In: the [`History`] of its distance from the reference. Out: a [`Verdict`]. Never here: where
+//! the values come from, or the law of a quantity that the physics itself changes.
 
 use super::history::{History, Stretch};
 use crate::num::math;
 
-/// What to think of a drift.
+/// The verdict on a drift.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
-    /// Too short a motion to tell.
+    /// The motion is too short for a verdict.
     Open,
-    /// At the rounding floor; how the rest grows.
+    /// At the rounding floor; contains how the error grows.
     Exact(Growth),
-    /// Swings without trend, as a symplectic method's energy does.
+    /// Oscillates without trend, as the energy of a symplectic method does.
     Bounded,
-    /// Grows with time, or has left its value for good: the method is eating the invariant. The drift per unit of
-    /// time.
+    /// Grows with time, or has left its value permanently: the method does not preserve the
+    /// invariant. Contains the drift per unit of time.
     Secular(f64),
-    /// Left its value by more than a tenth of what moves: nothing of it is left, whatever shape that has.
+    /// Has drifted by more than a tenth of its varying part, in whatever way.
     Lost,
-    /// Not conserved, by the physics; the law for its change, in Unicode mathematics.
+    /// Not conserved by the physics. Contains the law for its change, in Unicode mathematics.
     Broken(String),
 }
 
 /// How a drift at the rounding floor grows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Growth {
-    /// Not at all.
+    /// It does not grow.
     Level,
-    /// Like a random walk, with the square root of time: the best that rounding allows (Brouwer,
-    /// *On the accumulation of errors in numerical integration*, Astron. J. 46, 1937).
+    /// It grows like a random walk, with the square root of time, the best that rounding allows
+    /// (Brouwer, *On the accumulation of errors in numerical integration*, Astron. J. 46, 1937).
     Root,
-    /// Faster: rounding errors that do not average out.
+    /// It grows faster: rounding errors do not average out.
     Faster,
 }
 
 impl Verdict {
-    /// The verdict in one word or two, for reports: `exact`, `bounded`, `secular`, `lost`,
+    /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
     /// `broken by the physics`, `open`.
     pub fn word(&self) -> &'static str {
         match self {
@@ -51,18 +51,19 @@ impl Verdict {
         }
     }
 
-    /// The verdict on a history of distances (signed, 0 at the reference), the `greatest` of which may be known from
-    /// more looks than the history has. `floor` is the distance that rounding alone may cause, see [`rounding_floor`].
+    /// The verdict on a history of distances (signed, 0 at the reference). Their `greatest` may be
+    /// known from more samples than the history has. `floor` is the distance that rounding alone
+    /// may cause, see [`rounding_floor`].
     ///
-    /// A swing that has not yet turned looks like a trend: the verdict on a short history may
-    /// change as it grows longer.
+    /// An oscillation that has not yet turned looks like a trend: the verdict on a short history
+    /// may change as it grows longer.
     pub fn of(distances: &History, greatest: f64, floor: f64) -> Verdict {
-        let stretches = distances.stretches();
-        if stretches.len() < FEWEST {
+        let intervals = distances.stretches();
+        if intervals.len() < FEWEST {
             return Verdict::Open;
         }
-        // the last stretch may hold few values; its mean would count too much
-        let whole = &stretches[..stretches.len() - 1];
+        // the last interval may contain few values, and its mean would count too much
+        let whole = &intervals[..intervals.len() - 1];
         if greatest.max(distances.peak()) <= floor {
             return Verdict::Exact(growth(whole));
         }
@@ -73,13 +74,13 @@ impl Verdict {
     }
 }
 
-/// A drift beyond this part of what moves leaves nothing of a quantity.
+/// A quantity is lost if it drifts by more than this part of its varying part.
 pub const LOST: f64 = 0.1;
 
-/// A drift beyond this part of what moves is told to whoever runs the motion.
+/// A drift of more than this part of the varying part is reported to the user.
 pub const LEFT: f64 = 1e-6;
 
-/// Fewer stretches than this say nothing.
+/// The minimal number of intervals for a verdict.
 const FEWEST: usize = 17;
 
 /// The relative drift that rounding alone explains after this many steps: a random walk of a few
@@ -88,111 +89,117 @@ pub fn rounding_floor(steps: u64) -> f64 {
     f64::EPSILON * (16.0 + 4.0 * (steps as f64).sqrt())
 }
 
-/// The slope of a trend that lasts: however the whole is cut into blocks, the means of these rise (or fall) throughout,
-/// no step between them much smaller than the others; the whole is well above the scatter; and the least and the
-/// greatest values rise with the means. A swing that is met at another phase in every block moves its means by less,
-/// and its extremes not at all or against each other.
-fn trend(stretches: &[Stretch]) -> Option<f64> {
+/// The slope of a lasting trend, if there is one. However the whole is divided into blocks, their
+/// means must rise (or fall) throughout, with no step between them much smaller than the others;
+/// the whole rise must be well above the scatter; and the least and the greatest values must rise
+/// with the means. An oscillation sampled at another phase in every block changes its means by
+/// less, and its extremes not at all or in opposite directions.
+fn trend(intervals: &[Stretch]) -> Option<f64> {
     let mean = |part: &[Stretch]| average(part, |s| s.mean);
     let lasting = BLOCKS.iter().all(|&count| {
-        let means: Vec<f64> = blocks(stretches, count).map(mean).collect();
+        let means: Vec<f64> = blocks(intervals, count).map(mean).collect();
         let rise = means[count - 1] - means[0];
         let even = 1.0 / (count - 1) as f64;
         means.windows(2).all(|pair| (pair[1] - pair[0]) / rise > LEAST_SHARE * even)
     });
-    let quarters: Vec<&[Stretch]> = blocks(stretches, 4).collect();
+    let quarters: Vec<&[Stretch]> = blocks(intervals, 4).collect();
     let (first, last) = (quarters[0], quarters[3]);
     let rise = mean(last) - mean(first);
     let along = |extreme: fn(&Stretch) -> f64| {
         (average(last, extreme) - average(first, extreme)) / rise > ALONG
     };
-    let (slope, scatter) = line(stretches);
+    let (slope, scatter) = line(intervals);
     let clear = rise.abs() > CLEARANCE * scatter / (first.len() as f64).sqrt()
-        && rise.abs() > LEAST_RISE * swing(stretches)
+        && rise.abs() > LEAST_RISE * swing(intervals)
         && along(|s| s.least)
         && along(|s| s.greatest);
     (lasting && clear).then_some(slope)
 }
 
-/// Into how many blocks a history is cut: numbers that share no divisor, so that no period fits both.
+/// The numbers of blocks into which a history is divided: coprime, so that no period fits both.
 const BLOCKS: [usize; 2] = [4, 5];
 
-/// What each step between blocks must contribute, of what it does in an even rise: one with the square root of time
-/// still gives 0.67 of that at its end.
+/// The least contribution of each step between blocks, relative to that of a linear rise: a rise
+/// with the square root of time still has 0.67 of that at its end.
 const LEAST_SHARE: f64 = 0.36;
 
-/// The part of a swing that its mean may seem to rise by, because it is met at another phase in each block.
+/// The part of an oscillation by which its mean may seem to rise, because it is sampled at another
+/// phase in each block.
 const LEAST_RISE: f64 = 0.01;
 
-/// The part of a rise of the means that the least and the greatest values must take part in.
+/// The part of a rise of the means that the least and the greatest values must share.
 const ALONG: f64 = 0.2;
 
-/// A history in so many parts of equal length; what is left over is at the end.
-fn blocks(stretches: &[Stretch], count: usize) -> impl Iterator<Item = &[Stretch]> {
-    stretches.chunks_exact(stretches.len() / count).take(count)
+/// Divides a history into `count` parts of equal length; the last ones may be left over.
+fn blocks(intervals: &[Stretch], count: usize) -> impl Iterator<Item = &[Stretch]> {
+    intervals.chunks_exact(intervals.len() / count).take(count)
 }
 
 fn average(part: &[Stretch], of: impl Fn(&Stretch) -> f64) -> f64 {
     part.iter().map(of).sum::<f64>() / part.len() as f64
 }
 
-/// How far a quantity swings within a quarter: the median of the four, one of which may hold a jump.
-fn swing(stretches: &[Stretch]) -> f64 {
+/// The amplitude of a quantity within a quarter: the median of the four, one of which may contain a
+/// jump.
+fn swing(intervals: &[Stretch]) -> f64 {
     let wide = |part: &[Stretch]| {
         let greatest = part.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
         greatest - part.iter().map(|s| s.least).fold(f64::MAX, f64::min)
     };
-    let mut swings: Vec<f64> = blocks(stretches, 4).map(wide).collect();
+    let mut swings: Vec<f64> = blocks(intervals, 4).map(wide).collect();
     swings.sort_by(f64::total_cmp);
     f64::midpoint(swings[1], swings[2])
 }
 
-/// How many standard errors of a quarter's mean a trend must exceed.
+/// The number of standard errors of a quarter's mean that a trend must exceed.
 const CLEARANCE: f64 = 6.0;
 
-/// The mean rate of a level that was left for another: the means of the first and the last quarter lie farther apart
-/// than what swings within a quarter. So it is with an uneven loss, or a jump that stays.
-fn departure(stretches: &[Stretch], floor: f64) -> Option<f64> {
-    let quarter = stretches.len() / 4;
-    let swing = swing(stretches);
+/// The mean rate of change of a quantity that has left one level for another: the means of the
+/// first and the last quarter differ by more than the oscillation within a quarter. This detects an
+/// uneven loss, or a permanent jump.
+fn departure(intervals: &[Stretch], floor: f64) -> Option<f64> {
+    let quarter = intervals.len() / 4;
+    let swing = swing(intervals);
     let mean = |part: &[Stretch]| average(part, |s| s.mean);
-    let (first, last) = (&stretches[..quarter], &stretches[stretches.len() - quarter..]);
+    let (first, last) = (&intervals[..quarter], &intervals[intervals.len() - quarter..]);
     let moved = mean(last) - mean(first);
     let between = last[0].start - first[0].start;
     (moved.abs() > LEAVE * swing && moved.abs() > FAR * floor).then_some(moved / between)
 }
 
-/// How far beyond what rounding may cause: a random walk of rounding, too, ends somewhere else than it began.
+/// The least departure in multiples of the rounding floor, since a random walk of rounding also
+/// ends away from its beginning.
 const FAR: f64 = 8.0;
 
-/// How many swings a level that is left lies away. An even loss moves three of them, the uneven losses of chaotic motion
-/// under a Runge–Kutta method 1.4 to 5; the energy under a symplectic method less than 0.7.
+/// The least departure in amplitudes. A steady loss departs by three of them, the uneven losses of
+/// chaotic motion under a Runge–Kutta method by 1.4 to 5, and the energy under a symplectic method
+/// by less than 0.7.
 const LEAVE: f64 = 1.2;
 
-/// The slope of the straight line through the means, and the root mean square of what is left.
-fn line(stretches: &[Stretch]) -> (f64, f64) {
-    let n = stretches.len() as f64;
-    let time = stretches.iter().map(Stretch::middle).sum::<f64>() / n;
-    let mean = stretches.iter().map(|s| s.mean).sum::<f64>() / n;
+/// The slope of the straight line through the means, and the root mean square of the residuals.
+fn line(intervals: &[Stretch]) -> (f64, f64) {
+    let n = intervals.len() as f64;
+    let time = intervals.iter().map(Stretch::middle).sum::<f64>() / n;
+    let mean = intervals.iter().map(|s| s.mean).sum::<f64>() / n;
     let (mut across, mut along) = (0.0, 0.0);
-    for s in stretches {
+    for s in intervals {
         across += (s.middle() - time) * (s.mean - mean);
         along += math::powi(s.middle() - time, 2);
     }
     let slope = if along > 0.0 { across / along } else { 0.0 };
     let rest = |s: &Stretch| math::powi(s.mean - mean - slope * (s.middle() - time), 2);
-    (slope, (stretches.iter().map(rest).sum::<f64>() / n).sqrt())
+    (slope, (intervals.iter().map(rest).sum::<f64>() / n).sqrt())
 }
 
-/// How the mean square difference of two values grows with the time between them: as its power
-/// 0 (level), 1 (random walk) or 2 (trend).
-fn growth(stretches: &[Stretch]) -> Growth {
+/// How the mean square difference of two values grows with the time between them: as its power 0
+/// (level), 1 (random walk) or 2 (trend).
+fn growth(intervals: &[Stretch]) -> Growth {
     let spread = |lag: usize| {
-        let pairs = stretches.iter().zip(&stretches[lag..]);
+        let pairs = intervals.iter().zip(&intervals[lag..]);
         let squares: f64 = pairs.map(|(a, b)| math::powi(b.mean - a.mean, 2)).sum();
-        squares / (stretches.len() - lag) as f64
+        squares / (intervals.len() - lag) as f64
     };
-    let (short, long) = (stretches.len().div_ceil(64), stretches.len() / 8);
+    let (short, long) = (intervals.len().div_ceil(64), intervals.len() / 8);
     let (near, far) = (spread(short), spread(long));
     if near == 0.0 {
         return if far == 0.0 { Growth::Level } else { Growth::Faster };

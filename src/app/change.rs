@@ -22,9 +22,9 @@ pub(super) struct PendingChanges {
 impl PendingChanges {
     /// Removes the changes that a snapshot confirms.
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
-        self.method.take_if(|wish| *wish == snapshot.method.name);
-        self.settings.take_if(|wish| *wish == snapshot.setup.settings);
-        self.given.take_if(|wish| *wish == snapshot.setup.overrides);
+        self.method.take_if(|value| *value == snapshot.method.name);
+        self.settings.take_if(|value| *value == snapshot.setup.settings);
+        self.given.take_if(|value| *value == snapshot.setup.overrides);
     }
 }
 
@@ -81,7 +81,7 @@ impl Lab {
     pub(super) fn change(&mut self, target: ValueId, to: f64) -> Vec<Effect> {
         let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
         let numbers = [from, to];
-        self.wish(target, to);
+        self.set_pending(target, to);
         match target {
             ValueId::Parameter(index) => {
                 self.history.note(Change::Parameter { index, numbers });
@@ -101,8 +101,8 @@ impl Lab {
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
         let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
-        let kept = before.iter().filter(|old| !replaced(old)).copied();
-        let after: Vec<InitialOverride> = kept.chain(values.iter().copied()).collect();
+        let unchanged = before.iter().filter(|old| !replaced(old)).copied();
+        let after: Vec<InitialOverride> = unchanged.chain(values.iter().copied()).collect();
         self.history.note(Change::Start([before, after.clone()]));
         vec![self.begin_with(after)]
     }
@@ -165,15 +165,15 @@ impl Lab {
     /// Undoes the last change and returns its description. Returns `None` if there is none.
     pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.undo()?;
-        let told = format!("undone: {}", self.words(&change, Side::Before));
-        Some((self.carry_out(change, Side::Before), told))
+        let label = format!("undone: {}", self.words(&change, Side::Before));
+        Some((self.carry_out(change, Side::Before), label))
     }
 
     /// Redoes the change undone last and returns its description. Returns `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.redo()?;
-        let told = format!("redone: {}", self.words(&change, Side::After));
-        Some((self.carry_out(change, Side::After), told))
+        let label = format!("redone: {}", self.words(&change, Side::After));
+        Some((self.carry_out(change, Side::After), label))
     }
 
     /// Describes the transition to one side of a change: `g 9.81 → 3.2`.
@@ -222,7 +222,7 @@ impl Lab {
             Change::Initial { index, numbers, given } => {
                 self.choose(ValueId::Initial(index));
                 let effect = self.begin_with(side.of(given));
-                self.wish(ValueId::Initial(index), side.of(numbers));
+                self.set_pending(ValueId::Initial(index), side.of(numbers));
                 vec![effect]
             }
             Change::Start(given) => vec![self.begin_with(side.of(given))],
@@ -267,7 +267,7 @@ impl Lab {
     }
 
     fn set_parameter(&mut self, index: usize, value: f64) -> Effect {
-        self.wish(ValueId::Parameter(index), value);
+        self.set_pending(ValueId::Parameter(index), value);
         Effect::Tell(Command::Parameter { index, value })
     }
 
@@ -288,7 +288,7 @@ impl Lab {
         Effect::Tell(Command::FullReset)
     }
 
-    fn wish(&mut self, target: ValueId, value: f64) {
+    fn set_pending(&mut self, target: ValueId, value: f64) {
         self.pending.retain(|(t, _)| *t != target);
         self.pending.push((target, value));
     }

@@ -103,13 +103,13 @@ impl App {
 
     /// Ends the program. If a text would be lost, the user has to ask twice.
     pub(super) fn quit(&mut self) -> Vec<Effect> {
-        let Some(told) = self.loss().filter(|_| !self.workbench.keeps) else {
+        let Some(message) = self.loss().filter(|_| !self.workbench.keeps) else {
             return vec![Effect::Quit];
         };
-        if self.notice.as_ref().is_some_and(|notice| notice.text == told) {
+        if self.notice.as_ref().is_some_and(|notice| notice.text == message) {
             return vec![Effect::Quit];
         }
-        self.notify(told)
+        self.notify(message)
     }
 
     /// Cancels the end of the program because a text could not be stored.
@@ -133,8 +133,9 @@ impl App {
     /// Reminds the user of an unsaved text of the system in the lab.
     pub(super) fn remind(&mut self) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
-            let told = format!("{} has changes that are not saved; E goes to them.", buffer.title);
-            self.notice = Some(Notification::info(told));
+            let message =
+                format!("{} has changes that are not saved; E goes to them.", buffer.title);
+            self.notice = Some(Notification::info(message));
         }
     }
 
@@ -224,12 +225,12 @@ impl App {
         if stopped {
             buffer.leave();
         }
-        let told = match (stopped, buffer.is_modified()) {
+        let message = match (stopped, buffer.is_modified()) {
             (true, _) => format!("{} is no longer being checked; E goes on with it.", buffer.title),
             (false, true) => format!("{} is not saved; E goes back to it.", buffer.title),
             (false, false) => return Vec::new(),
         };
-        self.notice = Some(Notification::info(told));
+        self.notice = Some(Notification::info(message));
         if stopped { vec![Effect::StopCheck] } else { Vec::new() }
     }
 
@@ -303,8 +304,8 @@ impl App {
                 }
                 buffer.unlooked = buffer.state == State::Changed;
                 match (buffer.saved_as(), buffer.state) {
-                    (Some(told), State::Wrong) => Notification::error(told),
-                    (told, _) => Notification::info(told.unwrap_or_default()),
+                    (Some(message), State::Wrong) => Notification::error(message),
+                    (message, _) => Notification::info(message.unwrap_or_default()),
                 }
             }
             Err(SaveError::Changed) => Notification::error(format!(
@@ -326,11 +327,11 @@ impl App {
     pub(super) fn changed_on_disk(&mut self, text: &str, asked: bool) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
             if buffer.on_disk != text {
-                let told = format!(
+                let message = format!(
                     "{} was changed by another program; what stands here is not saved.",
                     buffer.title
                 );
-                self.notice = Some(Notification::error(told));
+                self.notice = Some(Notification::error(message));
             }
             return;
         }
@@ -388,8 +389,9 @@ impl App {
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
-                    let told = format!("{title}: built anew in {time:.0} ms; the motion goes on.");
-                    self.notice = Some(Notification::info(told));
+                    let message =
+                        format!("{title}: built anew in {time:.0} ms; the motion goes on.");
+                    self.notice = Some(Notification::info(message));
                 }
                 self.rebuilt(loaded)
             }
@@ -399,8 +401,8 @@ impl App {
                 buffer.is_wrong(&mistakes);
                 let saved = buffer.saved_as().filter(|_| buffer.unlooked);
                 buffer.unlooked = false;
-                if let Some(told) = saved {
-                    self.notice = Some(Notification::error(told));
+                if let Some(message) = saved {
+                    self.notice = Some(Notification::error(message));
                 }
                 self.restore()
             }

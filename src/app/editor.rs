@@ -33,7 +33,7 @@ pub struct Editor {
     /// Whether the next typed character joins the last change.
     typing: bool,
     /// The clipboard: what was cut or copied last.
-    kept: String,
+    clipboard: String,
     /// The maximum size of the text in bytes.
     limit: usize,
 }
@@ -65,7 +65,7 @@ impl Editor {
             done: Vec::new(),
             undone: Vec::new(),
             typing: false,
-            kept: String::new(),
+            clipboard: String::new(),
             limit,
         }
     }
@@ -106,9 +106,9 @@ impl Editor {
     }
 
     /// Moves the cursor to a position, or to the nearest valid one.
-    pub fn go(&mut self, spot: Caret) {
-        let row = spot.row.min(self.lines.len() - 1);
-        self.cursor = Caret { row, column: spot.column.min(self.length(row)) };
+    pub fn go(&mut self, caret: Caret) {
+        let row = caret.row.min(self.lines.len() - 1);
+        self.cursor = Caret { row, column: caret.column.min(self.length(row)) };
         (self.anchor, self.goal, self.typing) = (None, None, false);
     }
 
@@ -168,13 +168,13 @@ impl Editor {
     /// Copies the selection, or else the line.
     pub fn copy(&mut self) {
         let (from, to) = self.selected_or_line();
-        self.kept = self.between(from, to);
+        self.clipboard = self.between(from, to);
     }
 
     /// Pastes what was cut or copied last.
     pub fn put_back(&mut self) -> bool {
-        let kept = self.kept.clone();
-        !kept.is_empty() && self.insert(&kept)
+        let clipboard = self.clipboard.clone();
+        !clipboard.is_empty() && self.insert(&clipboard)
     }
 
     /// Undoes the last change. Returns whether there was one.

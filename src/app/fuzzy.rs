@@ -24,7 +24,7 @@ const ALL: u32 = 12;
 const SECOND: u32 = 4;
 
 /// The divisor of the score of a match in a description.
-const SAID: u32 = 4;
+const DESCRIBED: u32 = 4;
 
 /// A parsed query.
 pub(super) struct Query {
@@ -96,8 +96,8 @@ impl Word {
         // The label wins a tie.
         let named = label.into_iter().chain(names);
         named.reduce(|a, b| if b.score > a.score { b } else { a }).or_else(|| {
-            let said = texts.about.iter().filter_map(|text| self.said(text, matcher));
-            said.max().map(|score| Fit { score: score / SAID, messages: Vec::new() })
+            let described = texts.about.iter().filter_map(|text| self.described(text, matcher));
+            described.max().map(|score| Fit { score: score / DESCRIBED, messages: Vec::new() })
         })
     }
 
@@ -126,7 +126,7 @@ impl Word {
     }
 
     /// Returns the word's score in a description: three letters match anywhere, two only at the start of a word.
-    fn said(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
+    fn described(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
         let mut buffer = Vec::new();
         let score = self.plain.score(Utf32Str::new(text, &mut buffer), matcher)?.into();
         let meant = self.messages > 2 || self.messages == 2 && score >= LEAST * self.messages;
@@ -167,8 +167,8 @@ mod tests {
         }
         let score = |query, label| fit(query, label).map_or(0, |f| f.score);
         assert!(score("type l", "type l, length") > score("type l", "type it, 2*l"));
-        let said = |query| fit(query, "zoom").map_or(0, |f| f.score);
-        assert!(said("second") > said("about"), "a name counts more than what is said");
-        assert!(said("line") > said("ine"));
+        let described = |query| fit(query, "zoom").map_or(0, |f| f.score);
+        assert!(described("second") > described("about"), "a name counts more than what is said");
+        assert!(described("line") > described("ine"));
     }
 }

@@ -140,13 +140,13 @@ impl Lab {
         if snapshot.taken_up {
             self.awaited = None;
         }
-        self.speed_wish = self.speed_wish.filter(|wish| *wish != snapshot.speed);
+        self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
         self.asked.see(&snapshot);
         self.snapshot = Some(snapshot);
         self.answers.stale = true;
         let pending = std::mem::take(&mut self.pending);
         self.pending =
-            pending.into_iter().filter(|(t, wish)| self.fact(*t) != Some(*wish)).collect();
+            pending.into_iter().filter(|(t, value)| self.fact(*t) != Some(*value)).collect();
         true
     }
 

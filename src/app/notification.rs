@@ -30,9 +30,9 @@ impl NotificationQueue {
     /// Shows a sentence now, or after those before it.
     pub(super) fn tell(&mut self, now: &mut Option<Notification>, notice: Notification) {
         // A newer notification on the same subject replaces the older one.
-        let told = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
-        if let Some(told) = told {
-            *told = Notification { shown: told.shown, ..notice };
+        let older = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
+        if let Some(older) = older {
+            *older = Notification { shown: older.shown, ..notice };
         } else if now.is_none() {
             *now = Some(notice);
         } else if self.0.len() < WAITING {

@@ -45,7 +45,7 @@ impl App {
         items.extend(self.system_lines());
         items.extend(rows(|row| moves(row.action)).map(line));
         items.extend(refused);
-        items.extend(elsewhere.map(|row| self.line_of(row, Some(where_it_holds(row.place)))));
+        items.extend(elsewhere.map(|row| self.line_of(row, Some(where_active(row.place)))));
         self.overlay =
             Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
@@ -148,7 +148,7 @@ fn moves(action: Action) -> bool {
 }
 
 /// Returns where the keys of a place are active, as a hint to a user who is elsewhere.
-fn where_it_holds(place: Place) -> &'static str {
+fn where_active(place: Place) -> &'static str {
     match place {
         Place::Always | Place::Anywhere => "it holds where no text is typed",
         Place::Picker => "it is for the list of systems, to which Esc leads",

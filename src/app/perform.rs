@@ -86,11 +86,11 @@ impl App {
             }
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => match lab.undo() {
-                Some((effects, told)) => self.told(told, effects),
+                Some((effects, report)) => self.report(report, effects),
                 None => self.notify("There is nothing to take back."),
             },
             Action::Redo => match lab.redo() {
-                Some((effects, told)) => self.told(told, effects),
+                Some((effects, report)) => self.report(report, effects),
                 None => self.notify("There is nothing to do again."),
             },
             Action::ApplyImpulse => self.apply_one_impulse(),
@@ -151,7 +151,7 @@ impl App {
     }
 
     /// Shows a notification and passes the effects on.
-    fn told(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
+    fn report(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
         self.notice = Some(Notification::info(sentence));
         effects
     }

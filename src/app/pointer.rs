@@ -17,13 +17,13 @@ const NOTCH: f64 = 1.25;
 
 impl App {
     /// Handles a mouse event; only the left button and the wheel have an effect.
-    pub(super) fn point(&mut self, kind: MouseEventKind, spot: HitTarget) -> Vec<Effect> {
+    pub(super) fn point(&mut self, kind: MouseEventKind, hit: HitTarget) -> Vec<Effect> {
         match kind {
-            MouseEventKind::Down(MouseButton::Left) => self.touch(spot),
-            MouseEventKind::Drag(MouseButton::Left) => self.drag(spot),
-            MouseEventKind::Up(MouseButton::Left) => self.let_go(spot),
-            MouseEventKind::ScrollUp => self.wheel(spot, 1),
-            MouseEventKind::ScrollDown => self.wheel(spot, -1),
+            MouseEventKind::Down(MouseButton::Left) => self.touch(hit),
+            MouseEventKind::Drag(MouseButton::Left) => self.drag(hit),
+            MouseEventKind::Up(MouseButton::Left) => self.let_go(hit),
+            MouseEventKind::ScrollUp => self.wheel(hit, 1),
+            MouseEventKind::ScrollDown => self.wheel(hit, -1),
             _ => Vec::new(),
         }
     }
@@ -36,9 +36,9 @@ impl App {
         }
     }
 
-    fn touch(&mut self, spot: HitTarget) -> Vec<Effect> {
+    fn touch(&mut self, hit: HitTarget) -> Vec<Effect> {
         self.drop_hold();
-        match (&mut self.overlay, spot) {
+        match (&mut self.overlay, hit) {
             (_, HitTarget::Hint(action)) => return self.perform(action),
             (Some(Overlay::Menu(menu)), HitTarget::Line(line)) => {
                 menu.selected = line;
@@ -58,7 +58,7 @@ impl App {
             _ => {}
         }
         let (None, Some(lab)) = (&self.overlay, &mut self.lab) else { return Vec::new() };
-        match spot {
+        match hit {
             HitTarget::Pane(pane) => lab.focus = pane,
             HitTarget::Gauge(index) => (lab.focus, lab.selection.gauge) = (Pane::Gauges, index),
             HitTarget::Value(target) => {
@@ -83,15 +83,15 @@ impl App {
         Vec::new()
     }
 
-    fn drag(&mut self, spot: HitTarget) -> Vec<Effect> {
-        match (self.hold, spot) {
-            (Some(Grab::Bar(held)), HitTarget::Bar { target, value }) if held == target => {
+    fn drag(&mut self, hit: HitTarget) -> Vec<Effect> {
+        match (self.hold, hit) {
+            (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
             (
-                Some(Grab::Picture { index: held, place: from, .. }),
+                Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
-            ) if held == index && place != from => {
+            ) if grabbed == index && place != from => {
                 self.hold = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 if let Some(lab) = &mut self.lab {
@@ -103,10 +103,10 @@ impl App {
         }
     }
 
-    fn let_go(&mut self, spot: HitTarget) -> Vec<Effect> {
-        let held = self.hold.take();
+    fn let_go(&mut self, hit: HitTarget) -> Vec<Effect> {
+        let grabbed = self.hold.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let effects = match (held, spot) {
+        let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.beginning_at(index, at) {
                     Some(_) if !lab.loaded.model.constraints.is_empty() => {
@@ -133,15 +133,15 @@ impl App {
         effects
     }
 
-    fn wheel(&mut self, spot: HitTarget, up: isize) -> Vec<Effect> {
-        match (&mut self.overlay, spot) {
+    fn wheel(&mut self, hit: HitTarget, up: isize) -> Vec<Effect> {
+        match (&mut self.overlay, hit) {
             (Some(Overlay::Menu(menu)), HitTarget::Menu | HitTarget::Line(_)) => menu.step(-up),
             (_, HitTarget::Text) => return self.jump(-up * LINES),
             (None, HitTarget::Systems | HitTarget::System(_)) => self.picker.step(-up),
-            (None, spot) => {
+            (None, hit) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };
-                match spot {
+                match hit {
                     HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, place));
                     }

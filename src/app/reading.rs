@@ -69,7 +69,7 @@ impl App {
 
     /// Schedules a refresh if these effects, caused on this page, include a command.
     pub(super) fn expect(&mut self, effects: &[Effect]) {
-        let told = effects.iter().any(|effect| matches!(effect, Effect::Tell(_)));
-        self.reading.due |= told && self.page == Page::Plain;
+        let commanded = effects.iter().any(|effect| matches!(effect, Effect::Tell(_)));
+        self.reading.due |= commanded && self.page == Page::Plain;
     }
 }

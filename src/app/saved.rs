@@ -45,8 +45,8 @@ impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
         let Loaded { name, model, system, .. } = &lab.loaded;
-        let moment = match &lab.awaited {
-            Some(moment) => moment.clone(),
+        let checkpoint = match &lab.awaited {
+            Some(checkpoint) => checkpoint.clone(),
             None => Checkpoint::of(model, system, lab.seen()?),
         };
         Some(Self {
@@ -59,14 +59,14 @@ impl Saved {
             selection: lab.selection,
             edited: false,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
-            moment,
+            moment: checkpoint,
         })
     }
 }
 
 impl Lab {
     /// Restores the view of a session, as far as the systems agree.
-    fn look_as(&mut self, saved: &Saved) {
+    fn restore_view(&mut self, saved: &Saved) {
         let physics = self.loaded.physics();
         let plots: Vec<Plot> = saved.plots.iter().filter_map(|plot| plot.place(physics)).collect();
         // If the quantities differ, the default pictures are better.
@@ -109,7 +109,7 @@ impl App {
             }
             return vec![Effect::Tell(Command::Play)];
         };
-        lab.look_as(&saved);
+        lab.restore_view(&saved);
         lab.awaited = Some(saved.moment);
         self.page = saved.page;
         self.remind();
@@ -120,7 +120,7 @@ impl App {
     /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
-        let command = |moment| Effect::Tell(Command::TakeUp(Box::new(moment)));
+        let command = |checkpoint| Effect::Tell(Command::TakeUp(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
     }
 
@@ -130,8 +130,8 @@ impl App {
         let mut saved = Saved::of(&old, self.page);
         if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
             // The recorded trail continues too.
-            let moment = std::mem::take(&mut saved.moment);
-            saved.moment = moment.with_past(&old.loaded.system, seen);
+            let checkpoint = std::mem::take(&mut saved.moment);
+            saved.moment = checkpoint.with_past(&old.loaded.system, seen);
         }
         let mut lab = Lab::new(loaded);
         // A history refers to values, channels, views and frames by index.
@@ -158,7 +158,7 @@ impl App {
             self.lab = Some(lab);
             return vec![Effect::Tell(Command::Play)];
         };
-        lab.look_as(&saved);
+        lab.restore_view(&saved);
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
         self.restore()

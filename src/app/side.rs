@@ -136,16 +136,16 @@ impl Lab {
 
     /// Returns the jobs that plots need and that are not yet under way, numbered from `tickets` on.
     fn needs(&mut self, tickets: &mut u64) -> Vec<Computation> {
-        let mut kept = Vec::new();
+        let mut entries = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
             let Some(present) = self.present() else { return Vec::new() };
             let entry = self.answers.of(plot);
-            if kept.iter().any(|entry: &Entry| entry.is_of(plot)) {
+            if entries.iter().any(|entry: &Entry| entry.is_of(plot)) {
                 continue;
             }
             if let Some(entry) = entry.filter(|entry| entry.under_way.is_some()) {
-                kept.push(entry.clone());
+                entries.push(entry.clone());
                 continue;
             }
             let answer = entry.and_then(|entry| entry.answer.clone());
@@ -162,9 +162,9 @@ impl Lab {
                 }
             };
             let (kind, columns, view) = (plot.kind, plot.columns.clone(), plot.view);
-            kept.push(Entry { kind, columns, view, answer, under_way });
+            entries.push(Entry { kind, columns, view, answer, under_way });
         }
-        self.answers.entries = kept;
+        self.answers.entries = entries;
         wanted
     }
 }

@@ -32,7 +32,7 @@ impl App {
         match event {
             Event::Key(key) => pressed(key).map_or_else(Vec::new, |key| self.press(key)),
             Event::Paste(text) => self.paste(&text),
-            Event::Mouse(kind, spot) => self.point(kind, spot),
+            Event::Mouse(kind, hit) => self.point(kind, hit),
             Event::Resize(..) | Event::Focus(_) => Vec::new(),
             Event::Snapshot(snapshot) => self.see(&snapshot),
             Event::Loaded(Ok(loaded)) => self.loaded(loaded),

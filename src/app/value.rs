@@ -92,8 +92,8 @@ impl Lab {
 
     /// Returns the value: the one requested last, until the experiment confirms it.
     pub fn value(&self, target: ValueId) -> Option<f64> {
-        if let Some((_, wish)) = self.pending.iter().find(|(t, _)| *t == target) {
-            return Some(*wish);
+        if let Some((_, requested)) = self.pending.iter().find(|(t, _)| *t == target) {
+            return Some(*requested);
         }
         self.fact(target)
     }

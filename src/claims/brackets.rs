@@ -1,17 +1,17 @@
-//! Whether what a file says of brackets is true: `[f, g] = is` of `[expect] brackets`.
+//! Checks the claims of a file on brackets: `[f, g] = is` of `[expect] brackets`.
 //!
-//! In: a model and what follows from it. Out: a mistake for each claim that is neither proved nor
-//! holds to 1e-10 at twenty points near the start. Never here: how claims are written.
+//! In: a model and its equations. Out: a diagnostic for each claim that is neither proved nor true
+//! to 1e-10 at twenty points near the start. Never here: how claims are written.
 
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{self, ChainRule, Equations, POINTS, TRIES, Valuation};
 use crate::model::{ExpectedBracket, Model};
 
-/// How far a bracket may be from what it is said to be, relative to the size of its terms.
+/// The tolerated error of a bracket, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
-/// The claims on brackets that are false.
+/// Returns a diagnostic for each false claim on a bracket.
 pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     if model.expect.brackets.is_empty() {
         return Vec::new();
@@ -31,7 +31,7 @@ fn check(model: &Model, equations: &mut Equations, claim: &ExpectedBracket) -> O
     }
 }
 
-/// Both sides as functions of phase space.
+/// Compares both sides as functions of phase space.
 fn compare(
     model: &Model,
     equations: &mut Equations,
@@ -52,7 +52,7 @@ fn compare(
 /// A bracket longer than this is not reported in a message.
 const LONGEST: u64 = 60;
 
-/// The left side by the chain rule, where velocities are not known in terms of momenta.
+/// Evaluates the left side by the chain rule, if velocities are not known in terms of momenta.
 fn at_points(
     model: &Model,
     equations: &mut Equations,
@@ -74,7 +74,7 @@ fn at_points(
     judge(model, equations, claim, None, &value)
 }
 
-/// Holds the two sides against each other: `value` gives their difference and the size of terms.
+/// Compares the two sides: `value` gives their difference and the size of terms.
 fn judge(
     model: &Model,
     equations: &Equations,

@@ -1,7 +1,7 @@
-//! The claims of a file held against its law and its motion.
+//! Checks the claims of a file against its law and its motion.
 //!
-//! In: a model and its equations. Out: a diagnostic for each false claim. What is proved symbolically is not integrated.
-//! Never here: how claims are written.
+//! In: a model and its equations. Out: a diagnostic for each false claim. Claims proved
+//! symbolically are not integrated. Never here: how claims are written.
 
 use super::brackets::false_brackets;
 use super::start;
@@ -12,32 +12,32 @@ use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
 use crate::model::{ExpectedValue, Model};
 use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
-/// How far a conserved quantity may drift, relative to the size of its terms.
+/// The tolerated drift of a conserved quantity, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
 /// A rate longer than this is not reported.
 const LONGEST: u64 = 60;
 
-/// How far the values of a motion may be off, relative to themselves, where a rate is evaluated.
+/// The assumed relative error of the values of a motion where a rate is evaluated.
 const SLACK: f64 = 1e-9;
 
-/// How often it is looked at.
-const LOOKS: u32 = 200;
+/// The number of samples of the motion.
+const SAMPLES: u32 = 200;
 
-/// How long a motion is followed where the file does not say.
+/// The duration of the motion if the file does not specify it.
 const LENGTH: f64 = 10.0;
 
-/// The work done for the claims of one file: so many steps of a system whose equations have one
-/// part, and fewer of one whose have more.
+/// The work allowed for the claims of one file: the number of steps for a system whose equations
+/// have one term. Larger systems get fewer.
 const WORK: u64 = 4_000_000;
 
-/// No fewer steps than these are taken, however large the system.
+/// The minimal number of steps, however large the system.
 const FEWEST_STEPS: u64 = 5_000;
 
-/// An event costs as much as this many steps: it is looked for, and a step is cut up there.
+/// The cost of an event in steps, since it is located and divides a step.
 const EVENT: u64 = 4;
 
-/// The steps that claims are worth: the larger the equations, the fewer.
+/// The number of steps allowed for claims: the larger the equations, the fewer.
 fn steps_for(equations: &Equations) -> u64 {
     let pool = &equations.pool;
     let roots: Vec<Expr> = match &equations.flow {
@@ -52,18 +52,18 @@ fn steps_for(equations: &Equations) -> u64 {
     (WORK / (pool.reachable(&roots).len() as u64).max(1)).max(FEWEST_STEPS)
 }
 
-/// The claims of a model that are false, as mistakes at their places.
+/// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let mut mistakes = flaws(model, equations);
     if !mistakes.is_empty() {
-        // the motion of what is no Poisson structure says nothing
+        // without a Poisson structure the motion is meaningless
         return mistakes;
     }
     mistakes.extend(denied(model, equations));
     mistakes.extend(false_brackets(model, equations));
-    let mut grown = equations.clone();
-    let claims = open_claims(model, &mut grown);
-    let equations = &grown;
+    let mut extended = equations.clone();
+    let claims = open_claims(model, &mut extended);
+    let equations = &extended;
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
         Err(why) => {
@@ -95,13 +95,13 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     mistakes
 }
 
-/// What is false in the brackets and Casimirs of a file: with such a mistake it has no motion.
+/// Returns the errors in the brackets and Casimirs of a file, with which it has no motion.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let flaws = mechanics::flaws(model, equations).into_iter();
     flaws.map(|flaw| Diagnostic::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
 }
 
-/// Observables said not to be conserved that are.
+/// Observables declared not conserved that are conserved.
 fn denied(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let wrong = |name: &str, place: &SourceRange| {
         let reason = &known(equations, name)?.reason;
@@ -112,19 +112,19 @@ fn denied(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     denied.filter_map(|o| wrong(&o.name, &o.place)).collect()
 }
 
-/// What is proved to be conserved under that name.
+/// The quantity of that name that is proved to be conserved.
 fn known<'a>(equations: &'a Equations, name: &str) -> Option<&'a Conserved> {
     equations.conserved.iter().find(|c| c.name == name && c.reason.is_proved())
 }
 
-/// A quantity said to be conserved, of which that is not proved.
+/// A quantity declared conserved for which that is not proved.
 struct Claim {
     name: String,
     place: SourceRange,
     expression: Expr,
-    /// Its rate of change, where that is known not to vanish and may yet be too small to be seen.
+    /// Its rate of change, if it is known not to vanish but may be too small to detect.
     rate: Option<Expr>,
-    /// Whether that is not zero on the way.
+    /// Whether that rate is nonzero somewhere along the motion.
     refuted: bool,
     first: f64,
     size: f64,
@@ -154,7 +154,7 @@ fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
     all.into_iter().map(claim).collect()
 }
 
-/// Whether the method that the file names takes a first step from a state, where it names one.
+/// Whether the method that the file names, if it names one, can take a first step from a state.
 fn own_method_starts(model: &Model, system: &System, state: &State, parameters: &[f64]) -> bool {
     let run = &model.run;
     let Some(method) = method_named(&run.method).filter(|_| run.method != "auto") else {
@@ -169,21 +169,21 @@ fn own_method_starts(model: &Model, system: &System, state: &State, parameters: 
     begun.and_then(|()| course.reach(end, end, &mut 1)).is_ok()
 }
 
-/// The motion that claims are held against.
+/// The motion against which claims are checked.
 struct Motion<'a> {
     system: &'a System,
     course: integrate::Propagator,
     observer: Observer,
     values: Vec<f64>,
-    /// The steps it may take in all, and those that are left.
+    /// The number of steps allowed in total, and the number left.
     allowed: u64,
     budget: u64,
     occurrences: Vec<Occurrence>,
-    /// Of the course, when the observer was made.
+    /// The propagator's count of changes of its constraints when the observer was created.
     holdings: u64,
 }
 
-/// Why a motion did not come as far as a claim.
+/// Why a motion ended before a claim could be checked.
 enum Short {
     MotionError(MotionError),
     Long(u64, f64),
@@ -203,7 +203,7 @@ impl std::fmt::Display for Short {
 }
 
 impl Short {
-    /// How far it came.
+    /// The time it reached.
     fn time(&self) -> f64 {
         match self {
             Short::MotionError(fault) => fault.time,
@@ -212,7 +212,7 @@ impl Short {
     }
 }
 
-/// Where in the file to look for the reason of a start that is none.
+/// The place in the file that explains why a start is impossible.
 fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
         MotionErrorKind::ConstraintMissed(name, _) => {
@@ -225,7 +225,7 @@ fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
 }
 
 impl<'a> Motion<'a> {
-    /// The motion at its start, of which the first step is known to succeed.
+    /// The motion at its start, with a first step that is known to succeed.
     fn begin(
         model: &Model,
         equations: &Equations,
@@ -260,11 +260,11 @@ impl<'a> Motion<'a> {
                 .unwrap_or_else(|| refused(place_of(model, &fault), fault.to_string())),
         })?;
         let begun = motion.course.begin(&state, &parameters);
-        // also where nothing can begin: the values say why
-        let looked = motion.observer.observe(&state, &mut motion.values);
-        let looked = begun.and(looked);
+        // also where the motion cannot begin, since the values give the reason
+        let outcome = motion.observer.observe(&state, &mut motion.values);
+        let outcome = begun.and(outcome);
         // the first step, taken once more afterwards from the start
-        let stepped = looked.and_then(|()| {
+        let stepped = outcome.and_then(|()| {
             let end = model.run.until.unwrap_or(model.run.start + LENGTH);
             motion.course.reach(end, end, &mut 1)?;
             motion.course.begin(&state, &parameters)
@@ -282,7 +282,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Why it cannot start, where it cannot.
+    /// The reason why it cannot start, if it cannot.
     fn at_the_start(
         &self,
         model: &Model,
@@ -294,13 +294,13 @@ impl<'a> Motion<'a> {
         start::mistake(model, equations, fault, energy, &at)
     }
 
-    /// The value of a channel when it was last looked at.
+    /// The value of a channel at the last sample.
     fn seen(&self, kind: ChannelKind) -> f64 {
         let channel = self.system.channels().iter().position(|c| c.kind == kind);
         channel.map_or(f64::NAN, |i| self.values[i])
     }
 
-    /// The value of a symbol when it was last looked at.
+    /// The value of a symbol at the last sample.
     fn value_of(&self, model: &Model, equations: &Equations, symbol: Symbol, time: f64) -> f64 {
         for (i, c) in equations.coordinates.iter().enumerate() {
             let kind = match symbol {
@@ -324,7 +324,7 @@ impl<'a> Motion<'a> {
         body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
     }
 
-    /// Follows the motion through all that is claimed of it.
+    /// Follows the motion and checks all its claims.
     fn follow(
         mut self,
         model: &Model,
@@ -334,11 +334,11 @@ impl<'a> Motion<'a> {
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
-        let looks = if claims.is_empty() { 0 } else { LOOKS };
-        let look = |k| start + (end - start) * f64::from(k) / f64::from(LOOKS - 1);
+        let samples = if claims.is_empty() { 0 } else { SAMPLES };
+        let sample_time = |k| start + (end - start) * f64::from(k) / f64::from(SAMPLES - 1);
         let values = model.expect.values.iter().map(|value| (value.at, Some(value)));
         let mut schedule: Vec<(f64, Option<&ExpectedValue>)> =
-            (0..looks).map(|k| (look(k), None)).chain(values).collect();
+            (0..samples).map(|k| (sample_time(k), None)).chain(values).collect();
         schedule.sort_by(|a, b| a.0.total_cmp(&b.0));
         let last = schedule.last().map_or(end, |(time, _)| *time);
         let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
@@ -360,7 +360,7 @@ impl<'a> Motion<'a> {
             }
             match value {
                 Some(value) => mistakes.extend(self.compare(value)),
-                None => self.look(model, equations, &mut claims),
+                None => self.sample(model, equations, &mut claims),
             }
         }
         mistakes.extend(claims.iter().filter_map(|claim| {
@@ -372,7 +372,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Events that did not happen when, or as often as, the file says.
+    /// Events that did not occur when, or as often as, the file states.
     fn false_occurrences(&self, model: &Model, short: Option<&Short>) -> Vec<Diagnostic> {
         let times = |name: &str| -> Vec<f64> {
             self.occurrences.iter().filter(|h| h.name == name).map(|h| h.time).collect()
@@ -446,7 +446,7 @@ impl<'a> Motion<'a> {
         let channel = self.system.channel_of(expected.expression)?;
         let value = self.values[channel];
         let error = (value - is).abs();
-        // written so that a value that is not a number is wrong
+        // written so that a NaN is wrong
         if error <= *within {
             return None;
         }
@@ -455,14 +455,14 @@ impl<'a> Motion<'a> {
         Some(Diagnostic::error(expected.place.clone(), message).with_help(help))
     }
 
-    fn look(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
+    fn sample(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
         let time = self.course.state().time;
         let at = |symbol: Symbol| self.value_of(model, equations, symbol, time);
         for claim in claims {
             let Some(channel) = self.system.channel_of(claim.expression) else { continue };
             let value = self.values[channel];
             let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
-            claim.look(value, if size.is_finite() { size } else { value.abs() });
+            claim.sample(value, if size.is_finite() { size } else { value.abs() });
             claim.refuted |= claim
                 .rate
                 .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));
@@ -471,7 +471,7 @@ impl<'a> Motion<'a> {
 }
 
 impl Claim {
-    fn look(&mut self, value: f64, size: f64) {
+    fn sample(&mut self, value: f64, size: f64) {
         if self.first.is_nan() {
             self.first = value;
         }
@@ -481,7 +481,8 @@ impl Claim {
             if distance.is_finite() { self.farthest.max(distance) } else { f64::INFINITY };
     }
 
-    /// What changes by less than can be seen, as a force far away makes it, is not conserved.
+    /// A quantity that changes by too little to detect, for instance by a distant force, is not
+    /// conserved.
     fn unseen(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
             return None;

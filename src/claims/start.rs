@@ -1,7 +1,7 @@
-//! Whether a motion can start: its state, its energy and its first step are numbers.
+//! Checks whether a motion can start: its state, its energy and its first step must be finite.
 //!
-//! In: what stopped it, and the values at the start. Out: a mistake at its place, with the
-//! coordinate and the reason. Never here: constraints at the start, which `system` judges.
+//! In: the error that stopped it, and the values at the start. Out: a diagnostic at its place, with
+//! the coordinate and the reason. Never here: constraints at the start, which `system` checks.
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
@@ -10,10 +10,11 @@ use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
 use crate::system::{MotionError, MotionErrorKind};
 
-/// A part of the law longer than this is not reported.
+/// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
 
-/// Why nothing can start with this energy, or with the fault of the first step; `None` where it can.
+/// Returns why nothing can start with this energy, or with the error of the first step, or `None`
+/// if it can.
 pub(super) fn mistake(
     model: &Model,
     equations: &Equations,
@@ -31,8 +32,8 @@ pub(super) fn mistake(
         return Some(Diagnostic::error(place, message).with_help(help));
     }
     let culprit = undefined(equations, at);
-    let told = culprit.and_then(|e| tell(model, &equations.pool, e, at));
-    match (told, fault) {
+    let described = culprit.and_then(|e| describe(model, &equations.pool, e, at));
+    match (described, fault) {
         (Some((coordinate, cause)), _) => {
             let place = coordinate.map_or(law, |i| model.coordinates[i].place.clone());
             Some(Diagnostic::error(place, format!("the motion cannot start: {cause}")))
@@ -47,7 +48,7 @@ pub(super) fn mistake(
     }
 }
 
-/// Coordinates whose velocities L does not hold so that they have a mass.
+/// Coordinates whose velocities appear in L without giving them a mass.
 fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange, String, String)> {
     let Flow::Lagrange { mass, .. } = &equations.flow else { return None };
     let light: Vec<usize> =
@@ -77,7 +78,7 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange,
     Some((model.coordinates[first].place.clone(), message, help))
 }
 
-/// The first part of the law, or of what follows from it, that has no value where its own parts
+/// The first term of the law, or of what follows from it, that has no value although its own parts
 /// have.
 fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
     let pool = &equations.pool;
@@ -99,8 +100,8 @@ fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> 
     })
 }
 
-/// `1/x has no value at x = 0`, and the coordinate it is, where it is one.
-fn tell(
+/// Formats `1/x has no value at x = 0`, with the coordinate if there is one.
+fn describe(
     model: &Model,
     pool: &Pool,
     e: Expr,
@@ -109,7 +110,7 @@ fn tell(
     if matches!(pool.node(e), Node::Symbol(_) | Node::Number(_)) {
         return None;
     }
-    // of a product, the factor that has no value
+    // the factor of a product that has no value
     let culprit = match pool.node(e) {
         Node::Product(_, factors) => {
             factors.iter().map(|&(base, _)| base).find(|&base| pool.evaluate(base, at) <= 0.0)

@@ -14,7 +14,7 @@ use super::failure::CommandError;
 use super::stderr;
 use crate::printable;
 
-/// A name and what it is set to, both as written.
+/// A name and its value, both as written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Assignment {
     name: String,
@@ -34,10 +34,10 @@ impl FromStr for Assignment {
     }
 }
 
-/// The most characters of why a value is none: it quotes what is written.
+/// The greatest length of an error message that quotes an invalid value.
 const LONGEST_REASON: usize = 300;
 
-/// A number on the command line; it may be written as in a file, `3*pi/4`.
+/// Reads a number on the command line, which may be written as in a file: `3*pi/4`.
 pub(super) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let value = match text.parse::<f64>() {
@@ -64,7 +64,7 @@ fn first_mistake(scope: &Scope) -> String {
     )
 }
 
-/// The parameters: the file's values, or those set.
+/// The parameters: the file's values, with those set by the user.
 pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, CommandError> {
     let mut values = model.parameter_values();
     refuse_twice("--set", set)?;
@@ -79,7 +79,7 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
     Ok(values)
 }
 
-/// One of two values for the same name would be lost.
+/// Refuses two values for the same name, because one would be lost.
 fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), CommandError> {
     for (i, later) in set.iter().enumerate() {
         if let Some(first) = set[..i].iter().find(|first| first.name == later.name) {
@@ -93,7 +93,7 @@ fn refuse_twice(option: &str, set: &[Assignment]) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// The time of the initial values: `--init t=…`, else the file's.
+/// The time of the initial values: `--init t=…`, otherwise the file's.
 pub(super) fn start(
     model: &Model,
     parameters: &[f64],
@@ -105,7 +105,7 @@ pub(super) fn start(
     }
 }
 
-/// The initial values that take the place of the file's.
+/// The overrides of the file's initial values.
 pub(super) fn initial(
     model: &Model,
     parameters: &[f64],
@@ -130,7 +130,7 @@ pub(super) fn initial(
     Ok(all)
 }
 
-/// Has a model begin at these coordinates: which constraints repeat others is judged there.
+/// Sets a model's initial coordinates, which determine the constraints that are redundant.
 pub(super) fn begin_at(model: &mut Model, given: &[InitialOverride]) {
     for given in given {
         if let &InitialOverride::Position(i, x) = given {
@@ -139,7 +139,7 @@ pub(super) fn begin_at(model: &mut Model, given: &[InitialOverride]) {
     }
 }
 
-/// A value in parameters, as in a file.
+/// An initial value as an expression in parameters, as in a file.
 fn initial_value(
     model: &Model,
     parameters: &[f64],
@@ -155,7 +155,7 @@ fn initial_value(
     if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
 }
 
-/// Which initial value a name means.
+/// The initial value that a name refers to.
 fn place(model: &Model, name: &str, value: f64) -> Result<InitialOverride, CommandError> {
     let coordinate = |name: &str| model.coordinate(name);
     let plain = coordinate(name).map(|i| InitialOverride::Position(i, value));
@@ -175,7 +175,7 @@ fn place(model: &Model, name: &str, value: f64) -> Result<InitialOverride, Comma
     })
 }
 
-/// As it is written in front of the `=`.
+/// The name as it is written before the `=`.
 fn label(model: &Model, given: &InitialOverride) -> String {
     match *given {
         InitialOverride::Position(i, _) => model.coordinates[i].name.clone(),
@@ -184,7 +184,7 @@ fn label(model: &Model, given: &InitialOverride) -> String {
     }
 }
 
-/// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the one the equations live in.
+/// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the pool of the equations.
 pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, CommandError> {
     let (name, written) = match text.split_once('=') {
         Some((name, expression)) => (name.trim(), expression.trim()),
@@ -200,8 +200,8 @@ pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Chann
     Ok(Channel { written: name.to_owned(), expression })
 }
 
-/// An expression in whatever an observable may use; `called` is how its mistakes name it. `pool` is
-/// the one the equations live in.
+/// Parses an expression that may use whatever an observable may. `called` is its name in messages;
+/// `pool` is the pool of the equations.
 pub(super) fn expression(
     model: &Model,
     pool: &mut Pool,

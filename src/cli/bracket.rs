@@ -1,4 +1,4 @@
-//! `phaselab bracket`: Poisson's bracket of any two expressions.
+//! `phaselab bracket`: the Poisson bracket of any two expressions.
 
 use std::ffi::OsString;
 
@@ -79,14 +79,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     Output::print(arguments.format.form(), &text)
 }
 
-/// The point at which the value is wanted.
+/// The point at which the value is evaluated.
 struct Start {
     parameters: Vec<f64>,
     given: Vec<InitialOverride>,
 }
 
 impl Start {
-    /// The value of a function of phase space.
+    /// The value of a function on phase space.
     fn value(&self, derived: &Derived, e: Expr) -> Result<f64, String> {
         let channel = Channel { written: "bracket".to_owned(), expression: e };
         let system = derived.compile(&[channel]).map_err(|e| e.to_string())?;
@@ -95,7 +95,7 @@ impl Start {
         finite(extra.map(|i| values[i]))
     }
 
-    /// The value of \[f, g\] where velocities are not known in terms of momenta.
+    /// The value of \[f, g\] if the velocities are not known as functions of the momenta.
     fn value_by_chain_rule(&self, derived: &mut Derived, f: Expr, g: Expr) -> Result<f64, String> {
         let rule = ChainRule::of(&mut derived.equations, f, g).map_err(|why| why.to_string())?;
         let system = derived.compile(&[]).map_err(|e| e.to_string())?;
@@ -106,7 +106,7 @@ impl Start {
         finite(rule.value(equations, &|symbol| known.at(symbol)))
     }
 
-    /// Every channel's value at the start.
+    /// The value of every channel at the start.
     fn values(&self, model: &Model, system: &System) -> Result<Vec<f64>, String> {
         let state = system.initial(model.run.start, &self.parameters, &self.given);
         let state = state.map_err(|fault| fault.to_string())?;
@@ -121,7 +121,7 @@ fn finite(value: Option<f64>) -> Result<f64, String> {
     value.filter(|x| x.is_finite()).ok_or_else(|| "it is not finite there".to_owned())
 }
 
-/// All that is reported.
+/// The contents of the report.
 struct Answer<'a> {
     arguments: &'a Arguments,
     model: &'a Model,
@@ -132,11 +132,11 @@ struct Answer<'a> {
     value: Result<f64, String>,
 }
 
-/// What is said where there are constraints.
+/// The note for a system with constraints.
 const UNCONSTRAINED: &str = "the bracket of the phase space without the constraints";
 
 impl Answer<'_> {
-    /// `[` and `]`, or `{` and `}` where the file gives brackets of its own.
+    /// `[` and `]`, or `{` and `}` if the file gives its own brackets.
     fn braces(&self) -> (&'static str, &'static str) {
         if self.model.is_poisson() { ("{", "}") } else { ("[", "]") }
     }

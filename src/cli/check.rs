@@ -1,4 +1,4 @@
-//! `phaselab check`: every mistake in files, and whether what they claim is true.
+//! `phaselab check`: every mistake in files, and whether their claims are true.
 
 use std::path::PathBuf;
 
@@ -65,7 +65,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-/// All mistakes of a file: of its text, else of what follows from it, else of its claims.
+/// All mistakes of a file: those of its text, otherwise of its equations, otherwise of its claims.
 fn mistakes(document: &Document) -> Vec<Diagnostic> {
     let checked = match document.read() {
         Ok(checked) => checked,

@@ -1,4 +1,4 @@
-//! The command line: which subcommands there are, and which one is meant.
+//! The command line: the subcommands and their selection.
 //!
 //! In: words. Out: an exit code. Never here: what a subcommand does.
 
@@ -46,7 +46,7 @@ pub(super) struct Arguments {
     command: Option<Command>,
 }
 
-/// What stands below the help of the program itself.
+/// The text below the help of the program itself.
 const EXAMPLES: &str = "\
 Examples:
   phaselab                             choose a system and watch it move
@@ -57,13 +57,13 @@ Examples:
   phaselab run pendulum > swing.csv    the same motion without a screen
   phaselab man | man -l -              the manual, with all keys";
 
-/// The whole command line, as help, completions and the manual are made from it.
+/// The whole command line, from which help, completions and the manual are made.
 pub fn command() -> clap::Command {
     let exits = exit::lines(80);
     Arguments::command().after_help(format!("{EXAMPLES}\n\nExit status:\n{exits}"))
 }
 
-/// The commands; what each is for stands with its arguments.
+/// The commands, described with their arguments.
 #[derive(Debug, Subcommand)]
 enum Command {
     List(list::Arguments),
@@ -82,13 +82,13 @@ enum Command {
     Theme(theme::Arguments),
 }
 
-/// Does what the arguments say; the first is the program's name.
+/// Executes the arguments, of which the first is the program's name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = arguments.into_iter().collect();
     let arguments = match parse(command(), &words) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // help that is asked for is no mistake
+            // a request for help is not a mistake
             if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
                 stderr::tell(&message);
                 return CommandError::WrongUse(message).code();
@@ -142,10 +142,10 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
             }
         };
     }
-    let said = error.render().to_string();
-    let shown = fit(&said, words);
-    if shown == said {
-        // in colour, where that is wanted; whether anybody hears it changes nothing
+    let rendered = error.render().to_string();
+    let shown = fit(&rendered, words);
+    if shown == rendered {
+        // in colour, if that is wanted; a failure to write is ignored
         let _ = error.print();
     } else {
         stderr::show(&shown);
@@ -153,9 +153,9 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE))
 }
 
-/// What is said of the words of a command line, with those in it that are fit to be shown, and not at any length.
-fn fit(said: &str, words: &[OsString]) -> String {
-    let mut text = said.to_owned();
+/// Makes a message about the words of a command line safe to display, and limits its length.
+fn fit(message: &str, words: &[OsString]) -> String {
+    let mut text = message.to_owned();
     for word in words.iter().filter_map(|word| word.to_str()) {
         let parts = [Some(word), word.split_once('=').map(|(_, value)| value)];
         for part in parts.into_iter().flatten() {
@@ -169,11 +169,11 @@ fn fit(said: &str, words: &[OsString]) -> String {
     printable::lines(&lines.collect::<Vec<_>>().join("\n")).into_owned()
 }
 
-/// The most characters of a line about wrong words; help is not so wide.
+/// The greatest length of a line about wrong words; help is narrower.
 const LONGEST_LINE: usize = 400;
 
-/// What is to be said where the first of several words is no command: almost one, or nothing there is. By itself it would
-/// be a preset's name.
+/// The message if the first of several words is not a command: it resembles one, or is unknown. A single word would be
+/// the name of a preset.
 fn misspelt(words: &[OsString]) -> Option<String> {
     let [_, first, second, ..] = words else { return None };
     let first = first.to_str().filter(|first| !first.starts_with('-'))?;
@@ -186,14 +186,14 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     if let Some(near) = nearest(first, names.iter().copied()) {
         return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
     }
-    // an option behind a preset's name is the lab's, and what is wrong with it is reported
+    // an option after a preset's name belongs to the lab, and its mistakes are reported there
     if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
         return None;
     }
     unknown(first)
 }
 
-/// What is to be said of a word that is neither a command nor a preset's name, with the nearest that is.
+/// The message for a word that is neither a command nor a preset, with the nearest that is.
 pub(super) fn unknown(word: &str) -> Option<String> {
     let catalog = Catalog::load();
     let presets = || catalog.entries().iter().map(|entry| entry.name.as_str());

@@ -1,4 +1,4 @@
-//! `phaselab completions SHELL`: what a shell needs to complete commands, options and the names of presets.
+//! `phaselab completions SHELL`: the script by which a shell completes commands, options and the names of presets.
 
 use clap_complete::Shell;
 
@@ -35,13 +35,13 @@ fn script(shell: Shell) -> String {
     match shell {
         Shell::Bash => generated + &bash(&named),
         Shell::Zsh => zsh(&generated),
-        // a word that is still missing, as behind `--glyphs`, stands before any command
+        // a word that is still missing, as after `--glyphs`, comes before any command
         Shell::Fish => generated.replacen("or return\n", "or return 0\n", 1) + &fish(&named),
         _ => generated,
     }
 }
 
-/// What a preset's name stands for in the usage of a command.
+/// The placeholder for a preset's name in the usage of a command.
 const PRESET: &str = "PRESET|FILE";
 
 /// The commands that take a preset's name.
@@ -84,8 +84,8 @@ complete -F _phaselab_with_presets -o bashdefault -o default phaselab
     )
 }
 
-/// What is generated takes the lab's name for a word that stands before every command; it is one in its place. The
-/// other places of names are marked by what their help says.
+/// Corrects the generated zsh script, which takes the lab's argument for a word before every command. The other
+/// positions of presets are recognized by their help text.
 fn zsh(generated: &str) -> String {
     let mut script = String::new();
     let mut functions = Some(

@@ -1,4 +1,4 @@
-//! `phaselab config`: where the configuration stands, what it may say, and whether it is right.
+//! `phaselab config`: the path of the configuration, its keys, and its mistakes.
 
 use std::path::PathBuf;
 
@@ -60,8 +60,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-/// What the configuration asks for, nothing where there is none. Its mistakes are shown where they
-/// stand.
+/// The options of the configuration, empty if there is none. Its mistakes are shown with their
+/// ranges.
 pub(super) fn options() -> Result<Words, CommandError> {
     find()?.map_or(Ok(Words::new()), |document| read(&document))
 }

@@ -1,26 +1,27 @@
-//! Numbers as text that reads back to the same bits, and times that are where they were asked for.
+//! Numbers as text that reads back to the same bits, and times at exact decimals.
 
 use crate::num::Number;
 
-/// The shortest decimal that reads back to the same `f64`: `0.1`, `2.0`, `1e-9`. `None` where it is
-/// not finite.
+/// The shortest decimal that reads back to the same `f64`: `0.1`, `2.0`, `1e-9`. Returns `None` if
+/// the number is not finite.
 pub(super) fn shortest(x: f64) -> Option<String> {
     x.is_finite().then(|| format!("{x:?}"))
 }
 
-/// Times `start, start + every, …` up to `until`. They are counted in exact decimals, so that the
-/// third multiple of 0.1 is 0.3 and the last one is not lost to rounding.
+/// The times `start, start + every, …` up to `until`. They are computed in exact decimals, so that
+/// the third multiple of 0.1 is 0.3 and the last one is not lost to rounding.
 pub(super) fn multiples(start: f64, every: f64, until: f64) -> impl Iterator<Item = f64> + Clone {
     let [first, gap, last] = [start, every, until].map(exact);
     let time = move |k: i64| (first + gap * Number::integer(k)).value();
     let wanted = ((last + -first).value() / gap.value()).round() as i64;
-    // a gap that is no short decimal is rounded itself: its multiple may miss the end by a little
+    // an interval that is not a short decimal is itself rounded, so its multiple may miss the end
+    // slightly
     let close = (time(wanted) - until).abs() <= 4.0 * f64::EPSILON * until.abs();
     let count = if close || time(wanted) < until { wanted } else { wanted - 1 };
     (0..=count).map(move |k| if close && k == wanted { until } else { time(k) })
 }
 
-/// `count + 1` times from `start` to `until`, both included, evenly spaced.
+/// `count + 1` evenly spaced times from `start` to `until`, both included.
 pub(super) fn divisions(start: f64, until: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
     let (first, last) = (exact(start), exact(until));
     let length = last + -first;

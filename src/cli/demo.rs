@@ -1,4 +1,4 @@
-//! `phaselab script check`: every mistake of scripts, and whether what they claim is true.
+//! `phaselab script check`: every mistake of scripts, and whether their claims are true.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,5 @@
-//! `phaselab derive`: what follows from a law of motion, to be read, typeset or checked by another
-//! program.
+//! `phaselab derive`: the consequences of a law of motion for reading, for typesetting, or for
+//! another program.
 
 mod json;
 mod latex;

@@ -1,4 +1,5 @@
-//! `phaselab doctor`: what the laboratory takes the terminal for, and why; the glyphs for a look at them.
+//! `phaselab doctor`: the detected capabilities of the terminal with their reasons, and the glyph sets for
+//! inspection.
 
 use std::io::{IsTerminal, stdout};
 

@@ -1,4 +1,4 @@
-//! What happened on the way of a run, written one by one: there may be a million of them.
+//! The occurrences of a run, written one by one because there may be a million of them.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::model::Model;
 /// The events and impulses of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Events {
-    /// `None` where nothing is known of them.
+    /// `None` if nothing is known of them.
     of: Option<(Arc<Model>, EventLog)>,
 }
 
@@ -21,12 +21,12 @@ impl Events {
         Events { of: Some((Arc::clone(model), occurrences.clone())) }
     }
 
-    /// Those of a run that was ended from outside, which nobody can be asked for.
+    /// The unknown events of a run that was ended from outside.
     pub(super) fn unknown() -> Events {
         Events { of: None }
     }
 
-    /// One object for each event and each impulse, in time: name, time, and of an impulse the jump of each
+    /// One object for each event and impulse, in order of time: name and time, and for an impulse the jump of each
     /// momentum (or variable) and the reaction of each constraint.
     pub(super) fn iter(&self) -> impl Iterator<Item = Value> {
         self.of.iter().flat_map(|(model, occurrences)| {

@@ -2,33 +2,33 @@
 //!
 //! In: nothing. Out: [`EXITS`]. Never here: which failure has which code.
 
-/// A way to end.
+/// An exit code with its meaning.
 #[derive(Clone, Copy, Debug)]
 pub struct Exit {
-    /// The code, or how it is put together.
+    /// The code, or how it is computed.
     pub code: &'static str,
-    /// When it is given.
+    /// When it is used.
     pub when: &'static str,
 }
 
-/// Done.
+/// Success.
 pub(super) const DONE: u8 = 0;
-/// What was asked for could not be done.
+/// The request could not be fulfilled.
 pub(super) const COULD_NOT: u8 = 1;
-/// Wrong use.
+/// Wrong usage.
 pub(super) const WRONG_USE: u8 = 2;
-/// A file is wrong, `EX_DATAERR` of BSD's `sysexits.h`.
+/// A file is wrong: `EX_DATAERR` of BSD's `sysexits.h`.
 pub(super) const WRONG_FILE: u8 = 65;
-/// Output could not be written, `EX_IOERR` of the same.
+/// Output could not be written: `EX_IOERR` of BSD's `sysexits.h`.
 pub(super) const COULD_NOT_WRITE: u8 = 74;
-/// What a signal's number is added to.
+/// The base to which a signal's number is added.
 pub(super) const SIGNAL: u8 = 128;
 
 const fn exit(code: &'static str, when: &'static str) -> Exit {
     Exit { code, when }
 }
 
-/// Every way to end, by its code.
+/// Every exit code, in order.
 pub const EXITS: &[Exit] = &[
     exit("0", "done, also where nobody reads the output to its end (| head)"),
     exit(
@@ -54,7 +54,7 @@ pub const EXITS: &[Exit] = &[
     exit("143", "ended by a signal: told to terminate"),
 ];
 
-/// The rows as lines of a help text, `width` wide.
+/// The rows as lines of a help text, `width` characters wide.
 pub(super) fn lines(width: usize) -> String {
     let mut text = String::new();
     for Exit { code, when } in EXITS {

@@ -1,4 +1,4 @@
-//! How a command ends when it does not end well: an exit code and a sentence.
+//! How a command fails: an exit code and a sentence.
 
 use std::io;
 use std::path::Path;
@@ -7,20 +7,20 @@ use std::process::ExitCode;
 use super::exit;
 use crate::printable;
 
-/// Why a command stops before its end.
+/// Why a command stops early.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum CommandError {
-    /// The thing asked for could not be done: a fault on the way.
+    /// The request could not be fulfilled because of a fault.
     CouldNot(String),
-    /// Wrong use: an unknown name, a value out of place, no terminal.
+    /// Wrong usage: an unknown name, an invalid value, no terminal.
     WrongUse(String),
-    /// The file is wrong; the mistakes are reported already, or are in the text.
+    /// The file is wrong; its mistakes are already reported, or are in the text.
     WrongFile(String),
     /// Output could not be written.
     CouldNotWrite(String),
-    /// A signal asked for the end; what there was is written.
+    /// A signal ended the command; the output so far is written.
     Signal(i32),
-    /// Nobody reads any more (`| head`): the command ends quietly, as if done.
+    /// The reader closed the pipe (`| head`); the command ends quietly and successfully.
     NobodyReads,
 }
 
@@ -53,7 +53,7 @@ impl CommandError {
         })
     }
 
-    /// What is reported on standard error; nothing where there is nothing to tell.
+    /// The message for standard error; empty if there is nothing to report.
     pub(super) fn message(&self) -> &str {
         match self {
             CommandError::NobodyReads | CommandError::Signal(_) => "",

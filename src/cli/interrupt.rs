@@ -1,8 +1,8 @@
-//! Signals of commands without a screen: each ends in a fifth of a second, with 128 + n.
+//! Signals of commands without a screen: each ends the command within a fifth of a second, with exit code 128 + n.
 //!
-//! In: SIGINT, SIGTERM, SIGHUP, SIGQUIT. Out: a token that work looks at, the signal's number, and, where the work does
-//! not end by itself, the end of the process. A command that has nothing to bring to an end is ended at once. Never here:
-//! the signals of the laboratory (`shell` has its own), or work inside a signal handler; the thread is an ordinary one.
+//! In: SIGINT, SIGTERM, SIGHUP, SIGQUIT. Out: a token that the work checks, the signal's number, and the end of the
+//! process if the work does not end by itself. A command with nothing to finish is ended at once. Never here: the
+//! signals of the laboratory (`shell` has its own), or work inside a signal handler; the thread is an ordinary one.
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
@@ -17,22 +17,22 @@ use super::exit;
 use crate::cancel::Cancel;
 use crate::shell::atomic_file;
 
-/// How long a command has to end by itself.
+/// How long a command may take to end by itself.
 const GRACE: Duration = Duration::from_millis(100);
 
-/// How long what it left can take to be written by somebody else.
-const LAST_WORDS: Duration = Duration::from_millis(60);
+/// How long another thread may take to write the output of a stuck command.
+const FINISH_TIME: Duration = Duration::from_millis(60);
 
-/// How long a file that is being put in its place is waited for beyond that.
+/// How much longer a file that is being moved into place is waited for.
 const SAVING: Duration = Duration::from_millis(1500);
 
-/// How often a file that is being put in its place is looked after.
+/// The interval of checks on a file that is being moved into place.
 const BETWEEN: Duration = Duration::from_millis(10);
 
-/// What is written where the work itself is stuck.
-type Words = Box<dyn FnOnce() + Send>;
+/// Writes the output if the work itself is stuck.
+type Finish = Box<dyn FnOnce() + Send>;
 
-/// Whether the process is asked to end.
+/// A request to end the process.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Interrupt(Arc<Shared>);
 
@@ -41,11 +41,11 @@ struct Shared {
     /// The signal that came first.
     signal: AtomicI32,
     cancel: Cancel,
-    /// What ends the command; without one it is ended at once.
-    words: Mutex<Option<Words>>,
-    /// Somebody else looks after signals.
+    /// The function that ends the command; without one it is ended at once.
+    finish: Mutex<Option<Finish>>,
+    /// Another component handles signals.
     aside: AtomicBool,
-    /// A file is being put in its place.
+    /// A file is being moved into place.
     saving: AtomicBool,
 }
 
@@ -56,11 +56,11 @@ impl fmt::Debug for Shared {
 }
 
 impl Interrupt {
-    /// Watches for signals from now on. Where they cannot be watched for they end the program as they always do.
+    /// Starts watching for signals. If that is not possible, they end the program as usual.
     pub(super) fn watch() -> Interrupt {
         let interrupt = Interrupt::default();
         let mut numbers = vec![SIGINT, SIGTERM, SIGQUIT];
-        // `nohup` has it ignored, and means it
+        // `nohup` deliberately ignores this signal
         if !is_ignored(SIGHUP) {
             numbers.push(SIGHUP);
         }
@@ -72,7 +72,7 @@ impl Interrupt {
         interrupt
     }
 
-    /// The signal that came, if one did.
+    /// The signal that came, if any.
     pub(super) fn signal(&self) -> Option<i32> {
         match self.0.signal.load(Ordering::Acquire) {
             0 => None,
@@ -80,29 +80,29 @@ impl Interrupt {
         }
     }
 
-    /// What is set when one comes.
+    /// The token that is set when a signal comes.
     pub(super) fn cancel(&self) -> &Cancel {
         &self.0.cancel
     }
 
-    /// From now on the command ends by itself when a signal came. Where it is stuck, `words` is called on a thread of
-    /// its own, and then the process ends.
-    pub(super) fn ends_by_itself(&self, words: impl FnOnce() + Send + 'static) {
-        *self.words() = Some(Box::new(words));
+    /// Declares that the command ends by itself after a signal. If it is stuck, `finish` is called on a separate
+    /// thread, and then the process ends.
+    pub(super) fn ends_by_itself(&self, finish: impl FnOnce() + Send + 'static) {
+        *self.finish() = Some(Box::new(finish));
     }
 
-    /// A file is being put in its place, which is waited for.
+    /// Declares that a file is being moved into place, which is waited for.
     pub(super) fn saves(&self) {
         self.0.saving.store(true, Ordering::Release);
     }
 
-    /// From now on somebody else looks after signals.
+    /// Declares that another component handles signals from now on.
     pub(super) fn stand_aside(&self) {
         self.0.aside.store(true, Ordering::Release);
     }
 
-    fn words(&self) -> MutexGuard<'_, Option<Words>> {
-        self.0.words.lock().unwrap_or_else(PoisonError::into_inner)
+    fn finish(&self) -> MutexGuard<'_, Option<Finish>> {
+        self.0.finish.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn came(&self, signal: i32) {
@@ -112,31 +112,31 @@ impl Interrupt {
         let first =
             self.0.signal.compare_exchange(0, signal, Ordering::AcqRel, Ordering::Acquire).is_ok();
         self.0.cancel.cancel();
-        let words = self.words().take().filter(|_| first);
-        let Some(words) = words else { leave(signal) };
+        let finish = self.finish().take().filter(|_| first);
+        let Some(finish) = finish else { leave(signal) };
         let interrupt = self.clone();
-        // this one listens: a second signal ends it at once
-        let wait = move || interrupt.wait(signal, words);
+        // this thread keeps listening: a second signal ends the process at once
+        let wait = move || interrupt.wait(signal, finish);
         if thread::Builder::new().name("last words".to_owned()).spawn(wait).is_err() {
             leave(signal);
         }
     }
 
-    /// Ends the process where the command does not.
-    fn wait(&self, signal: i32, words: Words) {
+    /// Ends the process if the command does not end.
+    fn wait(&self, signal: i32, finish: Finish) {
         thread::sleep(GRACE);
         let deadline = Instant::now() + SAVING;
         while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
             thread::sleep(BETWEEN);
         }
         let interrupt = self.clone();
-        let said = thread::Builder::new().spawn(move || {
-            words();
+        let writer = thread::Builder::new().spawn(move || {
+            finish();
             interrupt.0.saving.store(false, Ordering::Release);
             leave(signal);
         });
-        drop(said);
-        thread::sleep(LAST_WORDS);
+        drop(writer);
+        thread::sleep(FINISH_TIME);
         while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
             thread::sleep(BETWEEN);
         }
@@ -144,13 +144,13 @@ impl Interrupt {
     }
 }
 
-/// Ends the process; no file is left half.
+/// Ends the process; temporary files are removed, so that no file is left incomplete.
 fn leave(signal: i32) -> ! {
     atomic_file::remove_unfinished();
     signal_hook::low_level::exit(i32::from(exit::SIGNAL) + signal);
 }
 
-/// Whether whoever started the process has a signal ignored, where the system tells.
+/// Whether the parent process has set a signal to be ignored, if the system reports it.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     ignored(&status, signal)

@@ -23,19 +23,19 @@ pub(super) struct Arguments {
     options: Options,
 }
 
-/// What a terminal is to be used with: what the words of the command line ask for, else the environment, else the
+/// The request for a terminal: the options of the command line, then those of the environment, then the
 /// configuration.
 pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Request, CommandError> {
     let variable = |name: &str| std::env::var(name).ok();
     let environment = options::of_environment(&variable).map_err(CommandError::WrongUse)?;
     let mut defaults = config::options()?;
-    // many programs know this variable; it wins over the configuration
+    // many programs use this variable, which takes precedence over the configuration
     if variable("NO_COLOR").is_some_and(|value| !value.is_empty()) {
         defaults.retain(|(name, _)| *name != "color");
     }
     defaults.extend(environment);
     let command = options::with_defaults(super::command(), defaults);
-    // the words were right before, and so are the defaults
+    // the words were already valid, and so are the defaults
     let arguments = super::command::parse(command, words)
         .map_err(|why| CommandError::WrongUse(why.to_string().trim_end().to_owned()))?;
     Ok(Request::new(name, &arguments.lab.options))
@@ -53,17 +53,17 @@ pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), C
     }
     let mut request = request(arguments.name.clone(), words)?;
     let mut ended = shell::run(&request);
-    let gone = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
-    if gone && request.resume && !arguments.options.resume {
-        // a session is gone on with wherever there is one; here there is none yet, or none that can be gone on with
+    let not_found = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
+    if not_found && request.resume && !arguments.options.resume {
+        // a session is resumed only if there is one; here there is none yet, or none that can be resumed
         request.resume = false;
         ended = shell::run(&request);
     }
     how_it_ended(ended)
 }
 
-/// A demo on the terminal. Its last picture stays, and what is wrong with its script is reported, once the terminal is given
-/// back.
+/// Performs a demo on the terminal. Its last picture stays, and mistakes in its script are reported after the
+/// terminal is restored.
 fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), CommandError> {
     let request = request(None, words)?;
     let source = play::source(arguments.name.as_deref())?;
@@ -80,7 +80,7 @@ fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), Command
     how_it_ended(Ok(ending))
 }
 
-/// What is shipped has no file that could change.
+/// Refuses to watch a shipped preset, which has no file that could change.
 fn watchable(name: Option<&str>) -> Result<(), CommandError> {
     let Some(name) = name.filter(|name| !is_path(name)) else { return Ok(()) };
     let catalog = Catalog::load();
@@ -94,7 +94,7 @@ fn watchable(name: Option<&str>) -> Result<(), CommandError> {
     }
 }
 
-/// What an ending on the terminal means for the exit code.
+/// Converts the end of the laboratory to an exit code.
 pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), CommandError> {
     match ended {
         Ok(Ending::Quit) => Ok(()),

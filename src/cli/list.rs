@@ -68,7 +68,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     Output::print(arguments.format.form(), &text)
 }
 
-/// What the chapters of *The Principles of Dynamics* are about, from the introduction on.
+/// The titles of the chapters of *The Principles of Dynamics*, beginning with the introduction.
 const CHAPTERS: [&str; 5] = [
     "Introduction",
     "Chapter 1: from Newton to Lagrange",
@@ -77,7 +77,7 @@ const CHAPTERS: [&str; 5] = [
     "Chapter 4: action variables and adiabatic invariants",
 ];
 
-/// The heading a preset stands below, and its place among the headings.
+/// The heading of a preset, and its position among the headings.
 fn heading(entry: &Entry) -> (usize, &'static str) {
     let number = entry.info.chapter.split('.').next().and_then(|first| first.parse().ok());
     match number.and_then(|n: usize| Some((n, *CHAPTERS.get(n)?))) {

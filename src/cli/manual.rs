@@ -1,4 +1,4 @@
-//! `phaselab man`: the manual, from the tables that the program itself is made of.
+//! `phaselab man`: the manual, generated from the program's own tables.
 
 use std::io::{self, Write};
 
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     command: Vec<String>,
 }
 
-/// What the program reads and keeps, below the folders of the user.
+/// The files that the program reads and writes, relative to the user's folders.
 const FILES: &[(&str, &str)] = &[
     (
         "~/.config/phaselab/config.toml",
@@ -46,7 +46,7 @@ const FILES: &[(&str, &str)] = &[
     ),
 ];
 
-/// Which variables of the environment count. Those of the options come before them.
+/// The environment variables, apart from those of the options, which come first.
 const ENVIRONMENT: &[(&str, &str)] = &[
     ("NO_COLOR", "No colours, whatever the configuration says."),
     ("COLORTERM, TERM", "How many colours the terminal has. TERM=dumb is no terminal for the lab."),
@@ -134,7 +134,7 @@ fn of_command(words: &[String]) -> Result<io::Result<Vec<u8>>, CommandError> {
     Ok(render())
 }
 
-/// The keys, by where they hold.
+/// The keys, by context.
 fn keys(roff: &mut Roff) {
     roff.control("SH", ["KEYS"]);
     for place in Place::ALL {
@@ -149,7 +149,7 @@ fn keys(roff: &mut Roff) {
     }
 }
 
-/// A name and what it is.
+/// A name with its description.
 fn entry(roff: &mut Roff, name: &str, about: &str) {
     roff.control("TP", []);
     roff.text([bold(name)]);

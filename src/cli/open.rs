@@ -1,4 +1,4 @@
-//! From a name on the command line to a model and what follows from it.
+//! From a name on the command line to a model and its equations.
 
 use std::ffi::OsStr;
 
@@ -14,7 +14,7 @@ use crate::system::System;
 use super::failure::CommandError;
 use super::stderr;
 
-/// What a file says where the best method that fits is to be taken.
+/// The name by which a file selects the best suitable method.
 const AUTO: &str = "auto";
 
 /// Finds the document behind a preset's name or a file's path.
@@ -22,7 +22,7 @@ pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, CommandError> {
     Catalog::load().find(name).map_err(|why| CommandError::WrongUse(why.to_string()))
 }
 
-/// Reads a document. Its mistakes are shown where they stand.
+/// Reads a document. Its mistakes are shown with their ranges.
 pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
     match document.read() {
         Ok(checked) => Ok(checked.model),
@@ -30,8 +30,8 @@ pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
     }
 }
 
-/// Derives what follows from a model. Brackets that are no Poisson structure are shown where they
-/// stand.
+/// Derives the equations of a model. Brackets that do not form a Poisson structure are reported
+/// with their ranges.
 pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, CommandError> {
     let derived = Derived::of(model);
     let derived =
@@ -40,7 +40,7 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
 }
 
-/// The file's method, if the table has none of that name.
+/// The mistake of a file whose method is not in the table.
 pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
     let name = &model.run.method;
     if name == AUTO || method_named(name).is_some() {
@@ -57,7 +57,8 @@ pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
     })
 }
 
-/// The file's method, if it is none for this system, or takes no such tolerance or step.
+/// The mistake of a file whose method does not suit the system, or does not take the given
+/// tolerance or step.
 pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic> {
     let run = &model.run;
     let at = |place: &Option<SourceRange>, why: String| {
@@ -73,7 +74,7 @@ pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic>
     Some(at(&run.settings_place, why.to_string()))
 }
 
-/// Shows mistakes of a file where they stand.
+/// Shows the mistakes of a file with their ranges.
 pub(super) fn refuse(document: &Document, mistakes: &[Diagnostic]) -> CommandError {
     stderr::show(&document.report(mistakes, stderr::has_colour()));
     CommandError::WrongFile(count(mistakes.len(), &document.path))

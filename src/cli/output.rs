@@ -1,7 +1,7 @@
-//! Where a command's data goes: standard output, or a file that appears whole or not at all.
+//! The destination of a command's data: standard output, or a file that appears complete or not at all.
 //!
-//! In: text in a [`Form`]. Out: a file or a stream, without a character that would steer a terminal. Never here: what the
-//! text means.
+//! In: text in a [`Form`]. Out: a file or a stream, without terminal control characters. Never here: what the text
+//! means.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
@@ -12,25 +12,25 @@ use super::stderr;
 use crate::printable;
 use crate::shell::atomic_file::{AtomicFile, Durability};
 
-/// What is written: how characters that would steer a terminal are written out in it.
+/// The form of the text, which determines how terminal control characters are escaped.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Form {
     /// Text: `\u{9b}`.
     Text,
-    /// Text with colours of ours.
+    /// Text with our own colours.
     Coloured,
     /// JSON: `\u009b`.
     Json,
 }
 
-/// A place for data.
+/// A destination for data.
 #[derive(Debug)]
 pub(super) struct Output {
     writer: BufWriter<Target>,
     form: Form,
-    /// As messages call it.
+    /// Its name in messages.
     name: String,
-    /// Whether a file with something in it stands there already.
+    /// Whether a file that is not empty already exists there.
     over: bool,
 }
 
@@ -43,8 +43,8 @@ enum Target {
 }
 
 impl Output {
-    /// Standard output, or the file of that path. A regular file takes its place whole at [`Output::finish`], so that
-    /// a failure leaves an old file as it was; a device or a pipe is written directly.
+    /// Opens standard output, or the file at a path. A regular file is replaced as a whole in [`Output::finish`], so
+    /// that a failure leaves an old file unchanged; a device or a pipe is written directly.
     pub(super) fn open(path: Option<&Path>, form: Form) -> Result<Output, CommandError> {
         let Some(path) = path else { return Ok(Output::standard(form)) };
         let name = printable::path(path);
@@ -72,12 +72,12 @@ impl Output {
         out.finish()
     }
 
-    /// Whether it is a file that is to be put in its place.
+    /// Whether it is a file that is to be moved into place.
     pub(super) fn is_file(&self) -> bool {
         matches!(self.writer.get_ref(), Target::File(_))
     }
 
-    /// Brings everything to its place, and tells where something else stood there.
+    /// Finishes writing, and reports if an existing file was replaced.
     pub(super) fn finish(self) -> Result<(), CommandError> {
         let Self { writer, name, over, .. } = self;
         let done = writer.into_inner().map_err(io::IntoInnerError::into_error);
@@ -93,19 +93,19 @@ impl Output {
         Ok(())
     }
 
-    /// As messages call it.
+    /// Its name in messages.
     pub(super) fn name(&self) -> &str {
         &self.name
     }
 
-    /// The failure that a write error means.
+    /// Converts a write error to a failure of the command.
     pub(super) fn failed(&self, error: &io::Error) -> CommandError {
         CommandError::writing(&self.name, error)
     }
 }
 
 impl Write for Output {
-    /// Takes whole characters, as `write!` and the writers of JSON give them.
+    /// Accepts whole characters, as `write!` and the JSON writers give them.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let text = String::from_utf8_lossy(bytes);
         let safe = match self.form {

@@ -30,18 +30,18 @@ pub(super) struct Arguments {
     file: PathBuf,
 }
 
-/// The greatest cast that is read.
+/// The greatest size of a cast that is read.
 const LIMIT: u64 = 64 << 20;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let tape = tape(&arguments.file)?;
+    let cast = read_cast(&arguments.file)?;
     let request = lab::request(None, &["phaselab".into()])?;
-    // the terminal is given back first
+    // the terminal must be restored first
     interrupt.stand_aside();
-    lab::how_it_ended(shell::show(tape, &request))
+    lab::how_it_ended(shell::show(cast, &request))
 }
 
-fn tape(path: &Path) -> Result<RecordedCast, CommandError> {
+fn read_cast(path: &Path) -> Result<RecordedCast, CommandError> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
         return recorded(&own);
     }
@@ -59,7 +59,7 @@ fn tape(path: &Path) -> Result<RecordedCast, CommandError> {
     recorded(&Document::from_bytes(shown, &bytes))
 }
 
-/// What a script comes to.
+/// Plays a script to make a cast.
 fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
     let (script, system, name) = scripted(source)?;
     let recording = record::recorded(&script, source, &system, &name, None)?;
@@ -67,10 +67,10 @@ fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
     Ok(recording.into())
 }
 
-/// The tour, for those who name no demo.
+/// The tour, which is played if no demo is named.
 const TOUR: &str = include_str!("tour.demo");
 
-/// The text of a script: a file's, a preset's own, or that of the tour.
+/// The text of a script: a file's, a preset's demo, or the tour.
 pub(super) fn source(name: Option<&str>) -> Result<Document, CommandError> {
     let Some(name) = name else { return Ok(Document::new("tour.demo", TOUR)) };
     let path = Path::new(name);
@@ -81,7 +81,7 @@ pub(super) fn source(name: Option<&str>) -> Result<Document, CommandError> {
     record::own_demo(name, "name a script, as in --demo my.demo")
 }
 
-/// A script, its system, and how that is called on the screen.
+/// A script with its system and the system's name on the screen.
 pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), CommandError> {
     let script = Script::read(source).map_err(|mistakes| record::told(source, &mistakes))?;
     let Some(system) = &script.head.open else {
@@ -89,7 +89,7 @@ pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), 
         return Err(CommandError::WrongFile(what));
     };
     let document = open::find(&system.text)?;
-    // the mistakes of the system are reported as its own
+    // the mistakes of the system are reported for the system's own file
     open::read(&document)?;
     let name = record::called(&system.text).to_owned();
     Ok((script, document, name))

@@ -80,7 +80,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
     if let Some(path) = &arguments.still {
         take_still(&recording, path, arguments.at.as_deref())?;
-        // with nowhere else to go, a cast would fill the terminal
+        // without a destination, a cast would flood the terminal
         if arguments.output.is_none() {
             return hold(&source, &recording);
         }
@@ -129,7 +129,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
     out.finish()
 }
 
-/// The demo that is shipped with a preset; where there is none, what can be done instead.
+/// The shipped demo of a preset; if there is none, an error with an alternative.
 pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, CommandError> {
     demo(name).ok_or_else(|| {
         let near = nearest(name, demos()).map_or(String::new(), |n| format!("; `{n}` has one"));
@@ -146,19 +146,19 @@ pub(super) fn recorded(
     name: &str,
     size: Option<(u16, u16)>,
 ) -> Result<Recording, CommandError> {
-    // the mistakes of the system are reported as its own
+    // the mistakes of the system are reported for the system's own file
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
     play(script, system, called(name), size).map_err(|mistakes| told(source, &mistakes))
 }
 
-/// How a system is called on the screen: a file without the folders it stands in, which are nobody's business.
+/// The name of a system on the screen: a file without its folders, which are private.
 pub(super) fn called(name: &str) -> &str {
     let file = name.rsplit(['/', std::path::MAIN_SEPARATOR]).next().unwrap_or(name);
     file.strip_suffix(".toml").unwrap_or(file)
 }
 
-/// Tells the claims that are false.
+/// Reports the claims that are false.
 pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), CommandError> {
     if recording.false_claims.is_empty() {
         Ok(())
@@ -167,7 +167,7 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Comma
     }
 }
 
-/// Shows mistakes where they stand.
+/// Shows mistakes with their ranges.
 pub(super) fn told(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
     open::refuse(source, mistakes)
 }

@@ -1,19 +1,19 @@
-//! What a run tells beside its rows: what was run before them, how it went after them. The field
-//! names are the keys of the JSON and do not change.
+//! What a run reports besides its rows: the setup before them and the outcome after them. The field names are the
+//! keys of the JSON and do not change.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::events::Events;
 
-/// What stands before the rows.
+/// The report before the rows.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Header {
     /// The version of the program.
     pub(super) phaselab: &'static str,
     /// The system's title.
     pub(super) title: String,
-    /// Every parameter and its value.
+    /// The parameters with their values.
     pub(super) parameters: Map<String, Value>,
     /// The method and its settings.
     pub(super) method: Map<String, Value>,
@@ -21,16 +21,16 @@ pub(super) struct Header {
     pub(super) columns: Vec<String>,
 }
 
-/// What stands after the rows.
+/// The report after the rows.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Closing {
-    /// What should have stayed constant, and how well it did.
+    /// The quantities that should have been constant, with their drift.
     pub(super) invariants: Vec<Invariant>,
-    /// What happened on the way.
+    /// The events and impulses.
     pub(super) events: Events,
-    /// How it ended.
+    /// How the run ended.
     pub(super) status: Status,
-    /// Why it ended, where that needs a sentence.
+    /// Why the run ended, if that needs a sentence.
     pub(super) message: Option<String>,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct Invariant {
     pub(super) reason: String,
     /// Its value at the start.
     pub(super) initial: f64,
-    /// Its value at the end; with impulses it may be another, and drift is what there is beside them.
+    /// Its value at the end; impulses may change it without counting as drift.
     #[serde(rename = "final")]
     pub(super) last: f64,
-    /// Its greatest distance from the initial value over all steps, relative to what of its terms moves; what impulses
-    /// give does not count.
+    /// Its greatest distance from the initial value over all steps, relative to the moving part of its terms. The
+    /// jumps of impulses do not count.
     pub(super) max_drift: f64,
     /// `exact`, `bounded`, `secular`, `lost`, `broken by the physics`, `open`.
     pub(super) verdict: &'static str,
@@ -57,17 +57,17 @@ pub(super) struct Invariant {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Status {
-    /// At its end.
+    /// The run reached its end.
     Completed,
-    /// Where an event or the user stopped it.
+    /// An event or the user stopped it.
     Stopped,
-    /// Where it could not go on.
+    /// The motion could not continue.
     #[serde(rename = "faulted")]
     Failed,
 }
 
 impl Status {
-    /// The word for it.
+    /// The word in the reports.
     pub(super) fn word(self) -> &'static str {
         match self {
             Status::Completed => "completed",

@@ -1,4 +1,4 @@
-//! Rows of numbers as CSV, JSON or JSON lines, written as they come.
+//! Rows of numbers as CSV, JSON or JSON lines, written one by one.
 //!
 //! In: a [`Header`], rows, a [`Closing`]. Out: bytes. Never here: where the numbers come from.
 
@@ -31,7 +31,7 @@ pub(super) struct Rows<W> {
 }
 
 impl<W: Write> Rows<W> {
-    /// Writes what stands before the rows.
+    /// Writes the report before the rows.
     pub(super) fn begin(format: Format, mut out: W, header: &Header) -> io::Result<Rows<W>> {
         match format {
             Format::Csv => csv_header(&mut out, header)?,
@@ -48,7 +48,7 @@ impl<W: Write> Rows<W> {
         Ok(Rows { format, out, written: 0 })
     }
 
-    /// Writes a row, one number a column.
+    /// Writes a row, with one number per column.
     pub(super) fn row(&mut self, row: &[f64]) -> io::Result<()> {
         match self.format {
             Format::Csv => {
@@ -71,7 +71,7 @@ impl<W: Write> Rows<W> {
         Ok(())
     }
 
-    /// Writes what stands after the rows and hands back the stream.
+    /// Writes the report after the rows and returns the stream.
     pub(super) fn end(mut self, closing: &Closing) -> io::Result<W> {
         match self.format {
             Format::Csv => {
@@ -105,7 +105,7 @@ impl<W: Write> Rows<W> {
     }
 }
 
-/// The members of an object, one a line, each followed by a comma.
+/// The members of an object, one per line, each followed by a comma.
 fn members(out: &mut impl Write, object: &Value) -> io::Result<()> {
     let Some(object) = object.as_object() else { return Ok(()) };
     for (key, value) in object {
@@ -121,7 +121,7 @@ fn members(out: &mut impl Write, object: &Value) -> io::Result<()> {
     Ok(())
 }
 
-/// Version, parameters and method in `#` lines, then the names of the columns.
+/// The version, parameters and method in `#` lines, then the names of the columns.
 fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
     writeln!(out, "# phaselab {}: {}", header.phaselab, one_line(&header.title))?;
     for (name, fields) in [("parameters", &header.parameters), ("method", &header.method)] {
@@ -137,7 +137,7 @@ fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
     out.write_all(&names)
 }
 
-/// A `#` line must stay one line.
+/// Removes line breaks, because a `#` line must remain one line.
 fn one_line(text: &str) -> String {
     printable::line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }

@@ -85,14 +85,14 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// How many times the gauges are looked at, whatever the rows.
+/// The number of times that the gauges are sampled, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
-    // which constraints are redundant is judged where this run begins
+    // redundant constraints are determined at the start of this run
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
@@ -121,7 +121,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
     }
-    // where all of it is the file's, what does not fit is the file's mistake
+    // if all settings are the file's, an unsuitable method is the file's mistake
     let of_file =
         arguments.method.is_none() && (arguments.step, arguments.tolerance) == (None, None);
     if of_file && let Some(mistake) = open::unfit_method(&model, &system) {
@@ -159,22 +159,22 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let (columns, strict) = (system.columns(), arguments.strict);
     let run = Run { experiment, times, columns, interrupt, steps: STEPS_PER_LOOK, strict };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
-        // whatever else went wrong meanwhile
+        // a signal takes precedence over any other failure
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),
         (written, _) => written,
     }
 }
 
-/// Step and tolerance: as asked for, else as the file says.
+/// The step and tolerance: as requested, otherwise the file's.
 fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandError> {
     let wrong = |what: String| Err(CommandError::WrongUse(what));
-    let told = printable::number;
+    let shown = printable::number;
     match (arguments.step, arguments.tolerance) {
         (Some(step), _) if step <= 0.0 => {
-            wrong(format!("--step {}: a step is above zero", told(step)))
+            wrong(format!("--step {}: a step is above zero", shown(step)))
         }
         (_, Some(eps)) if eps <= 0.0 || eps >= 1.0 => {
-            wrong(format!("--tolerance {}: a tolerance lies between 0 and 1", told(eps)))
+            wrong(format!("--tolerance {}: a tolerance lies between 0 and 1", shown(eps)))
         }
         (step, tolerance) => Ok(Settings {
             step: step.or(model.run.step),
@@ -183,7 +183,7 @@ fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandErr
     }
 }
 
-/// A step is for methods of fixed step, a tolerance for the others.
+/// A step is for fixed-step methods, a tolerance for adaptive ones.
 fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError> {
     let name = method.name;
     let wrong = |what: String| Err(CommandError::WrongUse(what));
@@ -198,7 +198,7 @@ fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError>
     }
 }
 
-/// Two columns of one name could not be told apart.
+/// Refuses two columns with the same name, because they could not be distinguished.
 fn refuse_twins(system: &System) -> Result<(), CommandError> {
     let columns = &system.channels()[..system.columns()];
     for (i, column) in columns.iter().enumerate() {

@@ -3,7 +3,7 @@
 use crate::expr::{Expr, Pool, Symbol};
 use crate::view::glyphs::Glyphs;
 
-/// What the reader's terminal can show.
+/// The script that the reader's terminal can show.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Script {
     /// `θ̈ = −(g/l) sin θ`.
@@ -13,13 +13,13 @@ pub(super) enum Script {
 }
 
 impl Script {
-    /// What the locale promises.
+    /// The script of the locale.
     pub(super) fn of_locale() -> Script {
         let glyphs = Glyphs::from_environment(&|name| std::env::var(name).ok());
         if glyphs.is_ascii() { Script::Ascii } else { Script::Unicode }
     }
 
-    /// An expression.
+    /// Formats an expression.
     pub(super) fn math(self, pool: &Pool, e: Expr) -> String {
         match self {
             Script::Unicode => pool.unicode(e),
@@ -27,7 +27,7 @@ impl Script {
         }
     }
 
-    /// A symbol.
+    /// Formats a symbol.
     pub(super) fn symbol(self, pool: &Pool, symbol: Symbol) -> String {
         let info = pool.symbol_info(symbol);
         match self {
@@ -36,7 +36,7 @@ impl Script {
         }
     }
 
-    /// Words.
+    /// Formats text.
     pub(super) fn words(self, text: &str) -> String {
         match self {
             Script::Unicode => text.to_owned(),

@@ -1,15 +1,16 @@
-//! What is told to the person beside the data: the one way to standard error.
+//! Messages to the user beside the data: the only access to standard error.
 //!
-//! Whoever quotes a file, a name or an argument has cleaned it where it is quoted; here it is done once more, for all.
+//! Quoted files, names and arguments are already sanitized when they are quoted; all messages are sanitized again
+//! here.
 
 use std::io::{IsTerminal, Write, stderr};
 
 use crate::printable;
 
-/// The most characters of one message: whatever it quotes, a person is to read it.
+/// The greatest length of a message, whatever it quotes.
 const LONGEST: usize = 8192;
 
-/// Tells a sentence, unless it is empty. Whether anybody hears it changes nothing.
+/// Writes a sentence unless it is empty. A failure to write is ignored.
 pub(super) fn tell(message: &str) {
     if message.is_empty() {
         return;
@@ -18,7 +19,7 @@ pub(super) fn tell(message: &str) {
     let _ = writeln!(stderr(), "phaselab: {}", printable::lines(&message));
 }
 
-/// Shows a report; its colours are ours.
+/// Writes a report with our own colours.
 pub(super) fn show(text: &str) {
     let text = if has_colour() { printable::coloured(text) } else { printable::lines(text) };
     let _ = stderr().write_all(text.as_bytes());

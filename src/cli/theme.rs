@@ -1,4 +1,4 @@
-//! `phaselab theme list`: the themes of the laboratory, with their colours where a terminal shows them.
+//! `phaselab theme list`: the themes of the laboratory, in their colours if the terminal shows them.
 
 use std::io::IsTerminal;
 
@@ -40,7 +40,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     Output::print(Form::Coloured, &text(depth))
 }
 
-/// A line for each theme.
+/// One line per theme.
 fn text(depth: ColourDepth) -> String {
     let widest = PALETTES.iter().map(|palette| palette.name.len()).max().unwrap_or(0);
     let line = |palette| {
@@ -50,7 +50,7 @@ fn text(depth: ColourDepth) -> String {
     PALETTES.iter().map(line).collect()
 }
 
-/// A block in the colour of each curve, and the words for verdicts in theirs; nothing without colour.
+/// A block in the colour of each curve, and the verdicts in theirs; empty without colour.
 fn swatches(theme: &Theme) -> String {
     if theme.depth() == ColourDepth::None {
         return String::new();

@@ -84,9 +84,9 @@ impl Diagnostics {
         if let Some(help) = &mut mistake.help {
             shorten(help);
         }
-        let meets =
+        let overlaps =
             |lost: &SourceRange| mistake.place.start <= lost.end && lost.start <= mistake.place.end;
-        if self.lost_values.iter().any(meets) {
+        if self.lost_values.iter().any(overlaps) {
             return;
         }
         if self.list.len() < MOST || mistake.severity == Severity::Error && self.make_room() {

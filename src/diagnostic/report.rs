@@ -120,11 +120,11 @@ impl Window {
 fn in_the_file(rendered: String, text: &str, path: &str, at: usize) -> String {
     let before = &text[line_start(text, at)..at];
     let shown = Window::of(before, 0..before.len()).shown;
-    let origin_text = |line: &str| {
+    let locate = |line: &str| {
         let column = 1 + line.chars().count();
         format!("{path}:{}:{column}", line_number(text, at))
     };
-    if shown == before { rendered } else { rendered.replacen(&origin_text(&shown), &origin_text(before), 1) }
+    if shown == before { rendered } else { rendered.replacen(&locate(&shown), &locate(before), 1) }
 }
 
 /// The origin that gives only line and column.

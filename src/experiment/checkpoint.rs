@@ -19,7 +19,7 @@ use crate::model::Model;
 use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
 
 /// A state is restored unchanged if its constraint residuals are within this fraction of the constraints' terms.
-const KEPT_WITHIN: f64 = 1e-9;
+const RESIDUAL_LIMIT: f64 = 1e-9;
 
 /// A checkpoint of a motion.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -265,19 +265,19 @@ fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
 impl Experiment {
     /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
     /// reported in a notice.
-    pub fn restore(&mut self, moment: &Checkpoint) {
+    pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.taken_up = true;
-        let mut lost = self.take_setup(moment);
-        self.running = moment.running;
-        let told = std::mem::take(&mut self.notices);
+        let mut lost = self.restore_setup(checkpoint);
+        self.running = checkpoint.running;
+        let notices = std::mem::take(&mut self.notices);
         self.restart();
-        self.notices = told;
-        if let Some(present) = &moment.present {
+        self.notices = notices;
+        if let Some(present) = &checkpoint.present {
             lost.extend(
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
             );
-            match self.take_present(present) {
-                Ok(()) => self.recall(moment.past.as_ref(), present),
+            match self.restore_state(present) {
+                Ok(()) => self.restore_past(checkpoint.past.as_ref(), present),
                 Err(why) => {
                     self.restart();
                     self.tell(format!("the motion begins anew: {why}"));
@@ -290,7 +290,7 @@ impl Experiment {
     }
 
     /// Prepends the recorded past, if the coordinates are the same.
-    fn recall(&mut self, past: Option<&Past>, present: &MotionState) {
+    fn restore_past(&mut self, past: Option<&Past>, present: &MotionState) {
         let own = self.model.coordinates.iter();
         let same = own.len() == present.coordinates.len()
             && own.clone().all(|c| present.coordinates.contains(&c.name));
@@ -301,11 +301,11 @@ impl Experiment {
     }
 
     /// Applies the changed settings and returns the names that no longer exist.
-    fn take_setup(&mut self, moment: &Checkpoint) -> Vec<String> {
+    fn restore_setup(&mut self, checkpoint: &Checkpoint) -> Vec<String> {
         let mut lost = Vec::new();
         let Setup { start, end, .. } = self.setup;
         let mut setup = Setup { start, end, ..Setup::of(&self.model) };
-        for changed in &moment.parameters {
+        for changed in &checkpoint.parameters {
             match self.model.parameters.iter().position(|p| p.name == changed.name) {
                 None => lost.push(changed.name.clone()),
                 Some(i) if setup.parameters[i].to_bits() == changed.of_file.to_bits() => {
@@ -314,18 +314,18 @@ impl Experiment {
                 Some(_) => {}
             }
         }
-        for named in &moment.initial {
+        for named in &checkpoint.initial {
             match given(&self.model, named) {
                 Some(given) => setup.overrides.push(given),
                 None => lost.push(named.name.clone()),
             }
         }
-        setup.speed = moment.speed.filter(|s| *s > 0.0).unwrap_or(setup.speed);
+        setup.speed = checkpoint.speed.filter(|s| *s > 0.0).unwrap_or(setup.speed);
         let settings = Settings {
-            step: moment.step.or(setup.settings.step),
-            tolerance: moment.tolerance.or(setup.settings.tolerance),
+            step: checkpoint.step.or(setup.settings.step),
+            tolerance: checkpoint.tolerance.or(setup.settings.tolerance),
         };
-        let wanted = moment.method.as_ref().unwrap_or(&setup.method).clone();
+        let wanted = checkpoint.method.as_ref().unwrap_or(&setup.method).clone();
         let changed = wanted != self.setup.method || settings != self.setup.settings;
         // a method that is refused leaves the current one and its settings in place
         self.setup =
@@ -337,8 +337,8 @@ impl Experiment {
     }
 
     /// Restores the state: bit by bit if the system has the same state, otherwise as far as the names match.
-    fn take_present(&mut self, present: &MotionState) -> Result<(), MotionError> {
-        let exact = present.fits(&self.model, self.system()) && self.take_exactly(present);
+    fn restore_state(&mut self, present: &MotionState) -> Result<(), MotionError> {
+        let exact = present.fits(&self.model, self.system()) && self.restore_exactly(present);
         if !exact {
             let state = self.state_of(present)?;
             self.motion.begin(&state, &self.setup.parameters)?;
@@ -358,15 +358,15 @@ impl Experiment {
     }
 
     /// Restores the exact state. Returns `false` if this system cannot be in that state.
-    fn take_exactly(&mut self, present: &MotionState) -> bool {
+    fn restore_exactly(&mut self, present: &MotionState) -> bool {
         let released: Vec<usize> =
             present.released.iter().filter_map(|name| self.constraint(name)).collect();
         let Setup { parameters, start, .. } = &self.setup;
         let taken = self.motion.restore(&present.exact(), parameters, *start, &released);
-        let kept = |(k, residual): (usize, &[f64; 2])| {
-            released.contains(&k) || residual.iter().all(|r| *r <= KEPT_WITHIN)
+        let satisfied = |(k, residual): (usize, &[f64; 2])| {
+            released.contains(&k) || residual.iter().all(|r| *r <= RESIDUAL_LIMIT)
         };
-        taken.is_ok() && self.motion.residuals().iter().enumerate().all(kept)
+        taken.is_ok() && self.motion.residuals().iter().enumerate().all(satisfied)
     }
 
     fn constraint(&self, name: &str) -> Option<usize> {

@@ -21,12 +21,14 @@ pub enum Command {
     Parameter {
         /// Its index among the parameters.
         index: usize,
+        /// Its new value.
         value: f64,
     },
     /// Sets an initial value and restarts.
     Initial {
         /// Its index: coordinates first, then velocities (Lagrangian) or momenta (Hamiltonian).
         index: usize,
+        /// Its new value.
         value: f64,
     },
     /// Restarts with exactly these overrides of the file's initial values.

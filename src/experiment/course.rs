@@ -37,7 +37,7 @@ pub struct Experiment {
     /// The events and impulses since the last restart.
     occurrences: EventLog,
     /// The names of occurrences that have been reported.
-    told: Vec<String>,
+    reported_names: Vec<String>,
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
     /// Whether the motion was resumed from a checkpoint.
@@ -82,7 +82,7 @@ impl Experiment {
             epoch: 0,
             notices: Vec::new(),
             occurrences: EventLog::default(),
-            told: Vec::new(),
+            reported_names: Vec::new(),
             ended: None,
             taken_up: false,
             setup,
@@ -232,7 +232,7 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.occurrences.clear();
-        self.told.clear();
+        self.reported_names.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
         self.recorder.restart(self.setup.start);
@@ -330,8 +330,8 @@ impl Experiment {
 
     /// Reports an automatic occurrence; a repeated one is reported only the first time.
     fn report_once(&mut self, name: String, sentence: String) {
-        if !self.told.contains(&name) {
-            self.told.push(name);
+        if !self.reported_names.contains(&name) {
+            self.reported_names.push(name);
             self.tell(sentence);
         }
     }
@@ -362,10 +362,10 @@ impl Experiment {
     }
 
     /// Passes the current values to the gauges.
-    pub(super) fn gauge(&mut self, look: impl FnOnce(&mut Gauges, &Present<'_>)) {
+    pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &Present<'_>)) {
         self.motion.look_at_terms();
         let constants = self.constants();
-        look(&mut self.gauges, &self.motion.present(&constants));
+        sample(&mut self.gauges, &self.motion.present(&constants));
     }
 
     /// The parameters, and the constants that follow from a body.

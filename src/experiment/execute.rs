@@ -34,7 +34,7 @@ impl Experiment {
                 self.setup.overrides = overrides;
                 self.restart();
             }
-            Command::ApplyImpulse(index) => self.strike(index),
+            Command::ApplyImpulse(index) => self.apply_impulse(index),
             Command::Reset => self.restart(),
             Command::FullReset => {
                 self.setup.parameters = self.model.parameter_values();
@@ -61,12 +61,12 @@ impl Experiment {
         self.notices.push(notice);
     }
 
-    fn strike(&mut self, index: usize) {
+    fn apply_impulse(&mut self, index: usize) {
         let known = index < self.system().discontinuities().impulses.len();
         if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
             return;
         }
-        match self.motion.strike(index).and_then(|occurrence| self.note(occurrence)) {
+        match self.motion.apply_impulse(index).and_then(|occurrence| self.note(occurrence)) {
             Ok(sentence) => self.tell(sentence),
             Err(fault) => self.fault = Some(fault.into()),
         }
@@ -96,7 +96,7 @@ impl Experiment {
         let before = self.energy();
         let new = &self.setup.parameters;
         let state = self.system().change_parameters(self.motion.state(), &old, new);
-        self.go_on(state);
+        self.continue_from(state);
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
@@ -175,12 +175,12 @@ impl Experiment {
         if !self.motion.has_begun() {
             return self.restart();
         }
-        self.go_on(Ok(self.motion.state().clone()));
+        self.continue_from(Ok(self.motion.state().clone()));
         self.gauge(Gauges::refer);
     }
 
     /// Continues from a state, or fails if there is none.
-    fn go_on(&mut self, state: Result<State, system::MotionError>) {
+    fn continue_from(&mut self, state: Result<State, system::MotionError>) {
         let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
         self.fault = begun.err().map(super::Failure::from);
     }

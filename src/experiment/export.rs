@@ -29,26 +29,30 @@ impl Export {
         (model, system): (&Model, &System),
         snapshot: &Snapshot,
     ) -> Result<Export, String> {
-        let moment = Checkpoint::of(model, system, snapshot);
+        let checkpoint = Checkpoint::of(model, system, snapshot);
         let mut missing = Vec::new();
-        let begun = moment.present.is_some();
-        let held = snapshot.released.is_empty();
-        if !held {
+        let begun = checkpoint.present.is_some();
+        let all_active = snapshot.released.is_empty();
+        if !all_active {
             missing.push("A constraint was let go, so the file begins at the start.".to_owned());
         }
-        if begun && held && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
+        if begun && all_active && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
             missing.push("Impulses that come again and again count from the new start.".to_owned());
         }
         let mut edition = Rewrite {
-            parameters: moment.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
-            method: moment.method.clone(),
-            run: [("step", moment.step), ("tolerance", moment.tolerance), ("speed", moment.speed)]
-                .into_iter()
-                .filter_map(|(key, value)| Some((key, value.filter(|v| v.is_finite())?)))
-                .collect(),
+            parameters: checkpoint.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
+            method: checkpoint.method.clone(),
+            run: [
+                ("step", checkpoint.step),
+                ("tolerance", checkpoint.tolerance),
+                ("speed", checkpoint.speed),
+            ]
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value.filter(|v| v.is_finite())?)))
+            .collect(),
             ..Rewrite::default()
         };
-        if begun && held {
+        if begun && all_active {
             edition.start = Some(snapshot.time).filter(|time| *time != model.run.start);
             edition.initial = beginnings(model, |kind| value(system, snapshot, kind));
             edition.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));

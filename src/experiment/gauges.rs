@@ -243,10 +243,10 @@ impl Gauges {
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
-        let held = self.residuals.iter().enumerate().map(|(k, residual)| {
+        let constraints = self.residuals.iter().enumerate().map(|(k, residual)| {
             residual.show(now.values, now.residuals, now.system.is_released(k))
         });
-        shown.into_iter().chain(held).chain(attitude).collect()
+        shown.into_iter().chain(constraints).chain(attitude).collect()
     }
 
     /// Measures the rounding error of every gauge's value.
@@ -361,8 +361,8 @@ mod tests {
         {
             let mut gauges = [gauge(true, proved), gauge(false, supposed)];
             contradict(&mut gauges);
-            let said = gauges[1].reason == "declared; contradicted by the run";
-            assert_eq!(said, contradicted, "{supposed} beside {proved}");
+            let marked = gauges[1].reason == "declared; contradicted by the run";
+            assert_eq!(marked, contradicted, "{supposed} beside {proved}");
             assert_eq!(gauges[1].left.is_some(), contradicted, "{supposed} beside {proved}");
             assert_eq!(gauges[0].reason, "declared");
         }

@@ -45,7 +45,7 @@ impl Watch {
     }
 
     /// The next number of Weyl's sequence: the multiples of the golden ratio are spread as evenly as possible.
-    fn turn(&mut self) -> f64 {
+    fn next_weyl(&mut self) -> f64 {
         self.golden = (self.golden + GOLDEN).fract();
         self.golden
     }
@@ -55,7 +55,7 @@ impl Watch {
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl ObservedMotion {
-    /// A motion that has yet to [begin](Motion::begin).
+    /// A motion that has yet to [begin](ObservedMotion::begin).
     pub(super) fn new(
         system: &System,
         method: &'static Method,
@@ -72,7 +72,7 @@ impl ObservedMotion {
         })
     }
 
-    /// Changes the method or its settings; the motion must then [continue](Motion::go_on) from its state.
+    /// Changes the method or its settings; the motion must then [continue](ObservedMotion::go_on) from its state.
     pub(super) fn change_method(
         &mut self,
         method: &'static Method,
@@ -135,7 +135,7 @@ impl ObservedMotion {
             }
             match &reached {
                 Reached::Underway if *budget > 0 => continue,
-                Reached::Happened(occurrence) => self.take_in(occurrence)?,
+                Reached::Happened(occurrence) => self.record(occurrence)?,
                 Reached::There => self.look()?,
                 Reached::Underway | Reached::Ended => {}
             }
@@ -153,11 +153,11 @@ impl ObservedMotion {
         let sparse = (end - begin).abs() < spacing;
         let due = sparse && end >= self.watch.next;
         if due {
-            self.watch.next = end + spacing * (0.5 + self.watch.turn());
+            self.watch.next = end + spacing * (0.5 + self.watch.next_weyl());
         }
         // the state of a series is as accurate within a step as at its end
         if sparse && self.inner.method().order.is_none() {
-            let time = begin + self.watch.turn() * (end - begin);
+            let time = begin + self.watch.next_weyl() * (end - begin);
             let Watch { terms, state, values, .. } = &mut self.watch;
             if self.inner.inside(time, state).is_ok() && terms.look(state) {
                 if due && self.observer.observe(state, values).is_ok() {
@@ -179,13 +179,13 @@ impl ObservedMotion {
     }
 
     /// Applies an impulse now.
-    pub(super) fn strike(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
+    pub(super) fn apply_impulse(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let occurrence = self.inner.apply_impulse_now(impulse)?;
-        self.take_in(&occurrence)?;
+        self.record(&occurrence)?;
         Ok(occurrence)
     }
 
-    fn take_in(&mut self, occurrence: &Occurrence) -> Result<(), MotionError> {
+    fn record(&mut self, occurrence: &Occurrence) -> Result<(), MotionError> {
         if matches!(occurrence.kind, OccurrenceKind::Release(_)) {
             self.take_observer();
         }
@@ -269,7 +269,7 @@ impl ObservedMotion {
         self.inner.set_steps(steps);
     }
 
-    /// Discards the motion until it [begins](Motion::begin) again; its time is `time`.
+    /// Discards the motion until it [begins](ObservedMotion::begin) again; its time is `time`.
     pub(super) fn forget(&mut self, time: f64) {
         self.values.fill(f64::NAN);
         self.inner.forget(time);
@@ -285,7 +285,7 @@ impl ObservedMotion {
         self.watch.terms.look(self.inner.state());
     }
 
-    /// The values that the gauges read, once the terms have been [evaluated](Motion::look_at_terms).
+    /// The values that the gauges read, once the terms have been [evaluated](ObservedMotion::look_at_terms).
     pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> Present<'a> {
         let action = self.state().values.get(self.system().driven_len());
         Present {

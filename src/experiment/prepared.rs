@@ -74,9 +74,9 @@ pub struct PrepareError {
 impl PrepareError {
     /// The error of a cancelled preparation.
     fn stopped(document: &Document) -> PrepareError {
-        let told = "stopped before it was ready";
-        let report = format!("{}: {told}", document.path);
-        PrepareError { report, mistakes: vec![Diagnostic::error(0..0, told)] }
+        let message = "stopped before it was ready";
+        let report = format!("{}: {message}", document.path);
+        PrepareError { report, mistakes: vec![Diagnostic::error(0..0, message)] }
     }
 }
 

@@ -1,21 +1,21 @@
-//! A real number known to within a radius, its power of two kept apart: what evaluates an
-//! expression in any units without overflow or underflow, and knows how far rounding may have
-//! taken it.
+//! A real number known to within a radius, with a separate power of two. Evaluation with balls
+//! cannot overflow or underflow, whatever the units, and bounds the rounding error.
 //!
-//! In: numbers. Out: enclosures: the true value of every operation lies in the result. `None`
-//! where there is no value, or nothing can be said of it. Never here: expressions.
+//! In: numbers. Out: enclosures: the true value of every operation lies in the result; `None` if
+//! there is no value, or no bound. Never here: expressions.
 
 mod elementary;
 
 use crate::num::Number;
 
-/// Half a unit in the last place of an `f64`, with room for the radius' own rounding.
+/// Half a unit in the last place of an `f64`, with a margin for the rounding of the radius.
 const ROUNDING: f64 = 1.2 * f64::EPSILON;
 
-/// How uncertain a coefficient is that has no exact form: it went through several operations.
+/// The relative uncertainty of a coefficient without an exact form, which results from several
+/// operations.
 const INEXACT: f64 = 64.0 * f64::EPSILON;
 
-/// Exponents beyond this are not followed.
+/// The largest exponent that is tracked.
 const MOST: i64 = 1 << 40;
 
 /// Every number from `(middle − radius) · 2^exponent` to `(middle + radius) · 2^exponent`; the
@@ -27,7 +27,7 @@ pub(super) struct Ball {
     exponent: i64,
 }
 
-/// `x · 2^by` for an x of ordinary size; what is too small for an `f64` is 0.
+/// `x · 2^by` for an x of ordinary size; a result too small for an `f64` is 0.
 fn shifted(x: f64, by: i64) -> f64 {
     if by < -1000 {
         0.0
@@ -49,7 +49,7 @@ impl Ball {
     /// An `f64`, exactly.
     pub(super) fn exact(x: f64) -> Option<Ball> {
         if x != 0.0 && x.abs() < f64::MIN_POSITIVE {
-            // a subnormal number, brought into the range of the others
+            // a subnormal number, scaled into the normal range
             return Ball::of(x * shifted(1.0, 200), 0.0, -200);
         }
         Ball::of(x, 0.0, 0)
@@ -68,7 +68,7 @@ impl Ball {
         }
     }
 
-    /// `(middle ± radius) · 2^exponent` in its normal form.
+    /// Normalises `(middle ± radius) · 2^exponent`.
     fn of(middle: f64, radius: f64, exponent: i64) -> Option<Ball> {
         let size = middle.abs().max(radius);
         if size == 0.0 {
@@ -82,22 +82,22 @@ impl Ball {
         Some(Ball { middle, radius, exponent: exponent + by })
     }
 
-    /// The same with a radius grown by a part of the middle.
+    /// The ball with its radius increased by a fraction of the middle.
     pub(super) fn widened(self, part: f64) -> Option<Ball> {
         Ball::of(self.middle, self.radius + part * self.middle.abs(), self.exponent)
     }
 
-    /// Whether 0 is not among the numbers.
+    /// Returns whether 0 lies outside the ball.
     pub(super) fn excludes_zero(self) -> bool {
         self.middle.abs() > self.radius
     }
 
-    /// Whether it is exactly 0.
+    /// Returns whether it is exactly 0.
     pub(super) fn is_zero(self) -> bool {
         self.middle == 0.0 && self.radius == 0.0
     }
 
-    /// The sign of all its numbers, where they have the same.
+    /// The common sign of all its numbers, if they have one.
     fn sign(self) -> Option<f64> {
         match (self.is_zero(), self.excludes_zero()) {
             (true, _) => Some(0.0),
@@ -106,12 +106,12 @@ impl Ball {
         }
     }
 
-    /// log₂ of the largest size among the numbers, roughly; `None` for 0.
+    /// log₂ of the largest magnitude in the ball, roughly; `None` for 0.
     pub(super) fn magnitude(self) -> Option<i64> {
         (!self.is_zero()).then_some(self.exponent)
     }
 
-    /// log₂ of the radius, roughly; `None` where it is 0.
+    /// log₂ of the radius, roughly; `None` if it is 0.
     pub(super) fn uncertainty(self) -> Option<i64> {
         (self.radius > f64::MIN_POSITIVE).then(|| self.exponent + exponent_of(self.radius))
     }
@@ -131,8 +131,8 @@ impl Ball {
         let lost = if by < -900 { 1e-270 } else { 0.0 };
         let total = big.middle + middle;
         let radius = (big.radius + radius + lost) * (1.0 + ROUNDING);
-        // a sum of two f64 is off by half a unit of its own last place, and never if both are exact
-        // integers of it
+        // The sum of two f64 is off by half a unit of its own last place at most, and is exact if
+        // both are integer multiples of that unit.
         let rounded = if big.middle + middle - big.middle == middle
             && total - middle == big.middle
             && lost == 0.0
@@ -167,7 +167,7 @@ impl Ball {
         Ball { middle: -self.middle, ..self }
     }
 
-    /// Its absolute value.
+    /// The absolute value.
     pub(super) fn abs(self) -> Ball {
         Ball { middle: self.middle.abs(), ..self }
     }
@@ -181,7 +181,7 @@ impl Ball {
         }
     }
 
-    /// `self ^ exponent` for a base that is not negative.
+    /// `self ^ exponent` for a nonnegative base.
     pub(super) fn real_power(self, exponent: Ball, pole_at_zero: bool) -> Option<Ball> {
         if self.is_zero() && !pole_at_zero && exponent.sign() == Some(1.0) {
             return Some(Ball::ZERO);
@@ -211,7 +211,7 @@ impl Ball {
         if self.is_zero() {
             return Some(self);
         }
-        // of what may be negative there may be no root
+        // a number that may be negative may have no root
         if self.sign()? < 0.0 {
             return None;
         }

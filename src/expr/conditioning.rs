@@ -1,5 +1,5 @@
-//! How uncertain rounding makes the value of an expression: running error analysis, node by node
-//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, SIAM 2002, § 3.3).
+//! The effect of rounding on the value of an expression: running error analysis, node by node (N.
+//! J. Higham, *Accuracy and Stability of Numerical Algorithms*, SIAM 2002, § 3.3).
 
 use rustc_hash::FxHashMap;
 
@@ -9,16 +9,16 @@ use super::symbol::Symbol;
 use crate::num::Number;
 use crate::num::math;
 
-/// What one rounding does, in units of ε times the value.
+/// The error of one rounding, in units of ε times the value.
 const HALF: f64 = 0.5;
 
-/// The part of an argument by which the slope of a function is looked for.
+/// The relative change of an argument by which the slope of a function is estimated.
 const NUDGE: f64 = 1e-7;
 
 impl Pool {
-    /// The value of `e`, and its error in units of ε where every number that goes in is rounded to an `f64` and every
-    /// operation is done in such. In a sum that cancels the error is that of the terms; where a factor or a power makes
-    /// the error of a part harmless, it counts for no more than it does.
+    /// The value of `e`, and its error in units of ε if every input is rounded to an `f64` and
+    /// every operation is done in `f64`. In a sum that cancels, the error is that of the terms; an
+    /// error that a factor or a power reduces counts only in reduced form.
     pub fn evaluate_with_error(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
         let mut known: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -71,7 +71,7 @@ impl Pool {
     }
 }
 
-/// A product and its error: every factor's own, times the others.
+/// A product and its error: the error of every factor times the other factors.
 fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64)>) -> (f64, f64) {
     let powers: Vec<f64> = factors.iter().map(|(base, n)| real_power(known[base].0, *n)).collect();
     let value = powers.iter().fold(c, |product, power| product * power);

@@ -1,5 +1,6 @@
-//! Exact differentiation. A derivation is a map from symbols to expressions, continued by the
-//! rules of sum, product and chain; so a total time derivative is one pass like any partial one.
+//! Exact differentiation. A derivation is a map from symbols to expressions, extended by the rules
+//! for sums, products and compositions; a total time derivative is therefore one pass, like any
+//! partial one.
 
 use std::collections::HashMap;
 
@@ -16,7 +17,7 @@ impl Pool {
         self.derivation(e, &[(symbol, Expr::ONE)])
     }
 
-    /// The derivation that takes each listed symbol to its expression and every other symbol to
+    /// The derivation that maps each listed symbol to its expression and every other symbol to
     /// zero. With `[(q, q'), (q', q''), (t, 1)]` it is d/dt.
     pub fn derivation(&mut self, e: Expr, seeds: &[(Symbol, Expr)]) -> Expr {
         let seeds: FxHashMap<Symbol, Expr> = seeds.iter().copied().collect();
@@ -90,7 +91,7 @@ impl Pool {
         }
     }
 
-    /// Replaces symbols by expressions, all at once.
+    /// Replaces symbols by expressions, all simultaneously.
     pub fn substitute(&mut self, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -106,7 +107,7 @@ impl Pool {
         done[&e]
     }
 
-    /// The same node over other parts (parts missing from the map stay).
+    /// The same node with other parts; parts missing from the map stay.
     pub(super) fn rebuild(&mut self, e: Expr, parts: &FxHashMap<Expr, Expr>) -> Expr {
         let of = |p: &Expr| parts.get(p).copied().unwrap_or(*p);
         match &*self.shared(e) {

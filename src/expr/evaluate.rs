@@ -1,5 +1,5 @@
-//! The value of an expression, node by node: the plain oracle beside the compiled program, and
-//! what initial values and quick numerical checks use.
+//! The value of an expression, computed node by node: a simple reference for the compiled program,
+//! and the way in which initial values and quick numerical checks are computed.
 
 use rustc_hash::FxHashMap;
 
@@ -10,13 +10,13 @@ use crate::num::Number;
 use crate::num::math;
 
 impl Pool {
-    /// The value of `e` where each symbol has the value `at` gives it.
+    /// The value of `e`; `at` gives the value of each symbol.
     pub fn evaluate(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> f64 {
         self.evaluate_with_size(e, at).0
     }
 
-    /// The value, and the largest magnitude met among the summands on the way: what rounding has
-    /// to be measured against.
+    /// The value, and the largest magnitude among the summands on the way, against which rounding
+    /// errors have to be measured.
     pub fn evaluate_with_size(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
         let mut values: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -56,13 +56,13 @@ impl Pool {
         values[&e]
     }
 
-    /// Where the value of `e` lies for certain; `None` where it has none, or nothing can be said.
+    /// An enclosure of the value of `e`, or `None` if it has no value or no bound is known.
     pub(super) fn enclosure(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<Ball> {
         self.enclosures(e, 0.0, at)[&e]
     }
 
-    /// Where the values of `e` and of all its parts lie, if each symbol's may be off by a part `slack`
-    /// of itself.
+    /// Enclosures of the values of `e` and of all its parts, if each symbol's value has a relative
+    /// error of up to `slack`.
     pub(super) fn enclosures(
         &self,
         e: Expr,
@@ -115,7 +115,7 @@ fn sized(value: f64) -> (f64, f64) {
     (value, value.abs())
 }
 
-/// `base ^ exponent` for a numeric exponent, exact for integers and halves where it can be.
+/// `base ^ exponent` for a numeric exponent, exact for integers and halves where possible.
 pub(super) fn real_power(base: f64, exponent: Number) -> f64 {
     match exponent {
         Number::Rational(n, 1) => match i32::try_from(n) {

@@ -1,5 +1,5 @@
-//! Multiplying out: a sum of monomials, sines and cosines of sums opened, even powers of cosines
-//! turned into sines. Two expressions that are equal as polynomials in their symbols, sines and
+//! Multiplying out to a sum of monomials: sines and cosines of sums are expanded, and even powers
+//! of cosines become sines. Expressions that are equal as polynomials in their symbols, sines and
 //! cosines expand to the same one.
 
 use rustc_hash::FxHashMap;
@@ -8,12 +8,12 @@ use super::function::FunctionId;
 use super::pool::{Expr, Node, Pool};
 use crate::num::Number;
 
-/// The most monomials a product is multiplied out to in a proof before it is left as it is.
+/// The largest number of monomials in a product that is multiplied out in a proof.
 pub(super) const PROOF_TERMS: usize = 4000;
 
 impl Pool {
-    /// Products of sums and small positive powers of sums multiplied out, everywhere in `e`, where
-    /// that gives no more than `most` terms.
+    /// Multiplies out products of sums and small positive powers of sums, everywhere in `e`, if the
+    /// result has no more than `most` terms.
     pub(super) fn expand(&mut self, e: Expr, most: usize) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -27,7 +27,7 @@ impl Pool {
         done[&e]
     }
 
-    /// Expands the product at the top of `e`, whose factors are expanded already.
+    /// Expands the product at the top of `e`, whose factors are already expanded.
     fn expand_top(&mut self, e: Expr, most: usize) -> Expr {
         let shared = self.shared(e);
         let (c, factors) = match &*shared {
@@ -86,7 +86,7 @@ impl Pool {
         self.linear(Number::ZERO, &terms)
     }
 
-    /// The terms of a sum with their coefficients; anything else is its own only term.
+    /// The terms of a sum with their coefficients; any other expression is its own only term.
     pub fn summands(&self, e: Expr) -> Vec<(Number, Expr)> {
         match self.node(e) {
             Node::Sum(constant, terms) => {
@@ -100,8 +100,8 @@ impl Pool {
         }
     }
 
-    /// Opens sines and cosines of sums and multiples, and writes tan, cot and tanh as quotients:
-    /// what is left are sines and cosines of the simplest arguments.
+    /// Expands sines and cosines of sums and multiples, and writes tan, cot and tanh as quotients.
+    /// The result has only sines and cosines of the simplest arguments.
     pub(super) fn open_angles(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -166,8 +166,8 @@ impl Pool {
         Some((sine, cosine))
     }
 
-    /// `cos²u → 1 − sin²u` and `cosh²u → 1 + sinh²u` in an expanded expression, multiplied out
-    /// again.
+    /// Replaces `cos²u → 1 − sin²u` and `cosh²u → 1 + sinh²u` in an expanded expression, and
+    /// multiplies out again.
     pub(super) fn reduce_squares(&mut self, e: Expr, most: usize) -> Expr {
         let mut terms = Vec::new();
         for (c, term) in self.summands(e) {
@@ -193,7 +193,7 @@ impl Pool {
         self.linear(Number::ZERO, &terms)
     }
 
-    /// For `cos^n u`, `n ≥ 2`: what `cos²u` is in sines, and `n`. Likewise for `cosh`.
+    /// For `cos^n u`, `n ≥ 2`: `cos²u` in terms of sines, and `n`. Likewise for `cosh`.
     fn square_of(&mut self, base: Expr, n: Number) -> Option<(Expr, i64)> {
         let k = n.as_integer().filter(|k| *k >= 2)?;
         let (other, sign, argument) = match self.node(base) {

@@ -1,6 +1,7 @@
-//! The functions an expression may call: one row each, one file each, with value, derivative and
-//! Taylor rule side by side. To add a function, write its file and add its line to [`FUNCTIONS`]
-//! and to [`FunctionId`]; parser, printers, derivatives and the integrators follow from the row.
+//! The functions that an expression may call: one row and one file each, which holds the value, the
+//! derivative and the Taylor rule. To add a function, write its file and add a line to
+//! [`FUNCTIONS`] and to [`FunctionId`]; the parser, printers, derivatives and integrators use the
+//! row.
 
 mod abs;
 mod acos;
@@ -26,7 +27,7 @@ use super::pool::{Expr, Node, Pool};
 use crate::num::Number;
 use crate::num::Recurrence;
 
-/// Which function: the place of its row in [`FUNCTIONS`].
+/// A function, identified by the index of its row in [`FUNCTIONS`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 #[expect(missing_docs, reason = "each variant is the function of that name; its row describes it")]
 #[repr(u8)]
@@ -51,7 +52,7 @@ pub enum FunctionId {
     Max,
 }
 
-/// The table, in the order of [`FunctionId`].
+/// The functions, in the order of [`FunctionId`].
 pub const FUNCTIONS: [Function; 18] = [
     sin::FUNCTION,
     cos::FUNCTION,
@@ -73,35 +74,35 @@ pub const FUNCTIONS: [Function; 18] = [
     max::FUNCTION,
 ];
 
-/// One function: how it is written, what it is worth, how it varies.
+/// One function: its notation, its value and its derivative.
 pub struct Function {
-    /// Its handle.
+    /// Its identifier.
     pub id: FunctionId,
-    /// As written in a file.
+    /// Its name in a file.
     pub name: &'static str,
-    /// As shown on a screen.
+    /// Its Unicode notation.
     pub unicode: &'static str,
-    /// As typeset.
+    /// Its LaTeX notation.
     pub latex: &'static str,
-    /// How many arguments it takes, 1 or 2.
+    /// The number of arguments, 1 or 2.
     pub arity: usize,
     /// Its value.
     pub value: fn(&[f64]) -> f64,
-    /// A simpler canonical form of the call, if there is one: special values, parity.
+    /// A simpler canonical form of the call, if there is one, by special values and parity.
     pub fold: fn(&mut Pool, &[Expr]) -> Option<Expr>,
     /// The partial derivative with respect to an argument, as an expression.
     pub derivative: fn(&mut Pool, &[Expr], usize) -> Expr,
-    /// How a Taylor series is carried through it.
+    /// How a Taylor series is propagated through it.
     pub rule: Rule,
 }
 
-/// How a power series in time is carried through a function.
+/// How a power series in time is propagated through a function.
 pub enum Rule {
     /// A recurrence for the normalised coefficients.
     Series(Recurrence),
     /// Two smooth branches on the two sides of a switching surface, which an integrator locates.
     Branch(fn(&mut Pool, &[Expr]) -> Branches),
-    /// A numeric power; the call is rewritten as one and never met in a canonical expression.
+    /// A numeric power. The call is rewritten as one and never occurs in a canonical expression.
     Power,
 }
 
@@ -109,7 +110,7 @@ pub enum Rule {
 /// `switch < 0`, and to their mean on the surface between.
 #[derive(Clone, Copy, Debug)]
 pub struct Branches {
-    /// Changes sign at the kink.
+    /// The expression that changes sign at the kink.
     pub switch: Expr,
     /// The function where `switch > 0`.
     pub positive: Expr,
@@ -118,20 +119,20 @@ pub struct Branches {
 }
 
 impl FunctionId {
-    /// The function's row.
+    /// The row of the function.
     pub fn row(self) -> &'static Function {
         static ROWS: [Function; 18] = FUNCTIONS;
         &ROWS[self as usize]
     }
 
-    /// The function of a name.
+    /// The function with this name.
     pub fn by_name(name: &str) -> Option<FunctionId> {
         FUNCTIONS.iter().find(|row| row.name == name).map(|row| row.id)
     }
 }
 
 impl Pool {
-    /// A function applied to as many arguments as its arity says.
+    /// Applies a function to its arguments, whose number must equal its arity.
     pub fn call(&mut self, function: FunctionId, arguments: &[Expr]) -> Expr {
         debug_assert_eq!(arguments.len(), function.row().arity, "arity is checked by the parser");
         match (function.row().fold)(self, arguments) {
@@ -140,7 +141,7 @@ impl Pool {
         }
     }
 
-    /// Whether an expression is written with a leading minus: `−x`, `−2x + y`.
+    /// Returns whether an expression is written with a leading minus: `−x`, `−2x + y`.
     fn leads_negative(&self, e: Expr) -> bool {
         match self.node(e) {
             Node::Number(n) => n.is_negative(),
@@ -170,7 +171,7 @@ impl Pool {
         })
     }
 
-    /// The rational `r` where `e = r π`.
+    /// The rational `r` with `e = r π`, if there is one.
     fn turns(&self, e: Expr) -> Option<Number> {
         match self.node(e) {
             Node::Number(n) if n.is_zero() => Some(Number::ZERO),
@@ -184,7 +185,7 @@ impl Pool {
     }
 }
 
-/// The sine of `r π` where it is rational.
+/// The sine of `r π`, if it is rational.
 fn exact_sine(r: Number) -> Option<Number> {
     let Number::Rational(n, d) = r else { return None };
     if 6 % d != 0 {

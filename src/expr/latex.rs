@@ -1,4 +1,4 @@
-//! LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
+//! Expressions in LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
 
 use super::function::FunctionId;
 use super::pool::{Expr, Node, Pool};
@@ -67,7 +67,7 @@ impl Style for Latex {
             let text = format!("{name}^{{{n}}}\\left({inner}\\right)");
             return Piece { text, level: Level::Power };
         }
-        // a dotted symbol takes an exponent, a power or a fraction needs its parentheses
+        // a dotted symbol takes an exponent directly; a power or a fraction needs parentheses
         let exponent = self.number(exponent);
         self.power(&printer.at_least(base, Level::Atom), &exponent)
     }

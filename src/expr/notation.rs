@@ -1,5 +1,6 @@
-//! How a plain ASCII name is shown: Greek letters by their names, trailing digits and what
-//! follows an underscore as subscripts (`theta1` → θ₁, `omega_0` → ω₀, `p_x` → p_x in LaTeX's way).
+//! The notation of a plain ASCII name: Greek letters for their names, and subscripts for trailing
+//! digits and for whatever follows an underscore (`theta1` → θ₁, `omega_0` → ω₀; `p_x` only
+//! in LaTeX).
 
 const GREEK: [(&str, &str); 34] = [
     ("alpha", "α"),
@@ -38,7 +39,7 @@ const GREEK: [(&str, &str); 34] = [
     ("ell", "ℓ"),
 ];
 
-/// A name for the screen: `omega0` → `ω₀`, `x1` → `x₁`.
+/// The Unicode notation of a name: `omega0` → `ω₀`, `x1` → `x₁`.
 pub fn unicode_name(name: &str) -> String {
     let (stem, subscript) = split(name);
     let stem = GREEK.iter().find(|(n, _)| *n == stem).map_or(stem, |(_, g)| g);
@@ -49,7 +50,7 @@ pub fn unicode_name(name: &str) -> String {
     }
 }
 
-/// A name for LaTeX: `omega0` → `\omega_{0}`.
+/// The LaTeX notation of a name: `omega0` → `\omega_{0}`.
 pub fn latex_name(name: &str) -> String {
     let (stem, subscript) = split(name);
     let stem = if GREEK.iter().any(|(n, _)| *n == stem) {
@@ -62,7 +63,7 @@ pub fn latex_name(name: &str) -> String {
     if subscript.is_empty() { stem } else { format!("{stem}_{{{}}}", latex_name(subscript)) }
 }
 
-/// LaTeX for a symbol given in Unicode by a file (`θ`, `I₁`): letters by their names.
+/// LaTeX for a Unicode symbol from a file (`θ`, `I₁`), with letters by their names.
 pub fn latex_of_unicode(shown: &str) -> String {
     let mut latex = String::new();
     let mut below = String::new();
@@ -81,7 +82,7 @@ pub fn latex_of_unicode(shown: &str) -> String {
     if below.is_empty() { latex } else { format!("{latex}_{{{below}}}") }
 }
 
-/// The name proper and its subscript.
+/// Splits a name into its stem and its subscript.
 fn split(name: &str) -> (&str, &str) {
     if let Some((stem, subscript)) = name.split_once('_')
         && !stem.is_empty()

@@ -1,4 +1,4 @@
-//! The grammar of FORMAT's expressions, by recursive descent:
+//! A recursive-descent parser for the expressions of the file format:
 //!
 //! ```text
 //! sum     = product { (+|-) product }
@@ -11,13 +11,13 @@
 use super::syntax::{BinaryOperator, Span, Syntax, SyntaxError, SyntaxKind};
 use super::token::{Token, tokens};
 
-/// How deep an expression may be nested.
+/// The largest nesting depth of an expression.
 const NESTING_LIMIT: usize = 256;
 
-/// Reads one expression.
+/// Parses one expression.
 ///
 /// # Errors
-/// The first mistake of grammar, with its span and what would be right.
+/// Returns the first syntax error, with its span and a correction.
 pub fn parse(text: &str) -> Result<Syntax, SyntaxError> {
     let words = tokens(text)?;
     let mut parser = Parser { words, at: 0, depth: 0 };
@@ -202,7 +202,7 @@ impl Parser {
         }
     }
 
-    /// Two things side by side: the commonest slip.
+    /// The error for two operands side by side, which is the commonest slip.
     fn implied_product(&self, before: &Syntax) -> SyntaxError {
         let word = |token: &Token| match token {
             Token::Name(name, primes) => format!("{name}{}", "'".repeat(*primes)),

@@ -1,5 +1,5 @@
-//! The pool: every expression is stored once and known by a handle. Handles of parts are always
-//! smaller than handles of the whole, so passes over an expression walk the handles in order and
+//! The pool stores every expression once and identifies it by a handle. Handles of parts are always
+//! smaller than handles of the whole, so passes over an expression visit the handles in order and
 //! need no recursion.
 
 use rustc_hash::FxHashMap;
@@ -11,7 +11,7 @@ use super::symbol::{Rank, Symbol, SymbolInfo};
 use crate::cancel::Cancel;
 use crate::num::Number;
 
-/// The most nodes one pool may hold: a stranger's file must not fill the memory.
+/// The largest number of nodes in one pool, so that an untrusted file cannot fill the memory.
 pub const NODE_LIMIT: usize = 1_000_000;
 
 /// A handle to an expression of one [`Pool`]. Equal handles mean equal canonical expressions.
@@ -24,7 +24,7 @@ impl Expr {
     /// The number 1, the same in every pool.
     pub const ONE: Expr = Expr(1);
 
-    /// The place of the node in its pool; parts stand before the whole.
+    /// The index of the node in its pool; parts come before the whole.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -35,7 +35,7 @@ impl Expr {
 pub enum Node {
     /// A number.
     Number(Number),
-    /// The circle constant.
+    /// The number π.
     Pi,
     /// A name.
     Symbol(Symbol),
@@ -51,7 +51,7 @@ pub enum Node {
 }
 
 impl Node {
-    /// The parts this node is made of.
+    /// The parts of this node.
     pub fn parts(&self) -> Vec<Expr> {
         match self {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
@@ -63,7 +63,7 @@ impl Node {
     }
 }
 
-/// The store of expressions and symbols; see the module's head.
+/// The store of expressions and symbols; see the module documentation.
 #[derive(Clone, Debug)]
 pub struct Pool {
     nodes: Vec<Arc<Node>>,
@@ -74,7 +74,7 @@ pub struct Pool {
     size: usize,
     full: bool,
     cancel: Cancel,
-    /// What stood under a root that a power has taken away: it is not below zero.
+    /// Radicands whose roots a power has removed; they are not negative.
     under_roots: Vec<Expr>,
 }
 
@@ -85,7 +85,7 @@ impl Default for Pool {
 }
 
 impl Pool {
-    /// An empty pool (it knows 0 and 1).
+    /// Creates a pool that contains only 0 and 1.
     pub fn new() -> Pool {
         let mut pool = Pool {
             nodes: Vec::new(),
@@ -103,30 +103,30 @@ impl Pool {
         pool
     }
 
-    /// What stood under even roots that powers have taken away, as x in (√x)²: expressions that
-    /// are not below zero where those written have a value.
+    /// Radicands of even roots that powers have removed, such as x in (√x)². They are nonnegative
+    /// wherever the original expressions have a value.
     pub fn under_roots(&self) -> &[Expr] {
         &self.under_roots
     }
 
-    /// A root of `e` was taken away by a power.
+    /// Records that a power has removed a root of `e`.
     pub(super) fn note_root(&mut self, e: Expr) {
         if !self.under_roots.contains(&e) && self.as_number(e).is_none() {
             self.under_roots.push(e);
         }
     }
 
-    /// The node behind a handle.
+    /// The node of a handle.
     pub fn node(&self, e: Expr) -> &Node {
         &self.nodes[e.index()]
     }
 
-    /// The node behind a handle, held apart from the pool so that the pool may grow meanwhile.
+    /// The node of a handle, shared so that the pool may grow meanwhile.
     pub(super) fn shared(&self, e: Expr) -> Arc<Node> {
         Arc::clone(&self.nodes[e.index()])
     }
 
-    /// The number an expression is, if it is one.
+    /// The expression as a number, if it is one.
     pub fn as_number(&self, e: Expr) -> Option<Number> {
         match self.node(e) {
             Node::Number(n) => Some(*n),
@@ -134,7 +134,7 @@ impl Pool {
         }
     }
 
-    /// The symbol an expression is, if it is one.
+    /// The expression as a symbol, if it is one.
     pub fn as_symbol(&self, e: Expr) -> Option<Symbol> {
         match self.node(e) {
             Node::Symbol(s) => Some(*s),
@@ -142,40 +142,42 @@ impl Pool {
         }
     }
 
-    /// Lets work on the pool be stopped by this token, and with it whatever is made from it.
+    /// Sets the token that stops work on the pool and on everything created from it.
     pub fn set_cancel(&mut self, cancel: Cancel) {
         self.cancel = cancel;
     }
 
-    /// The token by which work on the pool is stopped.
+    /// The token that stops work on the pool.
     pub fn cancel(&self) -> &Cancel {
         &self.cancel
     }
 
-    /// Whether more was asked of the pool than [`NODE_LIMIT`], or work on it was cancelled: what
-    /// was built since is not to be used, and the stage that built it must refuse.
+    /// Returns whether the pool has exceeded [`NODE_LIMIT`] or work on it was cancelled.
+    /// Expressions built since then are not valid, and the stage that built them must return an
+    /// error.
     pub fn is_full(&self) -> bool {
         self.full
     }
 
-    /// Whether somebody asked that work on the pool stop: passes over expressions end early, with
-    /// whatever they have.
+    /// Returns whether work on the pool was cancelled. Passes over expressions then end early, with
+    /// an incomplete result.
     pub(super) fn is_stopped(&self) -> bool {
         self.cancel.is_cancelled()
     }
 
-    /// Refuses all further work where an expression, written out, has more pieces than
-    /// [`NODE_LIMIT`]: counted before anything is made of it.
+    /// Marks the pool as full if an expression, written out, has more than [`NODE_LIMIT`] nodes.
+    /// They are counted before anything is built from it.
     pub fn refuse_heavy(&mut self, e: Expr) {
         self.full |= self.weight(e) > NODE_LIMIT as u64;
     }
 
-    /// The longest chain of parts below an expression.
+    /// The length of the longest chain of parts below an expression.
     pub fn depth(&self, e: Expr) -> usize {
         self.depths[e.index()] as usize
     }
 
-    /// The symbol of a name; a new one is written as [`unicode_name`] and [`latex_name`] say.
+    /// The symbol with this name. A new one is displayed according to [`unicode_name`] and
+    /// [`latex_name`].
     pub fn symbol(&mut self, name: &str) -> Symbol {
         if let Some(&symbol) = self.names.get(name) {
             return symbol;
@@ -192,17 +194,17 @@ impl Pool {
         symbol
     }
 
-    /// The symbol of a name, if the pool knows it.
+    /// The symbol with this name, if the pool has one.
     pub fn find_symbol(&self, name: &str) -> Option<Symbol> {
         self.names.get(name).copied()
     }
 
-    /// How a symbol is written.
+    /// The notation of a symbol.
     pub fn symbol_info(&self, symbol: Symbol) -> &SymbolInfo {
         &self.symbols[symbol.index()]
     }
 
-    /// Changes how a symbol is written on screens and in LaTeX; its name stays.
+    /// Changes the Unicode and LaTeX notation of a symbol; its name stays the same.
     pub fn describe(&mut self, symbol: Symbol, unicode: &str, latex: &str, rank: Rank) {
         let info = &mut self.symbols[symbol.index()];
         unicode.clone_into(&mut info.unicode);
@@ -210,7 +212,7 @@ impl Pool {
         info.rank = rank;
     }
 
-    /// How many symbols the pool knows.
+    /// The number of symbols in the pool.
     pub fn symbol_count(&self) -> usize {
         self.symbols.len()
     }
@@ -241,12 +243,12 @@ impl Pool {
         self.number(Number::ratio(i128::from(n), i128::from(d)))
     }
 
-    /// The circle constant.
+    /// The number π.
     pub fn pi(&mut self) -> Expr {
         self.intern(Node::Pi)
     }
 
-    /// Every node an expression is made of, itself included, parts before wholes.
+    /// All nodes of some expressions, the roots included, parts before wholes.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
         let mut seen: rustc_hash::FxHashSet<Expr> = rustc_hash::FxHashSet::default();
         let mut stack: Vec<Expr> = roots.to_vec();
@@ -260,12 +262,12 @@ impl Pool {
         all
     }
 
-    /// How many different nodes an expression is made of.
+    /// The number of distinct nodes in an expression.
     pub fn count(&self, e: Expr) -> usize {
         self.reachable(&[e]).len()
     }
 
-    /// The symbols an expression is made of, in order of their introduction.
+    /// The symbols in an expression, in order of introduction.
     pub fn symbols_of(&self, e: Expr) -> Vec<Symbol> {
         let mut symbols: Vec<Symbol> =
             self.reachable(&[e]).into_iter().filter_map(|e| self.as_symbol(e)).collect();
@@ -273,19 +275,19 @@ impl Pool {
         symbols
     }
 
-    /// Whether a symbol occurs in an expression.
+    /// Returns whether a symbol occurs in an expression.
     pub fn depends(&self, e: Expr, symbol: Symbol) -> bool {
         self.reachable(&[e]).into_iter().any(|e| self.as_symbol(e) == Some(symbol))
     }
 
-    /// Whether any of the symbols occurs in an expression.
+    /// Returns whether any of the symbols occurs in an expression.
     pub fn depends_on_any(&self, e: Expr, symbols: &[Symbol]) -> bool {
         self.reachable(&[e])
             .into_iter()
             .any(|e| self.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
     }
 
-    /// Stores a canonical node, or finds it. Only the constructors call this.
+    /// Stores a canonical node, or finds the existing one. Only the constructors call this.
     pub(super) fn intern(&mut self, node: Node) -> Expr {
         let stopped = self.is_stopped();
         if let Some(&e) = self.index.get(&node).filter(|_| !stopped) {

@@ -1,13 +1,12 @@
-//! Writing an expression: the order of terms and factors, where parentheses stand, what goes
-//! below a fraction line. The three ways of writing (file, screen, LaTeX) differ only in a
-//! [`Style`].
+//! Printing of expressions: the order of terms and factors, the parentheses, the fractions. The
+//! three notations (file, Unicode, LaTeX) differ only in a [`Style`].
 
 use super::function::FunctionId;
 use super::pool::{Expr, Node, Pool};
 use super::symbol::Rank;
 use crate::num::Number;
 
-/// How tightly a written piece holds together.
+/// The binding strength of a written piece.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Sum,
@@ -22,7 +21,7 @@ pub(super) struct Piece {
     pub(super) level: Level,
 }
 
-/// What one way of writing decides.
+/// The decisions of one notation.
 pub(super) trait Style {
     fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str;
     fn pi(&self) -> &'static str;
@@ -30,9 +29,9 @@ pub(super) trait Style {
     /// A positive number as a factor.
     fn number(&self, n: Number) -> Piece;
     fn parenthesise(&self, inner: &str) -> String;
-    /// Pieces side by side as one product.
+    /// Joins pieces into one product.
     fn join(&self, factors: &[String]) -> String;
-    /// One piece over another; on one line unless the style has another form.
+    /// One piece over another; on one line unless the style overrides it.
     fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
         let wrap = |piece: &Piece, level| {
             if piece.level < level { self.parenthesise(&piece.text) } else { piece.text.clone() }
@@ -42,7 +41,7 @@ pub(super) trait Style {
     }
     /// `base ^ exponent` for a positive numeric exponent other than one.
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece;
-    /// `base` to any power; on one line unless the style has another form.
+    /// `base` to any power; on one line unless the style overrides it.
     fn power(&self, base: &str, exponent: &Piece) -> Piece {
         let text = if exponent.level == Level::Atom {
             format!("{base}^{}", exponent.text)
@@ -52,7 +51,8 @@ pub(super) trait Style {
         Piece { text, level: Level::Power }
     }
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece;
-    /// Whether a fractional coefficient is written in front (`½ m`) and not in the fraction.
+    /// Returns whether a fractional coefficient is written in front (`½ m`) and not in the
+    /// fraction.
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;
 }
 
@@ -80,7 +80,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The text of a part, in parentheses where it does not hold together well enough.
+    /// The text of a part, in parentheses if it binds too weakly.
     pub(super) fn at_least(&self, e: Expr, level: Level) -> String {
         self.wrap(self.piece(e), level)
     }
@@ -106,7 +106,7 @@ impl Printer<'_> {
             let text = self.wrap(self.style.number(constant.abs()), Level::Product);
             parts.push((constant.is_negative(), text));
         }
-        // a sum starts with something positive where it can
+        // a sum starts with a positive term if it has one
         if parts[0].0
             && let Some(first) = parts.iter().position(|(negative, _)| !negative)
         {
@@ -184,13 +184,13 @@ impl Printer<'_> {
         Piece { text: self.style.join(&pieces), level: Level::Product }
     }
 
-    /// The highest rank among a term's symbols, those of variables and constants taken as one.
+    /// The highest rank among a term's symbols; variables and constants count as one rank.
     fn rank(&self, term: Expr) -> Rank {
         let ranks = self.pool.symbols_of(term).into_iter().map(|s| self.pool.symbol_info(s).rank);
         ranks.max().unwrap_or_default().max(Rank::Variable)
     }
 
-    /// Constants, then variables, then rates, then brackets, then functions.
+    /// The order of factors: constants, variables, rates, brackets, functions.
     fn order(&self, e: Expr) -> (u8, u32) {
         let class = match self.pool.node(e) {
             Node::Number(_) | Node::Pi => 0,
@@ -208,11 +208,11 @@ impl Printer<'_> {
 }
 
 impl Pool {
-    /// How many pieces an expression has when written out, a common part counted wherever it
-    /// stands. Saturates at `u64::MAX`.
+    /// The number of nodes in an expression when it is written out; a common part counts each time
+    /// it occurs. Saturates at `u64::MAX`.
     pub fn weight(&self, e: Expr) -> u64 {
         if self.is_stopped() {
-            // too heavy for anything that would be tried next
+            // too heavy for any further step
             return u64::MAX;
         }
         let mut weights = rustc_hash::FxHashMap::default();

@@ -1,6 +1,6 @@
-//! Products and powers in canonical form: exponents of equal bases collected, numbers gathered,
-//! sums in it primitive, exponentials joined. Nothing is done that would change a value where
-//! the original has one: `sqrt(x^2)` stays as it is.
+//! Products and powers in canonical form: exponents of equal bases collected, numbers combined,
+//! sums in them primitive, exponentials joined. No rule changes a value where the original has one:
+//! `sqrt(x^2)` stays as it is.
 
 use super::function::FunctionId;
 use super::pool::{Expr, Node, Pool};
@@ -75,7 +75,7 @@ impl Pool {
         self.finish_product(coefficient, factors)
     }
 
-    /// Notes the bases whose roots are gone once exponents of equal bases are added.
+    /// Records the bases whose roots disappear when exponents of equal bases are added.
     fn note_roots(&mut self, factors: &[Factor]) {
         for (i, &(base, exponent)) in factors.iter().enumerate() {
             if !is_root(exponent) || factors[..i].iter().any(|&(b, n)| b == base && is_root(n)) {
@@ -110,15 +110,15 @@ impl Pool {
         }
     }
 
-    /// Opens a factor that is not canonical under its exponent: `Some((c, factors))` says
-    /// `base^exponent = c · Π factors`, `None` that it stays.
+    /// Rewrites a factor that is not canonical under its exponent: `Some((c, factors))` means
+    /// `base^exponent = c · Π factors`, `None` that the factor stays.
     fn settle(&mut self, base: Expr, exponent: Number) -> Option<(Number, Vec<Factor>)> {
         let integer = exponent.as_integer();
         match &*self.shared(base) {
             Node::Number(n) => self.settle_number(*n, exponent),
             Node::Product(c, inner) => {
                 if let Some(k) = integer {
-                    // a coefficient whose power no number can hold stays where it is
+                    // a coefficient whose power no number can represent stays where it is
                     let power = c.powi(k).value();
                     if !power.is_finite() || power.abs() < f64::MIN_POSITIVE {
                         return None;
@@ -167,7 +167,7 @@ impl Pool {
         }
     }
 
-    /// A numeric base: folded where exact, else brought to an exponent in (0, 1).
+    /// A numeric base: evaluated if exact, else reduced to an exponent in (0, 1).
     fn settle_number(&mut self, n: Number, exponent: Number) -> Option<(Number, Vec<Factor>)> {
         if let Some(exact) = n.exact_power(exponent) {
             return Some((exact, Vec::new()));
@@ -191,7 +191,7 @@ impl Pool {
         Some((outside, vec![(base, Number::Rational(en.rem_euclid(ed), ed))]))
     }
 
-    /// `exp(a)^m exp(b)^n → exp(m a + n b)`. Says whether anything was joined.
+    /// Joins exponentials: `exp(a)^m exp(b)^n → exp(m a + n b)`. Returns whether any were joined.
     fn join_exponentials(&mut self, factors: &mut Vec<Factor>) -> bool {
         let exponentials: Vec<(Number, Expr)> = factors
             .iter()
@@ -211,7 +211,7 @@ impl Pool {
     }
 }
 
-/// Whether a power has a value where its base is not below zero only.
+/// Returns whether a power has a value only for a nonnegative base.
 fn is_root(exponent: Number) -> bool {
     matches!(exponent, Number::Rational(_, below) if below % 2 == 0)
 }
@@ -233,7 +233,7 @@ fn merge(factors: &mut Vec<Factor>) {
     *factors = merged;
 }
 
-/// What can be taken out of a sum: the common divisor of its coefficients and, where `signed`,
+/// The factor to be taken out of a sum: the common divisor of its coefficients and, if `signed`,
 /// the sign of its first term.
 fn content(constant: Number, terms: &[(Number, Expr)], signed: bool) -> Number {
     let real = |n: &Number| matches!(n, Number::Real(_));

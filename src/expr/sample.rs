@@ -1,17 +1,18 @@
-//! Points at which identities are tried: the same each time, different for each symbol, first of
-//! ordinary size and then of ever more different magnitudes.
+//! Points at which identities are tested. They are reproducible and different for each symbol,
+//! first of ordinary size and then of increasingly different magnitudes.
 
 use super::symbol::Symbol;
 use crate::num::math;
 
-/// So many points are of ordinary size.
+/// The number of points of ordinary size.
 const ORDINARY: u64 = 24;
 
-/// By how many powers of ten the others differ at most, in turn.
+/// The largest spread of the other points in powers of ten, in turn.
 const SPANS: [f64; 5] = [1.5, 3.0, 6.0, 12.0, 20.0];
 
-/// A value for a symbol at the n-th point: first spread over (0.1, 2.1), so that logarithms, roots
-/// and quotients are mostly defined, every third point with other signs; then over all magnitudes.
+/// A value for a symbol at the n-th point. The first points lie in (0.1, 2.1), so that logarithms,
+/// roots and quotients are mostly defined, with other signs at every third point; later points
+/// spread over all magnitudes.
 pub(super) fn sample(symbol: Symbol, point: u64) -> f64 {
     let mut x = (symbol.index() as u64 + 1)
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)

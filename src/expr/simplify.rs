@@ -1,18 +1,19 @@
-//! Making an expression shorter without changing its value: terms joined by trigonometry, common
-//! factors taken out, multiplied out where that is cheaper.
+//! Shortening an expression without changing its value: terms are combined by trigonometric
+//! identities, common factors are taken out, and products are multiplied out if that is shorter.
 
 use rustc_hash::FxHashMap;
 
 use super::pool::{Expr, Node, Pool};
 use crate::num::Number;
 
-/// An expression heavier than this is only joined and factored, not multiplied out for trial.
+/// The largest weight of an expression that is multiplied out on trial; heavier ones are only
+/// combined and factored.
 const TRIAL_LIMIT: u64 = 400;
 
-/// The most sums that are brought below one line.
+/// The largest number of sums that are combined into one denominator.
 const MOST_DENOMINATORS: usize = 3;
 
-/// The most terms tried for: what is longer would not be chosen.
+/// The largest number of terms in a trial; a longer result would not be chosen.
 const TRIAL_TERMS: usize = 120;
 
 impl Pool {
@@ -38,8 +39,8 @@ impl Pool {
         self.lighter(e, best)
     }
 
-    /// A sum of fractions as one fraction: `a − a/(1 + b) → a b/(1 + b)`. `None` where nothing
-    /// stands below a line that is itself a sum, or too much.
+    /// A sum of fractions as one fraction: `a − a/(1 + b) → a b/(1 + b)`. Returns `None` if no
+    /// denominator is a sum, or too many are.
     fn over_one_line(&mut self, e: Expr) -> Option<Expr> {
         let terms = self.summands(e);
         if terms.len() < 2 {
@@ -73,7 +74,7 @@ impl Pool {
     }
 
     /// An equal sum whose terms are simplified one by one, so that a kinetic and a potential part
-    /// stay apart; joined across terms only where that is much shorter.
+    /// remain separate. They are combined across terms only if that is much shorter.
     pub fn simplify_terms(&mut self, e: Expr) -> Expr {
         let terms: Vec<(Number, Expr)> =
             self.summands(e).into_iter().map(|(c, term)| (c, self.simplify(term))).collect();
@@ -87,7 +88,7 @@ impl Pool {
         if self.cost(b) < self.cost(a) { b } else { a }
     }
 
-    /// What a reader pays: weight, and more for what stands below a line.
+    /// The reading cost of an expression: its weight, with a penalty for denominators.
     fn cost(&self, e: Expr) -> u64 {
         let mut costs: FxHashMap<Expr, u64> = FxHashMap::default();
         for part in self.reachable(&[e]) {

@@ -1,4 +1,4 @@
-//! Sums in canonical form: like terms collected, nested sums opened, numbers gathered.
+//! Sums in canonical form: like terms collected, nested sums flattened, numbers combined.
 
 use super::pool::{Expr, Node, Pool};
 use crate::num::Number;
@@ -59,7 +59,7 @@ impl Pool {
                 _ => merged.push((c, e)),
             }
         }
-        // sums of reals may be numbers that have an exact form: 1 − 1e-22 is the number one
+        // sums of reals may equal a number that has an exact form: 1 − 1e-22 is the number one
         let constant = constant.canonical();
         for (c, _) in &mut merged {
             *c = c.canonical();

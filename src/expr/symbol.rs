@@ -1,18 +1,18 @@
-//! Names in a pool: how a symbol is written in a file, on a screen and in LaTeX, and where it
-//! stands among the factors of a product. What a name *means* is not known here.
+//! Names in a pool: the notation of a symbol in a file, in Unicode and in LaTeX, and its rank among
+//! the factors of a product. The *meaning* of a name is not known here.
 
 /// An interned name.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Symbol(pub(super) u32);
 
 impl Symbol {
-    /// The place of the symbol in its pool, counted from 0 in order of introduction.
+    /// The index of the symbol in its pool, counted from 0 in order of introduction.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// Where a symbol stands among the factors of a printed product (constants before variables before
+/// The rank of a symbol among the factors of a printed product (constants before variables before
 /// their rates, as in `½ m l² θ̇²`) and among the terms of a sum (rates first: kinetic before
 /// potential).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
@@ -28,15 +28,15 @@ pub enum Rank {
     Rate,
 }
 
-/// What a pool keeps of a symbol.
+/// The notation of a symbol.
 #[derive(Clone, Debug)]
 pub struct SymbolInfo {
-    /// As written in a file: `theta'`.
+    /// Its name in a file: `theta'`.
     pub name: String,
-    /// As shown on a screen: `θ̇`.
+    /// Its Unicode notation: `θ̇`.
     pub unicode: String,
-    /// As typeset: `\dot\theta`.
+    /// Its LaTeX notation: `\dot\theta`.
     pub latex: String,
-    /// Its place among factors.
+    /// Its rank among factors.
     pub rank: Rank,
 }

@@ -1,6 +1,5 @@
-//! The tree as written: what the parser gives, with a span at every node, before any name is
-//! looked up. [`Syntax::lower`] turns it into a canonical expression with the help of whoever
-//! knows the names.
+//! The syntax tree that the parser returns, with a span at every node and names not yet resolved.
+//! [`Syntax::lower`] converts it to a canonical expression with the help of a [`Resolve`].
 
 use super::function::{FUNCTIONS, FunctionId};
 use super::pool::{Expr, Pool};
@@ -10,31 +9,31 @@ use crate::num::Number;
 /// A range of bytes in the source text of one expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Span {
-    /// First byte.
+    /// The first byte.
     pub start: usize,
     /// One past the last byte.
     pub end: usize,
 }
 
-/// A mistake in one expression: where, what, and what would be right.
+/// A mistake in one expression, with its place and a correction.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct SyntaxError {
-    /// Where in the expression.
+    /// The place in the expression.
     pub span: Span,
     /// What is wrong.
     pub message: String,
-    /// What would be right, where that can be said.
+    /// A correction, if one is known.
     pub help: Option<String>,
 }
 
 impl SyntaxError {
-    /// A mistake without a suggestion.
+    /// Creates a mistake without a correction.
     pub fn new(span: Span, message: impl Into<String>) -> SyntaxError {
         SyntaxError { span, message: message.into(), help: None }
     }
 
-    /// The same mistake with a suggestion.
+    /// Adds a correction.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> SyntaxError {
         self.help = Some(help.into());
@@ -42,12 +41,12 @@ impl SyntaxError {
     }
 }
 
-/// One node as written.
+/// One node of the syntax tree.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Syntax {
-    /// Where it stands.
+    /// Its place in the source text.
     pub span: Span,
-    /// What it is.
+    /// Its content.
     pub kind: SyntaxKind,
 }
 
@@ -61,17 +60,17 @@ pub enum BinaryOperator {
     Divide,
 }
 
-/// What a node is. Long sums and products are flat lists, so that the depth of a tree is that of
+/// The content of a node. Long sums and products are flat lists, so the depth of a tree is that of
 /// its parentheses.
 #[derive(Clone, PartialEq, Debug)]
 pub enum SyntaxKind {
     /// A numeric literal.
     Number(Number),
-    /// A name with the count of its primes: `x''` is `("x", 2)`.
+    /// A name with the number of its primes: `x''` is `("x", 2)`.
     Name(String, usize),
     /// A function's name, its span, and its arguments.
     Call(String, Span, Vec<Syntax>),
-    /// The first part, then each operator with what follows it, grouping to the left.
+    /// The first operand, then each operator with its right operand, grouped to the left.
     Chain(Box<Syntax>, Vec<(BinaryOperator, Syntax)>),
     /// `−x`.
     Negate(Box<Syntax>),
@@ -79,19 +78,20 @@ pub enum SyntaxKind {
     Power(Box<Syntax>, Box<Syntax>),
 }
 
-/// Whoever knows what the names of an expression mean.
+/// Resolves the names in an expression.
 pub trait Resolve {
-    /// The expression of a name with so many primes; `None` after a complaint.
+    /// The expression for a name with this many primes, or `None` after reporting a mistake.
     fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr>;
-    /// Whether a name is known as something that is not a function.
+    /// Returns whether a name is known as something other than a function.
     fn is_variable(&self, name: &str) -> bool;
-    /// Takes note of a mistake.
+    /// Records a mistake.
     fn complain(&mut self, error: SyntaxError);
 }
 
 impl Syntax {
-    /// The canonical expression. All mistakes go to the resolver; where there was one the result
-    /// is of no use: what is not known stands for itself in it, so that it causes no others.
+    /// Converts the tree to a canonical expression. All mistakes go to the resolver. If there is
+    /// one, the result is not usable; in it, unknown names become symbols, so that they cause no
+    /// further mistakes.
     pub fn lower(&self, pool: &mut Pool, names: &mut dyn Resolve) -> Expr {
         match &self.kind {
             SyntaxKind::Number(n) => pool.number(*n),
@@ -159,12 +159,13 @@ fn lower_chain(
     }
 }
 
-/// Whether a function of two arguments is written of more.
+/// Returns whether a function of two arguments accepts more in the source text.
 fn takes_many(function: FunctionId) -> bool {
     matches!(function, FunctionId::Max | FunctionId::Min)
 }
 
-/// The largest or the smallest of many, as that of two halves: so it nests no deeper than it must.
+/// The maximum or minimum of many arguments, by halves, so that the nesting is as shallow as
+/// possible.
 fn among(pool: &mut Pool, function: FunctionId, arguments: &[Expr]) -> Expr {
     match arguments {
         [one] => *one,
@@ -176,7 +177,7 @@ fn among(pool: &mut Pool, function: FunctionId, arguments: &[Expr]) -> Expr {
     }
 }
 
-/// The function of a call, after its name and its number of arguments have been checked.
+/// The function of a call, if its name and its number of arguments are correct.
 fn check_call(
     name: &str,
     name_span: Span,

@@ -1,7 +1,7 @@
-//! The size of the terms an expression is made of: what its value is to be measured by where the
-//! terms may cancel, inside a product or a function as well as in the sum itself.
+//! The size of an expression's terms, against which its value has to be measured if terms may
+//! cancel, inside a product or a function as well as in the sum itself.
 //!
-//! In: an expression. Out: another one, nowhere negative. Never here: numbers.
+//! In: an expression. Out: another one, which is never negative. Never here: numbers.
 
 use rustc_hash::FxHashMap;
 
@@ -10,9 +10,9 @@ use super::pool::{Expr, Node, Pool};
 use crate::num::Number;
 
 impl Pool {
-    /// The size of an expression's terms: |c| + Σ|cᵢ|·size of a sum, the product of the sizes of
-    /// a product's factors, |f(u)| + |f'(u)|·size of a function of a sum u, and |e| of all else.
-    /// Never less than |e|.
+    /// The size of an expression's terms: |c| + Σ|cᵢ|·size for a sum, the product of the sizes of
+    /// the factors for a product, |f(u)| + |f'(u)|·size for a function of a sum u, and |e| for
+    /// anything else. It is never less than |e|.
     pub fn magnitude(&mut self, e: Expr) -> Expr {
         let mut sizes: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -22,9 +22,9 @@ impl Pool {
         sizes[&e]
     }
 
-    /// How much a change of every symbol by as much as it is changes an expression, to first order:
-    /// Σ |s ∂e/∂s|. Times the rounding of the symbols it is what their rounding does to the value,
-    /// also where its terms vanish.
+    /// The first-order change of an expression under relative changes of all its symbols: Σ |s
+    /// ∂e/∂s|. Times the relative rounding error of the symbols, it is the resulting error of the
+    /// value, even where the terms vanish.
     pub fn size_of_inputs(&mut self, e: Expr) -> Expr {
         let mut parts = Vec::new();
         for symbol in self.symbols_of(e) {

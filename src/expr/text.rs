@@ -1,4 +1,4 @@
-//! The file's own syntax: what is printed here parses back to the same expression.
+//! Expressions in the syntax of preset files, which parse back to the same expression.
 
 use super::function::FunctionId;
 use super::pool::{Expr, Pool};

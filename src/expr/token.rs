@@ -1,20 +1,20 @@
-//! Words of an expression: numbers, names with primes, operators, each with its span.
+//! Tokens of an expression: numbers, names with primes, operators, each with its span.
 
 use super::syntax::{Span, SyntaxError};
 use crate::num::Number;
 
-/// One word.
+/// One token.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Token {
     Number(Number),
-    /// A name and the count of primes behind it.
+    /// A name and the number of primes after it.
     Name(String, usize),
     /// One of `+ - * / ^ ( ) ,`.
     Mark(char),
     End,
 }
 
-/// Splits an expression into words; the last is always [`Token::End`].
+/// Splits an expression into tokens; the last is always [`Token::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
     let bytes = text.as_bytes();
     let mut words = Vec::new();

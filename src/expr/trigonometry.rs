@@ -1,5 +1,5 @@
-//! Two terms of a sum made one: `R cos²u + R sin²u → R`, `R − R sin²u → R cos²u`, the hyperbolic
-//! pair, and the addition theorems read backwards, `R cos a cos b + R sin a sin b → R cos(a − b)`.
+//! Combining two terms of a sum: `R cos²u + R sin²u → R`, `R − R sin²u → R cos²u`, the hyperbolic
+//! analogues, and the addition theorems in reverse, `R cos a cos b + R sin a sin b → R cos(a − b)`.
 
 use rustc_hash::FxHashMap;
 
@@ -9,11 +9,11 @@ use crate::num::Number;
 
 /// The terms of a sum with their coefficients.
 type Terms = FxHashMap<Expr, Number>;
-/// Another term of the sum, and what it makes together with the first.
+/// Another term of the sum, and the term that results from combining it with the first.
 type Join = (Expr, (Number, Expr));
 
 impl Pool {
-    /// Every pair of terms of a sum joined that can be.
+    /// Combines every pair of terms of a sum for which this is possible.
     pub(super) fn join_terms(&mut self, e: Expr) -> Expr {
         let mut e = e;
         while let Some(joined) = self.join_one(e) {
@@ -22,7 +22,7 @@ impl Pool {
         e
     }
 
-    /// The first pair of terms that can be joined, joined.
+    /// Combines the first pair of terms for which this is possible.
     fn join_one(&mut self, e: Expr) -> Option<Expr> {
         let terms = self.summands(e);
         if terms.len() < 2 {
@@ -41,7 +41,8 @@ impl Pool {
         None
     }
 
-    /// For a term `c f(u)² rest`, f a sine, cosine or hyperbolic one, another term it joins with.
+    /// For a term `c f(u)² rest`, with f a (hyperbolic) sine or cosine, finds another term to
+    /// combine it with.
     fn join_square(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
         use FunctionId::{Cos, Cosh, Sin, Sinh};
         let factors = self.plain_factors(term)?;
@@ -77,7 +78,8 @@ impl Pool {
         None
     }
 
-    /// For a term `c cos a cos b rest` or `c sin a cos b rest`, another term it joins with.
+    /// For a term `c cos a cos b rest` or `c sin a cos b rest`, finds another term to combine it
+    /// with.
     fn join_angles(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
         use FunctionId::{Cos, Sin};
         let factors = self.plain_factors(term)?;
@@ -120,7 +122,7 @@ impl Pool {
         None
     }
 
-    /// The factors of a product without a coefficient.
+    /// The factors of a product that has no coefficient.
     fn plain_factors(&self, term: Expr) -> Option<Vec<(Expr, Number)>> {
         match self.node(term) {
             Node::Product(c, factors) if c.is_one() => Some(factors.to_vec()),

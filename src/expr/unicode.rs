@@ -1,4 +1,4 @@
-//! Mathematics for a screen: `½ m l² θ̇² + m g l cos θ`.
+//! Expressions in Unicode notation: `½ m l² θ̇² + m g l cos θ`.
 
 use super::function::FunctionId;
 use super::notation::superscript;
@@ -124,7 +124,7 @@ fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> Piece {
     }
 }
 
-/// Whether 1/d is a short decimal that reads better than a fraction: 9.81, not 981/100.
+/// Returns whether 1/d is a short decimal that reads better than a fraction: 9.81, not 981/100.
 fn is_decimal(d: i64) -> bool {
     d > 8 && 1_000_000 % d == 0
 }

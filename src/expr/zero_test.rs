@@ -1,6 +1,6 @@
-//! Is an expression zero? Proved by a normal form where it can be, one side of every kink at a
-//! time; refuted by a value that rounding cannot have made. Where neither succeeds, values may be
-//! consistent with zero, or nothing is known.
+//! Decides whether an expression vanishes identically. A normal form proves it where possible, for
+//! each side of every kink; a value beyond rounding error refutes it. If neither succeeds, the
+//! values may be consistent with zero, or nothing is known.
 
 use rustc_hash::FxHashMap;
 
@@ -11,57 +11,58 @@ use super::sample::sample;
 use super::symbol::Symbol;
 use crate::num::Number;
 
-/// How far an expression is known to vanish.
+/// What is known about the vanishing of an expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Zero {
     /// Proved symbolically.
     Proved,
-    /// No proof, but nothing in it can hide and its values are zero to rounding at points of all
-    /// magnitudes.
+    /// There is no proof, but nothing in the expression can hide, and its values are zero to
+    /// rounding at points of all magnitudes.
     Numerically,
-    /// Neither proved nor refuted: it may have a kink or a localised part where nobody looked, or
-    /// has no values at the points tried.
+    /// Neither proved nor refuted: it may have a kink or a localised part between the points tried,
+    /// or it has no values there.
     Unknown,
-    /// Not zero: it has a value that is beyond the error of its own evaluation.
+    /// Not zero: it has a value beyond the error of its own evaluation.
     No,
 }
 
-/// How many points are tried before a proof is.
+/// The number of points tried before a proof is attempted.
 const QUICK: u64 = 6;
 
-/// How many points are tried in all, the later ones of ever more different magnitudes.
+/// The number of points tried in all; later ones have increasingly different magnitudes.
 const POINTS: u64 = 64;
 
-/// So many points have to speak for zero before it counts for anything.
+/// The number of points that have to support zero before it is accepted.
 const WITNESSES: usize = 12;
 
-/// A point speaks for zero where rounding is this many powers of two below the terms.
+/// A point supports zero if its rounding error is this many powers of two below the terms.
 const CLEAR: i64 = 24;
 
 /// A power higher than this may be invisible beside its neighbours almost everywhere.
 const HIGHEST: f64 = 16.0;
 
-/// An expression heavier than this is not worth the symbolic attempt.
+/// The largest weight of an expression for which a symbolic proof is attempted.
 const WEIGHT_LIMIT: u64 = 20_000;
 
-/// How many kinks are opened in a proof: each doubles the work.
+/// The largest number of kinks split in a proof; each one doubles the work.
 const MOST_KINKS: usize = 5;
 
-/// What the values at one point say.
+/// The evidence from the values at one point.
 enum Witness {
     /// The expression is not zero there.
     Against,
-    /// It is zero to rounding; holds which of its terms are large enough to be seen.
+    /// It is zero there to rounding. Carries which of its terms are large enough to be seen.
     For(Vec<bool>),
-    /// Nothing.
+    /// There is no evidence.
     Silent,
 }
 
 impl Pool {
-    /// Whether `e` vanishes identically. Quick for what does not: a few values settle it.
+    /// Determines whether `e` vanishes identically. This is fast if it does not, because a few
+    /// values settle it.
     pub fn is_zero(&mut self, e: Expr) -> Zero {
         if self.is_full() {
-            // what was built since is not what it says
+            // expressions built since then are not valid
             return Zero::Unknown;
         }
         if e == Expr::ZERO {
@@ -82,14 +83,14 @@ impl Pool {
         }
     }
 
-    /// Whether a value at one of the points named by `points` shows that `e` is not zero. `true` is
-    /// a proof: the value is beyond all rounding of its evaluation.
+    /// Returns whether a value at one of the points with these numbers shows that `e` is not zero.
+    /// `true` is a proof: the value is beyond all rounding errors of its evaluation.
     fn is_refuted(&self, e: Expr, points: std::ops::Range<u64>) -> bool {
         points.into_iter().any(|n| self.refutes(e, &|s| sample(s, n)))
     }
 
-    /// Whether `e` is zero at a point whose values are known to a part `slack` of themselves; `None`
-    /// where that cannot be reported.
+    /// Returns whether `e` is zero at a point whose values are known to a relative accuracy of
+    /// `slack`, or `None` if that cannot be decided.
     pub fn vanishes_at(&self, e: Expr, slack: f64, at: &dyn Fn(Symbol) -> f64) -> Option<bool> {
         match self.witness(e, slack, at) {
             Witness::Against => Some(false),
@@ -98,12 +99,12 @@ impl Pool {
         }
     }
 
-    /// Whether the value of `e` at a point shows that it is not zero.
+    /// Returns whether the value of `e` at a point shows that it is not zero.
     pub fn refutes(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> bool {
         self.enclosure(e, at).is_some_and(super::ball::Ball::excludes_zero)
     }
 
-    /// The symbolic attempt: proved, refuted by what a normal form leaves, or not known.
+    /// Attempts a symbolic decision: proved, refuted by what a normal form leaves, or unknown.
     fn proof(&mut self, e: Expr) -> Zero {
         if self.weight(e) >= WEIGHT_LIMIT {
             return Zero::Unknown;
@@ -117,14 +118,14 @@ impl Pool {
             return Zero::Proved;
         }
         if self.is_refuted(form, 0..QUICK) {
-            // what cancelled by symbols no longer drowns the rest; but the form is zero wherever a
-            // denominator that was cleared is, so that the points have to be generic: they are
+            // Symbols that have cancelled no longer dominate the rest. The form also vanishes
+            // wherever a cleared denominator does, so the points have to be generic, and they are.
             return Zero::No;
         }
         if self.vanishes_on_all_sides(opened, MOST_KINKS) { Zero::Proved } else { Zero::Unknown }
     }
 
-    /// Whether `e` is proved to vanish whatever side of each kink one is on.
+    /// Returns whether `e` is proved to vanish on every side of each kink.
     fn vanishes_on_all_sides(&mut self, e: Expr, most: usize) -> bool {
         let Some(switch) = self.first_switch(e) else { return false };
         if most == 0 {
@@ -137,7 +138,8 @@ impl Pool {
         })
     }
 
-    /// The switch of a kinked call, and whether its sign was turned to make it one of two.
+    /// The switch of a call with a kink, and whether its sign was reversed to identify it with its
+    /// opposite.
     fn switch_of(&mut self, call: Expr) -> Option<(Expr, bool)> {
         let shared = self.shared(call);
         let Node::Call(function, arguments) = &*shared else { return None };
@@ -153,7 +155,7 @@ impl Pool {
         parts.into_iter().find_map(|part| self.switch_of(part)).map(|(switch, _)| switch)
     }
 
-    /// The expression where a switch is positive, or negative.
+    /// The expression on the side where a switch is positive, or negative.
     fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -171,7 +173,7 @@ impl Pool {
         done[&e]
     }
 
-    /// Roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) = u.
+    /// Rewrites roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) as u.
     fn open_roots(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
@@ -209,8 +211,8 @@ impl Pool {
         done[&e]
     }
 
-    /// A numerator of `e`, multiplied out: zero where `e` is, and a polynomial in its symbols, roots,
-    /// sines and cosines where it can be written as one.
+    /// A numerator of `e`, multiplied out. It is zero where `e` is, and it is a polynomial in
+    /// symbols, roots, sines and cosines if it can be written as one.
     pub fn numerator(&mut self, e: Expr) -> Expr {
         if self.weight(e) < WEIGHT_LIMIT { self.normal_form(e) } else { e }
     }
@@ -239,7 +241,7 @@ impl Pool {
         self.expand(replaced, PROOF_TERMS)
     }
 
-    /// What the values say of an expression without a proof.
+    /// Decides by values alone, without a proof.
     fn by_values(&self, e: Expr) -> Zero {
         let mut witnesses = 0;
         let mut seen: Vec<bool> = Vec::new();
@@ -277,8 +279,8 @@ impl Pool {
         Witness::For(sizes.iter().map(|size| size.is_some_and(|size| size > noise + 4)).collect())
     }
 
-    /// Whether an expression has a part that may be there and not be seen at a few points: a kink,
-    /// a function that saturates or is localised, a high power.
+    /// Returns whether an expression has a part that a few points may miss: a kink, a function that
+    /// saturates or is localised, a high power.
     pub fn may_hide(&self, e: Expr) -> bool {
         self.reachable(&[e]).into_iter().any(|part| match self.node(part) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => false,
@@ -296,9 +298,9 @@ impl Pool {
         })
     }
 
-    /// A form in which an expression that is zero as a rational function of symbols, roots, sines
-    /// and cosines *is* 0: angles opened, denominators cleared, multiplied out, squares of
-    /// cosines replaced. For anything else it is some numerator of `e`.
+    /// A form that *is* 0 for any expression that is zero as a rational function of symbols, roots,
+    /// sines and cosines: sums of angles are expanded, denominators cleared, products multiplied
+    /// out, squares of cosines replaced. For any other expression it is some numerator of `e`.
     pub(super) fn normal_form(&mut self, e: Expr) -> Expr {
         let mut e = self.open_angles(e);
         e = self.expand(e, PROOF_TERMS);
@@ -315,8 +317,8 @@ impl Pool {
         e
     }
 
-    /// Multiplies a sum through by the lowest power of every base that stands below a line, or
-    /// that is a sum under a root; afterwards such powers are non-negative.
+    /// Multiplies a sum by the lowest power of every base that occurs in a denominator, or that is
+    /// a sum under a root. Afterwards such powers are nonnegative.
     fn clear_denominators(&mut self, e: Expr) -> Expr {
         let terms = self.summands(e);
         if terms.len() < 2 {

@@ -25,7 +25,7 @@ pub(super) struct Phase;
 
 /// A landscape and the conditions it was computed for.
 struct Survey {
-    /// `None` if the plot does not show the energy.
+    /// `None` if there are no level curves to draw.
     landscape: Option<Arc<Landscape>>,
     parameters: Vec<f64>,
     motion: [[f64; 2]; 2],
@@ -199,12 +199,12 @@ impl Survey {
         let Some(landscape) = &self.landscape else {
             return self.parameters == parameters && self.motion == motion;
         };
-        let held = |axis: usize| {
+        let fits = |axis: usize| {
             let [lo, hi] = motion[axis];
             let [from, to] = landscape.window[axis];
             let before = self.motion[axis];
             lo >= from && hi <= to && (hi - lo) >= 0.3 * (before[1] - before[0])
         };
-        self.parameters == parameters && (self.periodic || held(0)) && held(1)
+        self.parameters == parameters && (self.periodic || fits(0)) && fits(1)
     }
 }

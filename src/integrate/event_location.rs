@@ -86,7 +86,7 @@ impl EventLocator {
         self.simple = None;
     }
 
-    /// Resets what depends on the motion ahead, when it changes.
+    /// Forgets how far the functions are simple, when the motion changes.
     pub(super) fn turn(&mut self) {
         self.simple = None;
     }
@@ -100,7 +100,7 @@ impl EventLocator {
     }
 
     /// Records an impulse from one state to another, caused by the given event or by none.
-    /// Functions that jumped with it did not cross zero.
+    /// The sides of functions that jumped with it become unknown, as they did not cross zero.
     pub(super) fn after_impulse(
         &mut self,
         before: &State,
@@ -148,7 +148,7 @@ impl EventLocator {
             return Ok((None, to));
         }
         let Some((piece, beyond)) = self.piece(stepper, from, to) else {
-            let end = self.stretch(stepper, from, to)?;
+            let end = self.simple_until(stepper, from, to)?;
             return Ok((self.sampled(stepper, from, end)?, end));
         };
         let shortest = DIGITS * spacing(from);
@@ -176,14 +176,14 @@ impl EventLocator {
             return None;
         }
         let event_functions = self.probe.event_functions();
-        let told = event_functions.expand(series, x, CUT_OFF)?;
-        let mut length = told.min(whole);
+        let valid = event_functions.expand(series, x, CUT_OFF)?;
+        let mut length = valid.min(whole);
         for switch in event_functions.expanded_switches() {
             if let Some(change) = sign_changes(switch, length).next() {
                 length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
             }
         }
-        Some((Piece { from, unit, length }, told * unit))
+        Some((Piece { from, unit, length }, valid * unit))
     }
 
     /// The first crossing that counts on a piece.
@@ -194,8 +194,8 @@ impl EventLocator {
         (from, to): (f64, f64),
     ) -> Result<Option<LocatedEvent>, MotionError> {
         self.fresh = false;
-        let moment = if from == 0.0 { to } else { from.abs() };
-        let (length, soonest) = (piece.length, SOONEST * moment / piece.unit);
+        let reference = if from == 0.0 { to } else { from.abs() };
+        let (length, soonest) = (piece.length, SOONEST * reference / piece.unit);
         let mut passed = Vec::new();
         for event in 0..self.sides.len() {
             let coefficients = self.probe.event_functions().expanded(event);
@@ -284,7 +284,7 @@ impl EventLocator {
 
     /// The end, at most `to`, of the interval that begins at a time within the last step and on
     /// which the functions are simple.
-    fn stretch(
+    fn simple_until(
         &mut self,
         stepper: &mut dyn Stepper,
         from: f64,
@@ -322,11 +322,11 @@ impl EventLocator {
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
         let mut sampling = Sampling { probe: &mut self.probe, stepper, whole: (from, to) };
-        let looks = sampling.looks(self.sides.len(), soonest)?;
+        let samples = sampling.looks(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
-        for (event, looks) in looks.iter().enumerate() {
+        for (event, samples) in samples.iter().enumerate() {
             let direction = self.directions[event];
-            passed.push(sampling.follow(event, direction, looks, &mut self.sides[event])?);
+            passed.push(sampling.follow(event, direction, samples, &mut self.sides[event])?);
         }
         Ok(first(&passed, &self.directions, &mut self.sides, to))
     }

@@ -15,7 +15,7 @@ const PART_OF_PACE: f64 = 1.0 / 10.0;
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
-const STEPS_PER_LOOK: f64 = 256.0;
+const STEPS_PER_CHECK: f64 = 256.0;
 
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
@@ -107,12 +107,12 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// Checks occasionally whether the step is stable at the current state, until it is not.
-    fn look(&mut self) {
+    fn check_stability(&mut self) {
         let n = self.taken;
-        let due = if n < STEPS_PER_LOOK {
+        let due = if n < STEPS_PER_CHECK {
             n == 0.0 || math::log2(n).fract() == 0.0
         } else {
-            n % STEPS_PER_LOOK == 0.0
+            n % STEPS_PER_CHECK == 0.0
         };
         self.taken += 1.0;
         if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
@@ -169,7 +169,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
             self.count_from_here(-self.step);
         }
         self.may_step(limit)?;
-        self.look();
+        self.check_stability();
         self.next.copy_from(&self.state);
         self.scheme.advance(self.step.high, &mut self.next)?;
         let time = self.origin + self.step * (self.count + 1.0);

@@ -13,7 +13,7 @@ pub(super) struct ImpulseSchedule {
     schedule: Vec<Schedule>,
     start: f64,
     /// The time and index of the last impulse applied.
-    fallen: Option<(f64, usize)>,
+    applied: Option<(f64, usize)>,
 }
 
 impl ImpulseSchedule {
@@ -25,18 +25,18 @@ impl ImpulseSchedule {
     /// Counts from here, with no impulse applied.
     pub(super) fn begin(&mut self, start: f64) {
         self.start = start;
-        self.fallen = None;
+        self.applied = None;
     }
 
     /// Marks all impulses at this time as applied.
     pub(super) fn pass(&mut self, now: f64) {
-        self.fallen = Some((now, usize::MAX));
+        self.applied = Some((now, usize::MAX));
     }
 
     /// Whether an impulse at a time has not been applied yet. Impulses at the same time are applied
     /// in the order of the file.
     fn is_open(&self, impulse: usize, time: f64) -> bool {
-        time > self.start && self.fallen.is_none_or(|(at, last)| at != time || impulse > last)
+        time > self.start && self.applied.is_none_or(|(at, last)| at != time || impulse > last)
     }
 
     /// The first time from `now` on of this impulse that has not been applied.
@@ -73,7 +73,7 @@ impl ImpulseSchedule {
 
     /// Marks an impulse as applied now and returns its time beyond the last digit.
     pub(super) fn apply_scheduled(&mut self, impulse: usize, now: f64) -> DoubleDouble {
-        self.fallen = Some((now, impulse));
+        self.applied = Some((now, impulse));
         self.schedule[impulse].exactly(self.start, now)
     }
 }

@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 1e-9;
 /// The number of steps it looks ahead.
 const AHEAD: usize = 48;
 
-/// The number of the most accurate steps.
+/// The number of steps at the default tolerance, which is tighter.
 const A_FEW: usize = 4;
 
 /// Steps shorter than this part of the longest one are ignored: near a singularity they shrink

@@ -140,7 +140,7 @@ impl Propagator {
         }
         self.take_system();
         self.resume(state)?;
-        self.system.check_energy(&self.own()?, parameters)
+        self.system.check_energy(&self.native_state()?, parameters)
     }
 
     /// Continues from another state at the current time, or with other parameters. Released
@@ -179,8 +179,8 @@ impl Propagator {
     ) -> Result<(), MotionError> {
         self.begin(state, parameters)?;
         for &constraint in released {
-            let own = self.own()?;
-            self.release(constraint, &own)?;
+            let native_state = self.native_state()?;
+            self.release(constraint, &native_state)?;
         }
         self.start = start;
         self.impulse_schedule.begin(start);
@@ -208,7 +208,7 @@ impl Propagator {
         if state.form == self.system.form() {
             self.state.copy_from(state);
         } else {
-            self.state = self.to_own(state)?;
+            self.state = self.to_native(state)?;
         }
         self.near.copy_from(&self.state);
         self.clear = state.time;
@@ -234,7 +234,7 @@ impl Propagator {
     }
 
     /// Enforces those of redundant constraints that are most independent.
-    fn hold_anew(&mut self) -> Result<(), MotionError> {
+    fn choose_enforced(&mut self) -> Result<(), MotionError> {
         let state = self.stepper.state();
         let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
         let state = state.clone();
@@ -280,7 +280,7 @@ impl Propagator {
                 }
             }
             if self.clear >= time {
-                self.look(time)?;
+                self.move_to(time)?;
                 self.note_passages(time);
                 return Ok(Reached::There);
             }
@@ -303,15 +303,15 @@ impl Propagator {
             self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
         let before = self.stepper.state().exact_time();
         if self.impulse_schedule.stands_still(before.high) {
-            return Err(stands_still(before.high));
+            return Err(no_digits_left(before.high));
         }
         self.note_regular();
-        self.hold_anew()?;
+        self.choose_enforced()?;
         self.stepper.step(limit)?;
         let moved = (self.stepper.state().exact_time() - before).high > 0.0;
         self.stalled = if moved { 0 } else { self.stalled + 1 };
         if self.stalled > MOST_STALLED {
-            return Err(stands_still(before.high));
+            return Err(no_digits_left(before.high));
         }
         self.steps += 1;
         self.check_branch()?;
@@ -341,7 +341,7 @@ impl Propagator {
     }
 
     /// Sets the current state to that at a time within the last step.
-    fn look(&mut self, time: f64) -> Result<(), MotionError> {
+    fn move_to(&mut self, time: f64) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if time == end || begin == end {
             self.state.copy_from(self.stepper.state());
@@ -356,7 +356,7 @@ impl Propagator {
 
     /// Sets the current state to that at the time of an occurrence, known beyond the last digit of
     /// an `f64`.
-    fn look_exactly(&mut self, time: DoubleDouble) -> Result<(), MotionError> {
+    fn move_to_exactly(&mut self, time: DoubleDouble) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         if begin == end {
             self.state.copy_from(self.stepper.state());
@@ -370,11 +370,11 @@ impl Propagator {
     }
 
     /// The current state in the system's native form.
-    fn own(&self) -> Result<State, MotionError> {
-        self.to_own(&self.state)
+    fn native_state(&self) -> Result<State, MotionError> {
+        self.to_native(&self.state)
     }
 
-    fn to_own(&self, state: &State) -> Result<State, MotionError> {
+    fn to_native(&self, state: &State) -> Result<State, MotionError> {
         if self.near.values.is_empty() {
             self.system.convert(state, self.system.form(), &self.parameters)
         } else {
@@ -388,7 +388,7 @@ impl Propagator {
 const MOST_STALLED: u32 = 128;
 
 /// The error for a time without enough digits for what follows.
-fn stands_still(time: f64) -> MotionError {
+fn no_digits_left(time: f64) -> MotionError {
     let kind = MotionErrorKind::ClockStands(super::clock::spacing(time));
     MotionError { time, kind, place: Vec::new() }
 }
@@ -456,7 +456,7 @@ impl Propagator {
     /// # Errors
     /// Returns an error if the state cannot be evaluated.
     pub fn reach_computed(&mut self) -> Result<(), MotionError> {
-        self.look(self.clear)
+        self.move_to(self.clear)
     }
 
     /// The number of steps taken.
@@ -488,7 +488,7 @@ impl Propagator {
         self.steps = steps;
     }
 
-    /// Resets the number of steps and the history of the motion at `time`.
+    /// Resets the number of steps, and replaces the state by an empty one at `time`.
     pub fn forget(&mut self, time: f64) {
         self.steps = 0;
         self.state = State::new(time, self.system.form(), Vec::new());

@@ -166,8 +166,8 @@ fn signs(list: &[f64]) -> Signs {
     signs
 }
 
-/// The root between `low` and `high`, between which the polynomial has this sign first: by Newton's
-/// step if it stays inside, else by bisection.
+/// The root between `low` and `high`, after which the polynomial has this sign: by Newton's step if
+/// it stays inside, else by bisection.
 fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     let mut x = 0.5 * (low + high);
     for _ in 0..200 {

@@ -42,7 +42,7 @@ pub(super) const SIGNLESS: f64 = 1e-13;
 
 /// A sample of one function.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct Sample {
     time: f64,
     value: f64,
     slope: f64,
@@ -63,9 +63,9 @@ impl Sampling<'_> {
         &mut self,
         functions: usize,
         soonest: Option<f64>,
-    ) -> Result<Vec<Vec<Look>>, MotionError> {
+    ) -> Result<Vec<Vec<Sample>>, MotionError> {
         let (from, to) = self.whole;
-        let mut looks: Vec<Vec<Look>> = vec![Vec::new(); functions];
+        let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); functions];
         let halvings = |soonest: f64| math::log2((to - from) / soonest).ceil() as i32;
         let early = soonest.map_or(0, halvings);
         let early = (3..early).rev().map(|k| math::powi(0.5, k));
@@ -75,27 +75,27 @@ impl Sampling<'_> {
         for part in parts {
             let time = if part == 1.0 { to } else { from + (to - from) * part };
             let width = (to - from) * part.max(1.0 / PIECES as f64);
-            for (i, look) in self.look(time, width)?.into_iter().enumerate() {
-                looks[i].push(look);
+            for (i, sample) in self.sample(time, width)?.into_iter().enumerate() {
+                samples[i].push(sample);
             }
         }
-        Ok(looks)
+        Ok(samples)
     }
 
     /// Samples all functions at a time within the interval; slopes are taken over a small part of
     /// `width`.
-    fn look(&mut self, time: f64, width: f64) -> Result<Vec<Look>, MotionError> {
+    fn sample(&mut self, time: f64, width: f64) -> Result<Vec<Sample>, MotionError> {
         let (from, to) = self.whole;
         let here = self.probe.at(self.stepper, time)?.to_vec();
         // not so small that the last digit of time dominates
         let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
         let beside = if time + step <= to { time + step } else { (time - step).max(from) };
         let there = self.probe.at(self.stepper, beside)?;
-        let looks = here.iter().zip(there).map(|(&value, &next)| {
+        let samples = here.iter().zip(there).map(|(&value, &next)| {
             let slope = if beside == time { 0.0 } else { (next - value) / (beside - time) };
-            Look { time, value, slope }
+            Sample { time, value, slope }
         });
-        Ok(looks.collect())
+        Ok(samples.collect())
     }
 
     /// The crossings of one function, in order of time, up to the first that counts.
@@ -103,11 +103,11 @@ impl Sampling<'_> {
         &mut self,
         event: usize,
         direction: Direction,
-        looks: &[Look],
+        samples: &[Sample],
         known: &mut f64,
     ) -> Result<Vec<Crossing>, MotionError> {
         let mut walk = Walk { event, direction, side: *known, known, found: Vec::new() };
-        for pair in looks.windows(2) {
+        for pair in samples.windows(2) {
             if walk.side == 0.0 {
                 walk.side = sign(pair[0], pair[1]);
                 *walk.known = walk.side;
@@ -116,7 +116,7 @@ impl Sampling<'_> {
                 break;
             }
         }
-        if let (true, [.., before, last]) = (walk.side == 0.0, looks) {
+        if let (true, [.., before, last]) = (walk.side == 0.0, samples) {
             *walk.known = sign(*last, *before);
         }
         Ok(walk.found)
@@ -126,8 +126,8 @@ impl Sampling<'_> {
     fn piece(
         &mut self,
         walk: &mut Walk<'_>,
-        a: Look,
-        b: Look,
+        a: Sample,
+        b: Sample,
         halvings: u32,
     ) -> Result<bool, MotionError> {
         let time = 0.5 * (a.time + b.time);
@@ -135,7 +135,7 @@ impl Sampling<'_> {
             return self.end(walk, a, b);
         }
         let width = b.time - a.time;
-        let middle = self.look(time, width)?[walk.event];
+        let middle = self.sample(time, width)?[walk.event];
         let predicted = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
         let steep = 1.5 * (b.value - a.value) / width - 0.25 * (a.slope + b.slope);
         let size = a.value.abs().max(b.value.abs()).max(middle.value.abs());
@@ -150,7 +150,7 @@ impl Sampling<'_> {
 
     /// Handles a piece on which the function has at most one turning point, which is also sampled
     /// if it lies towards zero.
-    fn turned(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
+    fn turned(&mut self, walk: &mut Walk<'_>, a: Sample, b: Sample) -> Result<bool, MotionError> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(same_side && towards) {
@@ -165,17 +165,17 @@ impl Sampling<'_> {
                 break;
             }
             let width = right.time - left.time;
-            let look = self.look(time, width)?[walk.event];
-            if look.value * a.value <= 0.0 {
-                return Ok(self.end(walk, a, look)? || self.end(walk, look, b)?);
+            let sample = self.sample(time, width)?[walk.event];
+            if sample.value * a.value <= 0.0 {
+                return Ok(self.end(walk, a, sample)? || self.end(walk, sample, b)?);
             }
-            if look.slope * a.value < 0.0 {
-                left = look;
+            if sample.slope * a.value < 0.0 {
+                left = sample;
             } else {
-                right = look;
+                right = sample;
             }
             let rest = (left.slope.abs() + right.slope.abs()) * (right.time - left.time);
-            if rest < 1e-3 * look.value.abs() {
+            if rest < 1e-3 * sample.value.abs() {
                 break;
             }
         }
@@ -183,7 +183,7 @@ impl Sampling<'_> {
     }
 
     /// Handles a piece with at most one crossing, and records it.
-    fn end(&mut self, walk: &mut Walk<'_>, a: Look, b: Look) -> Result<bool, MotionError> {
+    fn end(&mut self, walk: &mut Walk<'_>, a: Sample, b: Sample) -> Result<bool, MotionError> {
         let side = sign(b, a);
         if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
             // it crosses at the very end of the step, which may be the time of an output row or an
@@ -271,7 +271,7 @@ impl Sampling<'_> {
         let aside = ASIDE * (right - left);
         let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
         if before == left || after == right {
-            // one side alone does not tell a pole from a jump
+            // one side alone does not distinguish a pole from a jump
             return Ok(false);
         }
         let earlier = self.probe.exactly(self.stepper, event, before)?.high.abs();
@@ -291,7 +291,7 @@ struct Walk<'a> {
 }
 
 /// The side of zero a function is on; none if its value may be rounding.
-fn sign(here: Look, beside: Look) -> f64 {
+fn sign(here: Sample, beside: Sample) -> f64 {
     let value = here.value;
     if value.abs() > SIGNLESS * beside.value.abs() { value.signum() } else { 0.0 }
 }

@@ -1,13 +1,13 @@
 //! Taylor series: the default method.
 //!
-//! Every step builds the series of the motion to an order that the tolerance asks for, takes as
-//! long a step as its last terms allow, and sums it. The polynomial itself is the dense output.
-//! Kinks (`abs`, `sign`, `min`, `max`) are found as roots of the series of what switches there,
-//! and a step ends on each.
+//! Every step builds the series of the motion to an order set by the tolerance, takes as long a
+//! step as its last terms allow, and sums it. The polynomial itself is the dense output. Kinks
+//! (`abs`, `sign`, `min`, `max`) are located as roots of the series of their switches, and a step
+//! ends on each.
 //!
-//! Sources: À. Jorba, M. Zou, "A software package for the numerical integration of ODEs by means
-//! of high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo,
-//! Monthly Notices of the Royal Astronomical Society 504 (2021) 2614.
+//! Sources: À. Jorba, M. Zou, "A software package for the numerical integration of ODEs by means of
+//! high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo, Monthly
+//! Notices of the Royal Astronomical Society 504 (2021) 2614.
 
 mod branches;
 mod collocation_step;
@@ -24,14 +24,15 @@ use super::stepper::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, Side, State, System};
 
-/// The tolerance where none is asked for. It lies far below the last digit shown, so that what
-/// is shown carries the error of one rounding at the end and not of all on the way.
+/// The default tolerance. It is far below the last digit shown, so that the results carry the error
+/// of one rounding at the end and not of all on the way.
 const TOLERANCE: f64 = 1e-18;
 
 /// Below this tolerance the lowest orders are built in double-double.
 const EXACT_BELOW: f64 = 1e-16;
 
-/// The orders built in double-double: what is left to `f64` is a ten-thousandth of a step.
+/// The number of orders built in double-double: the part left to `f64` is a ten-thousandth of a
+/// step.
 const EXACT_ORDERS: usize = 8;
 
 pub(super) const METHOD: Method = Method {
@@ -57,74 +58,76 @@ struct Taylor {
     tolerance: f64,
     state: State,
     begin: f64,
-    /// The unit of time in use was found for this motion.
+    /// Whether the unit of time in use was determined for this motion.
     scaled: bool,
-    /// The step last taken, near which the next series takes its unit of time; the present one
-    /// still tells the states inside that step.
+    /// The size of the last step, from which the next series takes its unit of time. The current
+    /// series still represents the states inside that step.
     taken: Option<f64>,
     kinks: Kinks,
     rates: ExactRates,
     bridge: CollocationStep,
-    /// The longest step since the motion was last bent: what a step is short beside.
+    /// The longest step since the last kink, relative to which a step counts as short.
     stride: f64,
-    /// The last step, and whether it and those before lead away from a place that was passed.
+    /// The last step, and whether it and those before lead away from a point that was passed.
     last: f64,
     leaving: bool,
-    /// The present state is one from which no series leads on.
+    /// Whether no series continues from the current state.
     landed: bool,
-    /// The last step was a bridge from this state, with these rates there if it has none itself.
+    /// Set if the last step was a collocation step from this state, with these rates there if it
+    /// has none itself.
     leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
-    /// A motion that has come to rest, until it sets out.
+    /// A motion at rest, until it starts moving.
     resting: Option<Still>,
     parameters: Vec<f64>,
-    /// How many such steps there were, and when the last of a round of them was.
+    /// The number of collocation steps, and the time at the end of their last round.
     leaps: (u32, f64),
 }
 
-/// This many leaps have to move the clock, by this part of the time there is.
+/// This many collocation steps must advance the time by this part of the time that has passed.
 const ROUND: u32 = 64;
 const LEAST: f64 = 1e-15;
 
-/// A step this short beside those before it ends at a place where a series has no radius.
+/// A step shorter than this part of those before it ends at a point where a series has no radius of
+/// convergence.
 const VANISHING: f64 = 1e-11;
 
-/// What is this near beside the steps before it is reached.
+/// A point this close, relative to the steps before it, counts as reached.
 const TOUCHING: f64 = 1e-15;
 
-/// A step this short beside the time is about to move the clock no longer.
+/// A step this short relative to the time hardly advances it.
 const STALLED: f64 = 5e-17;
 
-/// A step this short beside the time leads nowhere; …
+/// A step this short relative to the time cannot continue; …
 const SMALLEST: f64 = 1e-17;
 
-/// … but a surface where forces grow without bound is approached up to this part: the time is carried
-/// in double-double. What is nearer is reached.
+/// … but a surface where forces grow without bound is approached up to this part, since the time is
+/// in double-double. A nearer one counts as reached.
 const NEAREST: f64 = 1e-30;
 
-/// The last terms of all series may have this part of their largest at a surface that is reached
+/// The last terms of all series may be this part of their largest at a surface that is reached
 /// beyond the step, …
 const LAST_DIGIT: f64 = 1e-17;
 
-/// … and this one where it cannot be approached any farther; where they have more, as at a pole, it
+/// … and this part where it cannot be approached any farther. If they are larger, as at a pole, it
 /// cannot be reached.
 const NEARLY: f64 = 1e-6;
 
-/// Steps that lead away from a place do not become shorter than by this.
+/// Steps that lead away from a point do not shrink by more than this factor.
 const SHRINKING: f64 = 0.1;
 
-/// On a surface, a step this short beside those before it is no better than none.
+/// On a surface, a step this short relative to those before it is no better than none.
 const HOPELESS: f64 = 1e-9;
 
-/// How far beyond such a short step the place is looked for, in steps.
+/// How far beyond such a short step the point is searched for, in steps.
 const BEYOND: f64 = 8.0;
 
-/// The part of the way to a place that is taken where a motion passes it closely.
+/// The part of the time to a point that is stepped if a motion passes it closely.
 const NEARER: f64 = 0.5;
 
-/// How often a step that has left a branch is made shorter.
+/// The maximal number of halvings of a step that has left a branch.
 const HALVINGS: u32 = 60;
 
-/// A number this small beside the terms of its series is zero: the rest is rounding.
+/// A number this small relative to the terms of its series is zero; the rest is rounding.
 const ROUNDING: f64 = 1e-18;
 
 impl Taylor {
@@ -163,7 +166,7 @@ impl Taylor {
         })
     }
 
-    /// Points the series in the direction of `left`, the time there is to go.
+    /// Points the series in the direction of `left`, the time to go.
     fn aim(&mut self, left: f64) {
         let scale = if self.scaled { self.series.scale() } else { left };
         let step = self.taken.take().unwrap_or(scale).abs();
@@ -171,8 +174,8 @@ impl Taylor {
         self.scaled = true;
     }
 
-    /// Builds the series at the present state in a unit of time near the step it allows, and
-    /// gives the size of that step; it may be longer than `left`.
+    /// Builds the series at the current state in a unit of time near the step it allows, and
+    /// returns the size of that step, which may be longer than `left`.
     fn expand(&mut self, left: f64) -> Result<f64, MotionError> {
         let (size, direction) = (left.abs(), left.signum());
         let mut units = Units::default();
@@ -181,7 +184,7 @@ impl Taylor {
             let scale = self.series.scale().abs();
             let found = step_size::longest(&self.series, self.tolerance);
             let Some(step) = found.map(|step| step * scale) else {
-                // some coefficient is beyond all range: with a smaller unit it need not be
+                // a coefficient is out of range, which a smaller unit may avoid
                 if scale < 1e-280 || (scale <= 1.0 && !step_size::has_velocity(&self.series)) {
                     return Err(self.not_finite());
                 }
@@ -198,7 +201,7 @@ impl Taylor {
             } else {
                 units.short = scale;
                 if units.long <= 2.0 * scale {
-                    // what the unit twice as long says is too much for it: no further than that
+                    // goes no further than the bound found with the unit twice as long
                     return Ok(step.min(units.long));
                 }
             }
@@ -210,8 +213,8 @@ impl Taylor {
         }
     }
 
-    /// On a surface: takes the first choice of sides that leads on, and gives the step there;
-    /// nothing where the surface was left without a series.
+    /// On a surface: takes the first choice of sides that continues the motion, and returns the
+    /// step there, or `None` if the surface was left without a series.
     fn decide(&mut self, choices: &[Vec<Side>], left: f64) -> Result<Option<f64>, MotionError> {
         let mut rough = false;
         for sides in choices {
@@ -237,8 +240,8 @@ impl Taylor {
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
-    /// Leaves a place from which no series leads on, or leads on so far that no more than `least`
-    /// would be gained; false where that cannot be.
+    /// Leaves a point from which no series continues, or continues by no more than `least`. Returns
+    /// false if that is not possible.
     fn leap(&mut self, left: f64, least: f64) -> Result<bool, MotionError> {
         self.leaps.0 += 1;
         if self.leaps.0.is_multiple_of(ROUND) {
@@ -297,15 +300,15 @@ impl Taylor {
         Ok(true)
     }
 
-    /// Evaluates the rates at the present state.
-    fn look(&mut self) -> Result<(), MotionError> {
+    /// Evaluates the rates at the current state.
+    fn evaluate_rates(&mut self) -> Result<(), MotionError> {
         let state = &self.state;
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         self.rates.evaluate(state.exact_time(), &numbers)
     }
 
-    /// Moves along the series and makes the step shorter until no root has left its branch there;
-    /// gives the part of the time that is left.
+    /// Advances along the series and shortens the step until no root has left its branch there.
+    /// Returns the part of the time that is left.
     fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
         let (mut part, scale) = (1.0, self.series.scale());
         if self.series.guards() == 0 {
@@ -315,7 +318,7 @@ impl Taylor {
         let from = self.state.clone();
         for _ in 0..HALVINGS {
             self.series.state_after(after * part, &mut self.state);
-            let outcome = self.look();
+            let outcome = self.evaluate_rates();
             let x = after.high * part / scale;
             if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
                 return Ok(part);
@@ -327,7 +330,7 @@ impl Taylor {
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
-    /// Numbers that have come to zero are zero.
+    /// Sets numbers that have reached zero to exactly zero.
     fn clear(&mut self, x: f64) {
         for i in 0..self.series.inputs() {
             let terms = self.series.coefficients(i).iter();
@@ -353,15 +356,15 @@ impl Taylor {
     }
 }
 
-/// The units of time tried for one series: each search narrows the room between those found too
-/// short and those found too long, so that it ends.
+/// The units of time tried for one series. Each trial narrows the interval between those found too
+/// short and those found too long, so the search ends.
 struct Units {
     short: f64,
     long: f64,
     tried: u32,
 }
 
-/// How many units are taken as the series asks for them; after that the room is halved.
+/// The number of units taken as the series suggests; after that the interval is bisected.
 const ASKED_FOR: u32 = 12;
 
 impl Default for Units {
@@ -371,7 +374,7 @@ impl Default for Units {
 }
 
 impl Units {
-    /// The next unit to try, where one is asked for.
+    /// The next unit to try after the one that the series suggests.
     fn next(&mut self, wanted: f64) -> f64 {
         self.tried += 1;
         let (least, most) = (2.0 * self.short, 0.5 * self.long);
@@ -384,14 +387,14 @@ impl Units {
         if self.tried < ASKED_FOR && (least..=most).contains(&wanted) {
             return wanted;
         }
-        // halfway between their exponents
+        // bisects the interval of exponents
         (self.short.sqrt() * self.long.sqrt()).clamp(least, most)
     }
 }
 
 impl Taylor {
-    /// The state at a time within the last step.
-    fn tell(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
+    /// Writes the state at a time within the last step into `out`.
+    fn write_state(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         if let Some(still) = &self.resting {
             out.copy_from(&still.at(&mut self.rates, time)?);
             return Ok(());
@@ -472,13 +475,13 @@ impl Stepper for Taylor {
         let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
         let vanishing = step < VANISHING * self.stride;
-        // what makes steps vanish lies a little farther than they reach
+        // what makes the steps vanish lies a little farther than they reach
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
         let mut crossing = self.kinks.first(&self.series, end);
         let approaching = vanishing && crossing.is_some();
         let nearest = approaching && step <= NEAREST * time.high.abs();
-        // steps away from a place that was passed become longer by themselves
+        // steps away from a point that was passed become longer by themselves
         let leaving = self.leaving && step > SHRINKING * self.last;
         self.leaving &= step <= SMALLEST * time.high.abs();
         let known = if nearest { NEARLY } else { LAST_DIGIT };
@@ -504,7 +507,7 @@ impl Stepper for Taylor {
                 return Ok(());
             }
         }
-        // near a tip rounding alone makes steps short
+        // near a branch point rounding alone makes steps short
         let reach = if vanishing { 2.0 * step } else { step };
         let reach = reach.min(left.high.abs()) / scale.abs();
         let reach =
@@ -515,9 +518,9 @@ impl Stepper for Taylor {
             let origin = self.state.clone();
             let there = passing.after * scale;
             self.series.state_after(there, &mut self.state);
-            let known = self.look().is_ok();
-            let moment = TOUCHING * self.stride / scale.abs();
-            landed = (known && branches::is_exact(&self.series, &passing, &self.rates, moment))
+            let known = self.evaluate_rates().is_ok();
+            let within = TOUCHING * self.stride / scale.abs();
+            landed = (known && branches::is_exact(&self.series, &passing, &self.rates, within))
                 || there.high.abs() < TOUCHING * self.stride;
             (last, crossing) = (false, None);
             after = if landed { there } else { there * NEARER };
@@ -562,7 +565,7 @@ impl Stepper for Taylor {
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         out.copy_from(&self.state);
         if time != self.state.time {
-            self.tell(DoubleDouble::written(time), out)?;
+            self.write_state(DoubleDouble::written(time), out)?;
             out.time = time;
         }
         Ok(())
@@ -571,7 +574,7 @@ impl Stepper for Taylor {
     fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         out.copy_from(&self.state);
         if time != self.state.exact_time() {
-            self.tell(time, out)?;
+            self.write_state(time, out)?;
         }
         Ok(())
     }

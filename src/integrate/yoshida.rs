@@ -1,17 +1,17 @@
 //! Yoshida's symmetric compositions of leapfrogs, of order 4, 6 and 8.
 //!
 //! Source: H. Yoshida, Physics Letters A 150 (1990) 262: equation 4.1 for order 4, solution A of
-//! table 1 for order 6, solution D of table 2 for order 8. Order 6 with the further digits of
+//! table 1 for order 6, solution D of table 2 for order 8. The further digits for order 6 are from
 //! E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, V.3.2.
 
 use super::method::{Method, Preserves, Stepping};
 use super::splitting;
 use crate::num::math;
 
-/// Of order 6: all but the middle one.
+/// The weights of order 6, except the middle one.
 const SIXTH: [f64; 3] = [0.784_513_610_477_557_3, 0.235_573_213_359_358_13, -1.177_679_984_178_871];
 
-/// Of order 8.
+/// The weights of order 8, except the middle one.
 const EIGHTH: [f64; 7] = [
     0.914_844_246_229_740,
     0.253_693_336_566_229,
@@ -67,7 +67,7 @@ pub(super) const EIGHTH_ORDER: Method = Method {
     make: |system, settings| splitting::make(&EIGHTH_ORDER, system, settings, palindrome(&EIGHTH)),
 };
 
-/// The weights `outer`, one that brings their sum to 1, and `outer` backwards.
+/// The weights `outer`, one that brings their sum to 1, and `outer` reversed.
 fn palindrome(outer: &[f64]) -> Vec<f64> {
     let middle = 1.0 - 2.0 * outer.iter().sum::<f64>();
     outer.iter().copied().chain([middle]).chain(outer.iter().rev().copied()).collect()

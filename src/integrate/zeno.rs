@@ -1,18 +1,18 @@
-//! Whether an event comes ever faster, so that time would never pass a point: a ball whose bounces
-//! pile up.
+//! Detects events that recur at ever shorter intervals, so that time would never pass a point, as
+//! the bounces of a ball do.
 //!
-//! In: the times of one event. Out: whether they pile up. Never here: what is done about it.
+//! In: the times of one event. Out: whether they accumulate. Never here: the consequences.
 
-/// An event that comes ever faster, so many times in a row, …
+/// Events accumulate if their intervals shrink this many times in a row, …
 const PATIENCE: u32 = 4;
 
-/// … and at last after so small a part of the time that has passed, piles up.
+/// … and the last one is at most this part of the time that has passed.
 const ACCUMULATION: f64 = 1e-9;
 
-/// It comes faster where the time to the last one is at most this part of that before.
+/// An interval shrinks if it is at most this part of the one before.
 const FASTER: f64 = 0.9999;
 
-/// What is remembered of one event.
+/// The history of one event.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AccumulationDetector {
     last: f64,
@@ -21,11 +21,11 @@ pub(super) struct AccumulationDetector {
 }
 
 impl AccumulationDetector {
-    /// An event that has not come yet.
+    /// An event that has not occurred yet.
     pub(super) const NONE: AccumulationDetector =
         AccumulationDetector { last: f64::NEG_INFINITY, gap: 0.0, count: 0 };
 
-    /// The event comes, in a motion that began at `start`; true where it piles up.
+    /// Records the event, in a motion that began at `start`. Returns true if the events accumulate.
     pub(super) fn record(&mut self, time: f64, start: f64) -> bool {
         let gap = time - self.last;
         let count = if gap <= FASTER * self.gap { self.count + 1 } else { 0 };
@@ -38,7 +38,7 @@ impl AccumulationDetector {
 mod tests {
     use super::*;
 
-    /// Whether the last of events with these gaps, the first of which comes at 1, piles up.
+    /// Whether events with these gaps, the first of which occurs at 1, accumulate at the last one.
     fn accumulates(gaps: &[f64]) -> bool {
         let mut accumulation = AccumulationDetector::NONE;
         let mut time = 1.0;
@@ -55,7 +55,7 @@ mod tests {
         let gaps = [8e-10, 4e-10, 2e-10, 1e-10];
         assert!(accumulates(&gaps));
         assert!(!accumulates(&gaps[..3]));
-        // one that comes later begins the count anew
+        // a longer interval restarts the count
         assert!(!accumulates(&[8e-10, 4e-10, 5e-10, 1e-10, 5e-11, 2e-11]));
     }
 
@@ -70,7 +70,7 @@ mod tests {
             accumulates(&gaps)
         };
         assert!(shrinking(0.999));
-        // rounding of the clock is near 2e-16
+        // rounding of time is near 2e-16
         assert!(!shrinking(0.99995));
         assert!(!shrinking(1.0));
     }

@@ -45,8 +45,8 @@ fn row(
         terms.push(pool.mul(a, v));
         drift.push((c.position, v));
     }
-    let kept = pool.sum(&terms);
-    let auxiliary = pool.derivation(kept, &drift);
+    let condition = pool.sum(&terms);
+    let auxiliary = pool.derivation(condition, &drift);
     let bias = pool.neg(auxiliary);
     ConstraintRow {
         name: constraint.name.clone(),
@@ -74,8 +74,8 @@ pub(super) fn force(pool: &mut Pool, rows: &[ConstraintRow], coordinate: usize) 
 pub fn with_reactions(pool: &mut Pool, rows: &[ConstraintRow], acting: &[Expr]) -> Vec<Expr> {
     let all = acting.iter().enumerate();
     all.map(|(i, &f)| {
-        let held = force(pool, rows, i);
-        pool.add(f, held)
+        let reaction = force(pool, rows, i);
+        pool.add(f, reaction)
     })
     .collect()
 }

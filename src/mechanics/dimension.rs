@@ -20,7 +20,7 @@ use crate::num::Number;
 struct Dimension(BTreeMap<String, i64>);
 
 /// Derived units in terms of base units, in halves: g^½ cm^(3/2)/s is the Gaussian unit of charge.
-const MADE: [(&str, &[(&str, i64)]); 9] = [
+const DERIVED: [(&str, &[(&str, i64)]); 9] = [
     ("N", &[("kg", 2), ("m", 2), ("s", -4)]),
     ("J", &[("kg", 2), ("m", 4), ("s", -4)]),
     ("W", &[("kg", 2), ("m", 4), ("s", -6)]),
@@ -63,7 +63,7 @@ impl Dimension {
                 {
                     return None;
                 }
-                match MADE.iter().find(|(name, _)| *name == base) {
+                match DERIVED.iter().find(|(name, _)| *name == base) {
                     Some((_, parts)) => {
                         for (name, halves) in *parts {
                             dimension.times(name, halves * exponent);

@@ -8,8 +8,9 @@ use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::model::Model;
 use crate::num::Number;
 
-/// Returns the expressions of the motion that stood under an even root in the file and are under none now: where one of
-/// them is negative, the file's law has no value and the equations do. Whatever cannot be negative is left out.
+/// Returns the expressions of the motion that occurred under an even root in the file's law but occur under none now.
+/// Where one of them is negative, the file's law has no value although the equations do. Expressions that cannot be
+/// negative are omitted.
 pub fn widened(model: &Model, equations: &Equations) -> Vec<Expr> {
     let pool = &model.pool;
     let coordinates = model.coordinates.iter();
@@ -22,7 +23,7 @@ pub fn widened(model: &Model, equations: &Equations) -> Vec<Expr> {
         (pool, pool.reachable(&[law])),
         (&equations.pool, equations.pool.reachable(&[equations.energy])),
     ];
-    let is_kept = |e: Expr| {
+    let remains = |e: Expr| {
         reachable.iter().any(|(pool, nodes)| {
             nodes.iter().any(|&node| match pool.node(node) {
                 Node::Product(_, factors) => factors.iter().any(|(b, n)| *b == e && is_root(n)),
@@ -32,12 +33,12 @@ pub fn widened(model: &Model, equations: &Equations) -> Vec<Expr> {
     };
     let roots = pool.under_roots().iter().copied();
     let may_be_negative = |e: Expr| !is_never_negative(pool, e);
-    let counts = |&e: &Expr| pool.depends_on_any(e, &moving) && may_be_negative(e) && !is_kept(e);
+    let counts = |&e: &Expr| pool.depends_on_any(e, &moving) && may_be_negative(e) && !remains(e);
     roots.filter(counts).collect()
 }
 
-/// Whether an expression is negative for no real values of its symbols, as its form alone shows: a sum of such, or a
-/// product of even powers with a positive coefficient.
+/// Returns whether the form of an expression alone shows that it is nonnegative for all real values of its symbols: a
+/// sum of such expressions, or a product of even powers with a positive coefficient.
 fn is_never_negative(pool: &Pool, e: Expr) -> bool {
     let even = |n: &Number| matches!(n, Number::Rational(above, 1) if above % 2 == 0);
     match pool.node(e) {

@@ -139,7 +139,7 @@ pub struct Vakonomic {
     pub lagrangian: Result<Expr, NoClosedForm>,
 }
 
-/// The equations of motion as they are integrated.
+/// The equations of motion in the form in which they are integrated.
 #[derive(Clone, Debug)]
 pub enum Flow {
     /// M q̈ = f + Aᵀλ.

@@ -82,11 +82,11 @@ fn turned_back(pool: &mut Pool, n: Point, angle: Expr, v: Point) -> Point {
     let along = pool.sum(&products);
     let rest = pool.sub(Expr::ONE, cos);
     [0, 1, 2].map(|k| {
-        let kept = pool.mul(v[k], cos);
+        let scaled = pool.mul(v[k], cos);
         let turned = pool.mul(across[k], sin);
         let shared = pool.mul(n[k], along);
         let shared = pool.mul(shared, rest);
-        let difference = pool.sub(kept, turned);
+        let difference = pool.sub(scaled, turned);
         let sum = pool.add(difference, shared);
         pool.simplify(sum)
     })

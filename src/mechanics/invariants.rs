@@ -220,8 +220,8 @@ impl Equations {
         }
     }
 
-    /// Whether dG/dt = 0 along the motion, for G written as an observable is. Returns `None` if the
-    /// rate is not known in closed form.
+    /// Returns whether dG/dt = 0 along the motion, for G written as an observable is, or `None` if
+    /// the rate is not known in closed form.
     pub fn is_conserved(&mut self, observable: Expr) -> Option<Zero> {
         if self.may_jump(observable) {
             return Some(Zero::Unknown);

@@ -55,8 +55,8 @@ pub(super) fn equations(
         let rate = pool.add(slope, applied);
         let auxiliary = pool.derivation(momenta[i], &drift);
         let acting = pool.sub(rate, auxiliary);
-        let held = constrain::force(pool, &constraints, i);
-        let rate = pool.add(rate, held);
+        let reaction = constrain::force(pool, &constraints, i);
+        let rate = pool.add(rate, reaction);
         momentum_rates.push(pool.simplify(rate));
         force.push(pool.simplify(acting));
         power.push(pool.mul(velocities[i], applied));

@@ -70,20 +70,20 @@ impl Equations {
                 let v = self.pool.variable(v);
                 terms.push(self.pool.mul(a, v));
             }
-            let mut kept = self.pool.sum(&terms);
+            let mut condition = self.pool.sum(&terms);
             for (v, value) in &fixed {
-                kept = self.pool.substitute(kept, &HashMap::from([(*v, *value)]));
+                condition = self.pool.substitute(condition, &HashMap::from([(*v, *value)]));
             }
             let mut slopes: Vec<(u64, Symbol, Expr)> = Vec::new();
             for &v in &symbols {
-                let slope = self.pool.derivative(kept, v);
+                let slope = self.pool.derivative(condition, v);
                 let slope = self.pool.simplify(slope);
                 if self.pool.is_zero(slope) == Zero::No {
                     slopes.push((self.pool.weight(slope), v, slope));
                 }
             }
             let Some((_, v, slope)) = slopes.into_iter().min() else { continue };
-            let without = self.pool.substitute(kept, &HashMap::from([(v, Expr::ZERO)]));
+            let without = self.pool.substitute(condition, &HashMap::from([(v, Expr::ZERO)]));
             let value = self.pool.div(without, slope);
             let value = self.pool.neg(value);
             fixed.push((v, self.pool.simplify(value)));
@@ -95,10 +95,10 @@ impl Equations {
     /// square.
     fn fixed_positions(&mut self) -> Vec<Fixed> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.position).collect();
-        let held: Vec<Expr> = self.constraints.iter().filter_map(|c| c.position).collect();
+        let holonomic: Vec<Expr> = self.constraints.iter().filter_map(|c| c.position).collect();
         let mut fixed: Vec<Fixed> = Vec::new();
         let mut used: Vec<Symbol> = Vec::new();
-        for mut f in held {
+        for mut f in holonomic {
             for one in &fixed {
                 if let Fixed::Value(q, value) = one {
                     f = self.pool.substitute(f, &HashMap::from([(*q, *value)]));

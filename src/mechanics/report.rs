@@ -239,7 +239,7 @@ impl<'a> Report<'a> {
             energy: Line { left: Left::Letter("E"), right: equations.energy },
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
-            conserved: kept(model, equations),
+            conserved: conserved(model, equations),
         }
     }
 
@@ -306,7 +306,7 @@ fn reactions<'e>(
     acting.map(|(c, &factor)| Reaction { on: c.position, factor, multiplier: row.multiplier })
 }
 
-fn kept<'a>(model: &Model, equations: &'a Equations) -> Vec<Kept<'a>> {
+fn conserved<'a>(model: &Model, equations: &'a Equations) -> Vec<Kept<'a>> {
     let all = equations.conserved.iter().map(|conserved| {
         let name = conserved.name.as_str();
         let mut coordinates = model.coordinates.iter();

@@ -90,16 +90,16 @@ impl Valuation {
         }
         let positions: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
         let velocities: Vec<Symbol> = equations.coordinates.iter().map(|c| c.velocity).collect();
-        let held: Vec<(&ConstraintRow, Expr)> =
+        let holonomic: Vec<(&ConstraintRow, Expr)> =
             rows.iter().filter_map(|c| Some((c, c.position?))).collect();
-        let mut settled = held.is_empty();
+        let mut settled = holonomic.is_empty();
         for _ in 0..CORRECTIONS {
             if settled {
                 break;
             }
             let residual: Vec<f64> =
-                held.iter().map(|(_, e)| point.value(&equations.pool, *e)).collect();
-            let rows: Vec<&ConstraintRow> = held.iter().map(|(c, _)| *c).collect();
+                holonomic.iter().map(|(_, e)| point.value(&equations.pool, *e)).collect();
+            let rows: Vec<&ConstraintRow> = holonomic.iter().map(|(c, _)| *c).collect();
             let moved = point.correct(equations, &rows, &residual, &positions)?;
             settled = moved <= SETTLED;
         }

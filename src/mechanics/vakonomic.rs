@@ -4,8 +4,8 @@
 //! In: the equations of a constrained motion. Out: the equations of the comparison motion, in its
 //! own symbols. Never here: a change of the true equations.
 //!
-//! Solving c_β(q, q̇, t) = 0 for some velocities and varying the shorter L amounts to varying L + Σ
-//! μ_β c_β with μ a function of time (the vakonomic problem):
+//! Solving c_β(q, q̇, t) = 0 for some velocities and varying the shorter L amounts to varying
+//! L + Σ μ_β c_β with μ a function of time (the vakonomic problem):
 //!
 //!   M q̈ + Aᵀ μ̇ = f − Σ_β μ_β (dA_β/dt − ∂c_β/∂q),   A q̈ = γ,
 //!
@@ -50,14 +50,14 @@ pub(super) fn vakonomic(
         let mut terms = vec![(Number::ONE, f)];
         for (row, &mu) in rows.iter().zip(&mu) {
             let auxiliary = pool.derivation(row.row[i], &drift);
-            let mut kept = vec![pool.derivative(row.rate, equations.coordinates[i].position)];
+            let mut gradient = vec![pool.derivative(row.rate, equations.coordinates[i].position)];
             for (c, &a) in equations.coordinates.iter().zip(&row.row) {
                 let slope = pool.derivative(a, equations.coordinates[i].position);
                 let v = pool.variable(c.velocity);
-                kept.push(pool.mul(slope, v));
+                gradient.push(pool.mul(slope, v));
             }
-            let kept = pool.sum(&kept);
-            let turned = pool.sub(auxiliary, kept);
+            let gradient = pool.sum(&gradient);
+            let turned = pool.sub(auxiliary, gradient);
             let mu = pool.variable(mu);
             terms.push((Number::MINUS_ONE, pool.mul(mu, turned)));
         }

@@ -59,7 +59,7 @@ pub struct Model {
     pub run: RunSettings,
 }
 
-/// What a file says about itself in words.
+/// The descriptive texts of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Info {
     /// The title.

@@ -15,7 +15,7 @@ pub struct Impulse {
     /// The applied impulse Q̂ on each coordinate (the jump of each variable of a Poisson system),
     /// as a function of the state before it; zero if there is none.
     pub change: Vec<Expr>,
-    /// What it is, in words.
+    /// Its description.
     pub about: String,
     /// Its place in the file.
     pub place: SourceRange,

@@ -21,7 +21,7 @@ pub struct Parameter {
     pub scale: Scale,
     /// Its unit, empty if none is given.
     pub unit: String,
-    /// What it means, in words.
+    /// Its meaning, in words.
     pub about: String,
 }
 

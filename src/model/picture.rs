@@ -89,7 +89,7 @@ pub enum Shape {
         /// The length of its edge.
         size: Expr,
     },
-    /// The pieces of the model's body, turned by its attitude, with the principal axes.
+    /// The pieces of the model's body, rotated by its attitude, with the principal axes.
     Body {
         /// Its centre of mass.
         at: Point,

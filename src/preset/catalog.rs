@@ -1,9 +1,9 @@
-//! The catalog: the presets that are part of the program, and the user's own, which win over
-//! shipped ones of the same name.
+//! The catalog: the presets that are part of the program and the user's own, which take precedence over shipped ones
+//! of the same name.
 //!
-//! In: the folder `presets/` as it was when the program was built, and the user's folder. Out:
-//! entries to choose from, and the [`Document`] behind a name or path. A user's file that cannot be
-//! used is listed with its mistake. Never here: whether a shipped preset is right (tests hold it).
+//! In: the folder `presets/` at build time, and the user's folder. Out: the entries, and the [`Document`] behind a
+//! name or path. An invalid user file is listed with its mistake. Never here: whether a shipped preset is correct,
+//! which the tests ensure.
 
 mod entry;
 mod folder;
@@ -24,22 +24,22 @@ pub use entry::{Entry, Origin};
 
 static SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
 
-/// All presets at hand.
+/// All available presets.
 #[derive(Clone, Debug)]
 pub struct Catalog {
     entries: Vec<Entry>,
     cut: bool,
 }
 
-/// Why there is no document behind a name.
+/// Why no document was found.
 #[derive(Debug, thiserror::Error)]
 pub enum NotFound {
     /// No preset of that name.
     #[error("there is no preset `{}`{}", printable::quoted(.name), .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{}`?", printable::line(n))))]
     Name {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The nearest name there is.
+        /// The nearest existing name.
         near: Option<String>,
     },
     /// The file cannot be read.
@@ -47,23 +47,23 @@ pub enum NotFound {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: io::Error,
     },
 }
 
 impl Catalog {
-    /// The shipped presets and those in the user's folder.
+    /// Loads the shipped presets and those in the user's folder.
     pub fn load() -> Catalog {
         Catalog::with_folder(Catalog::user_folder().as_deref())
     }
 
-    /// The user's folder, `phaselab/presets` where XDG keeps configuration; `None` without a home.
+    /// The user's folder: `phaselab/presets` in the XDG configuration folder, or `None` without a home.
     pub fn user_folder() -> Option<PathBuf> {
         Xdg::new().ok().map(|xdg| xdg.config_dir().join("phaselab").join("presets"))
     }
 
-    /// The shipped presets and those in a folder and the folders in it, if it exists.
+    /// Loads the shipped presets and those in a folder and its subfolders, if it exists.
     pub fn with_folder(user: Option<&Path>) -> Catalog {
         let mut entries = Vec::new();
         let mut cut = false;
@@ -79,7 +79,7 @@ impl Catalog {
         Catalog { entries, cut }
     }
 
-    /// Whether the user's folder holds more than is looked at: thousands of files, or links and folders deep below it.
+    /// Whether the user's folder exceeds the limits: thousands of files, or links and folders nested too deeply.
     pub fn is_cut(&self) -> bool {
         self.cut
     }
@@ -89,8 +89,7 @@ impl Catalog {
         &self.entries
     }
 
-    /// The file behind what a user writes, which need not be there; `None` where it is part of the
-    /// program or nothing is called so.
+    /// The path of what a user names, which need not exist; `None` for a shipped preset or an unknown name.
     pub fn place(&self, wanted: &str) -> Option<PathBuf> {
         if is_path(wanted) {
             return Some(PathBuf::from(wanted));
@@ -102,11 +101,11 @@ impl Catalog {
         }
     }
 
-    /// The document behind what a user writes: a path if there is a `/` in it or it ends in
-    /// `.toml`, else the name of a preset.
+    /// Finds the document that a user names: a path if the name contains a `/` or ends in `.toml`, otherwise a
+    /// preset.
     ///
     /// # Errors
-    /// Where there is none, with the nearest name.
+    /// Returns an error with the nearest name if there is none.
     pub fn find(&self, wanted: impl AsRef<OsStr>) -> Result<Document, NotFound> {
         let wanted = wanted.as_ref();
         if is_path(wanted) {
@@ -126,7 +125,7 @@ impl Catalog {
     }
 }
 
-/// The shipped demo of a preset, `presets/demos/<preset>.demo`: a script for the record room.
+/// The shipped demo of a preset, `presets/demos/<preset>.demo`: a script for the `record` module.
 pub fn demo(preset: &str) -> Option<Document> {
     let path = format!("demos/{preset}.demo");
     let text = SHIPPED.get_file(&path)?.contents_utf8()?;
@@ -142,14 +141,14 @@ pub fn demos() -> Vec<&'static str> {
     names
 }
 
-/// Whether what a user writes is a file's path.
+/// Whether a name is a file's path.
 pub fn is_path(wanted: impl AsRef<OsStr>) -> bool {
     let wanted = wanted.as_ref();
     let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     wanted.as_encoded_bytes().iter().any(|&byte| std::path::is_separator(byte.into())) || ends
 }
 
-/// The files of the embedded folder with their paths below `presets/`.
+/// The files of the embedded folder, with paths relative to `presets/`.
 fn shipped(folder: &Dir<'static>) -> Vec<(&'static Path, &'static str)> {
     let mut all = Vec::new();
     for entry in folder.entries() {

@@ -1,9 +1,9 @@
-//! Draft → Model: names claimed once each, expressions read under the scope of their place, numbers
-//! held to sense.
+//! Draft → Model: names are claimed once each, expressions parsed in their scope, and numbers
+//! validated.
 //!
-//! In: the file as written. Out: the model, where the mistakes leave one; all mistakes found on
-//! the way, in the file's own bytes. Never here: what follows from the mechanics, and whether what
-//! the file claims of itself is true.
+//! In: the file as written. Out: the model, unless the mistakes prevent one; all mistakes, with
+//! byte ranges of the file. Never here: the mechanics that follow, and whether the file's claims
+//! about itself are true.
 
 mod body;
 mod comparison;
@@ -29,8 +29,8 @@ use crate::expr::Expr;
 use crate::model::{Allowed, Model, Scope};
 use names::Names;
 
-/// Checks a draft; `None` where a model cannot even be begun. The model is to be used only if no
-/// mistake was an error.
+/// Checks a draft. Returns `None` if a model cannot even be begun. The model may be used only if no
+/// mistake is an error.
 pub(super) fn check(
     file: &str,
     draft: &Draft,
@@ -85,7 +85,7 @@ pub(super) fn check(
 
 /// A model under construction.
 struct Check<'c> {
-    /// The file's text, to find a place inside an expression.
+    /// The file's text, for locating a position inside an expression.
     file: &'c str,
     mistakes: &'c mut Diagnostics,
     model: Model,
@@ -94,10 +94,10 @@ struct Check<'c> {
 }
 
 impl Check<'_> {
-    /// Reads an expression; mistakes in it get their place in the file.
+    /// Parses an expression; its mistakes get their range in the file.
     fn formula(&mut self, scope: &mut Scope, called: &str, formula: &Formula) -> Option<Expr> {
         if self.model.pool.is_full() {
-            // told where it happened
+            // already reported
             return None;
         }
         let e = scope.at(called).read(&mut self.model.pool, formula.get_ref());
@@ -115,7 +115,7 @@ impl Check<'_> {
         self.mistakes.push(Diagnostic::error(at, message));
     }
 
-    /// Definitions in order, each in the names above it.
+    /// Reads the definitions in order; each may use the names above it.
     fn definitions(&mut self, draft: &Draft) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a definition");
         for (name, _) in &draft.definitions {
@@ -124,14 +124,15 @@ impl Check<'_> {
         for (name, formula) in &draft.definitions {
             let called = format!("the definition `{}`", name.get_ref());
             let read = formula.as_ref().and_then(|f| self.formula(&mut scope, &called, f));
-            // one that cannot be read stands for itself, so that its uses are not mistakes as well
+            // one that cannot be read is replaced by its own symbol, so that its uses are not
+            // reported as well
             let e = read.unwrap_or_else(|| self.model.pool.named(name.get_ref()));
             scope.define(name.get_ref(), e);
             self.model.definitions.push((name.get_ref().clone(), e));
         }
     }
 
-    /// Whether there is more of a kind than a file may have; then nothing more is read of it.
+    /// Whether a limit on the number of entries is exceeded; such a file is not read any further.
     fn beyond_limits(&mut self, draft: &Draft) -> bool {
         let named = |places: Vec<std::ops::Range<usize>>, most: usize, what: &str| {
             places.get(most).map(|place| {
@@ -198,7 +199,7 @@ impl Check<'_> {
         beyond
     }
 
-    /// Warns of parameters and definitions that nothing uses.
+    /// Warns of unused parameters and definitions.
     fn unused(&mut self, draft: &Draft) {
         let parameters = draft.parameters.iter().map(|p| (&p.name, "parameter"));
         let definitions = draft.definitions.iter().map(|(name, _)| (name, "definition"));

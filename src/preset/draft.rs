@@ -1,9 +1,9 @@
-//! The file as written: which tables and keys it has, what kind of value stands at each, and where.
+//! The file as written: its tables and keys, the kinds of their values, and their ranges.
 //!
-//! In: TOML with spans. Out: a [`Draft`], in which every text and number keeps its place and no
-//! name has been looked up; an unknown key, a value of the wrong kind and a missing part of an
-//! entry are mistakes. (serde would stop at the first of them; so the tables are walked here.)
-//! Never here: expressions, what names mean, whether numbers make sense.
+//! In: TOML with spans. Out: a [`Draft`], in which every text and number has its range and no name
+//! is resolved. An unknown key, a value of the wrong kind and a missing part of an entry are
+//! mistakes. (serde would stop at the first of them, so the tables are walked here.) Never here:
+//! expressions, the meaning of names, the validity of numbers.
 
 mod body;
 mod claims;
@@ -41,59 +41,59 @@ pub(super) use table::Table;
 pub(super) use value::kind;
 pub(super) use vector::Formulas;
 
-/// A text with its place, quotes included: an expression still to be read. A number of TOML is
-/// kept as its digits.
+/// An unparsed expression with its range, quotes included. A number of TOML is represented by its
+/// digits.
 pub(super) type Formula = Spanned<String>;
 
 /// The file as written.
 pub(super) struct Draft {
-    /// What the file says of itself in words.
+    /// The file's description of itself.
     pub(super) info: Info,
     /// The coordinates or variables.
     pub(super) moving: DraftMoving,
     /// The parameters in order.
     pub(super) parameters: Vec<DraftParameter>,
-    /// The definitions in order, name and expression.
+    /// The definitions in order, as name and expression.
     pub(super) definitions: Vec<NamedFormula>,
-    /// Every law of motion given; one is right.
+    /// Every law of motion given; exactly one is valid.
     pub(super) mechanics: Vec<DraftMechanics>,
-    /// What the motion is held to.
+    /// The constraints.
     pub(super) constraints: Vec<DraftConstraint>,
-    /// Impulses.
+    /// The impulses.
     pub(super) impulses: Vec<DraftImpulse>,
-    /// Crossings to be located.
+    /// The events, crossings to be located.
     pub(super) events: Vec<DraftEvent>,
-    /// A body put together from pieces.
+    /// A body composed of pieces.
     pub(super) body: Option<DraftBody>,
-    /// How it stands.
+    /// The attitude of the body.
     pub(super) attitude: Option<DraftAttitude>,
-    /// The wrong mechanics beside the right.
+    /// The incorrect mechanics for comparison.
     pub(super) comparison: Option<DraftComparison>,
-    /// What is to be watched.
+    /// The observables.
     pub(super) observables: Vec<DraftObservable>,
-    /// What the file claims.
+    /// The file's claims.
     pub(super) expect: DraftExpect,
-    /// Frames a picture may be seen from.
+    /// The frames for viewing a picture.
     pub(super) frames: Vec<DraftFrame>,
-    /// What the screen opens with.
+    /// The views that the screen opens with.
     pub(super) views: Vec<DraftView>,
-    /// The picture in space.
+    /// The shapes of the picture in space.
     pub(super) shapes: Vec<DraftShape>,
-    /// How it is run.
+    /// The settings of a run.
     pub(super) run: DraftRun,
 }
 
 impl Draft {
-    /// The law of motion, as far as it is given.
+    /// The law of motion, if one is given.
     pub(super) fn law(&self) -> Option<Law> {
         self.mechanics.first().map(|given| given.law)
     }
 }
 
-/// The keys of the file's first level: where a stray key may have been meant to stand.
+/// The top-level keys of the file, for suggesting where a stray key belongs.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
-/// Walks the whole file.
+/// Reads the whole file.
 pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
     let info = read_info(&mut top, mistakes);
@@ -127,7 +127,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
     draft
 }
 
-/// The words at the head of the file alone: what a list of presets shows. Mistakes are passed over.
+/// Reads only the head of the file, for a list of presets. Mistakes are ignored.
 pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
     let mut top = Table::new("the file", 0..0, file.get_ref());
     read_info(&mut top, &mut Diagnostics::default())

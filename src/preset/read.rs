@@ -1,31 +1,32 @@
-//! Reading a preset: its text in, a checked model or all its mistakes out.
+//! Reads a preset: its text in, a checked model or all its mistakes out.
 
 use super::{check, draft, toml_errors};
 use crate::cancel::Cancel;
 use crate::diagnostic::{Diagnostic, Diagnostics, Document, TEXT_LIMIT, too_long};
 use crate::model::Model;
 
-/// A file without a mistake.
+/// A file without errors.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// The system it describes.
     pub model: Model,
-    /// What is allowed but probably not meant.
+    /// The warnings: what is allowed but probably unintended.
     pub warnings: Vec<Diagnostic>,
 }
 
 /// Reads a preset.
 ///
 /// # Errors
-/// All mistakes of the file (warnings among them), in the order of their places; never empty.
+/// Returns all mistakes of the file, warnings included, in the order of their ranges. The list is
+/// never empty.
 pub fn read(text: &str) -> Result<Checked, Vec<Diagnostic>> {
     read_with(text, &Cancel::new())
 }
 
-/// The same, with a token by which this and all that is made of the model can be stopped.
+/// Like [`read`], with a token that cancels this and everything computed from the model.
 ///
 /// # Errors
-/// Those of [`read`].
+/// Returns the same errors as [`read`].
 pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
     if text.len() > TEXT_LIMIT {
         return Err(vec![too_long(text.len() as u64)]);
@@ -40,7 +41,7 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
     conclude(mistakes, model)
 }
 
-/// The verdict on the file.
+/// Returns the model with its warnings, or all mistakes if one of them is an error.
 fn conclude(mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
     match model {
         Some(model) if !mistakes.any_error() => {
@@ -51,18 +52,19 @@ fn conclude(mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<
 }
 
 impl Document {
-    /// Reads the preset in it.
+    /// Reads the preset in this document.
     ///
     /// # Errors
-    /// All its mistakes, see [`read`](read).
+    /// Returns all its mistakes, see [`read`](read).
     pub fn read(&self) -> Result<Checked, Vec<Diagnostic>> {
         self.read_with(&Cancel::new())
     }
 
-    /// The same, with a token by which this and all that is made of the model can be stopped.
+    /// Like [`Document::read`], with a token that cancels this and everything computed from the
+    /// model.
     ///
     /// # Errors
-    /// All its mistakes, see [`read`](read).
+    /// Returns all its mistakes, see [`read`](read).
     pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
         match self.unreadable() {
             Some(mistake) => Err(vec![mistake.clone()]),

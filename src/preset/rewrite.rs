@@ -1,6 +1,6 @@
-//! Another edition of a file: its text with other values in it, and all else as its author wrote it, comments included.
+//! Rewrites a file with other values and preserves everything else as its author wrote it, comments included.
 //!
-//! In: a text, values by name. Out: a text. Never here: which values; whether the new text is right.
+//! In: a text, values by name. Out: a text. Never here: which values; whether the new text is valid.
 
 use std::ops::Range;
 
@@ -8,39 +8,39 @@ use toml_edit::{
     Array, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError, Value, value,
 };
 
-/// The values to be put into a file.
+/// The values to write into a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rewrite {
     /// The time of the initial values.
     pub start: Option<f64>,
-    /// Of each coordinate or variable that is to begin elsewhere.
+    /// The changed initial values of coordinates or variables.
     pub initial: Vec<Beginning>,
-    /// Euler's angles at the start, of a body whose attitude is integrated.
+    /// The initial Euler angles, for a body whose attitude is integrated.
     pub attitude: Option<[f64; 3]>,
-    /// Parameters.
+    /// The parameters.
     pub parameters: Vec<(String, f64)>,
     /// The method.
     pub method: Option<String>,
-    /// Numbers of `[run]`: `step`, `tolerance`, `speed`.
+    /// The numbers of `[run]`: `step`, `tolerance`, `speed`.
     pub run: Vec<(&'static str, f64)>,
 }
 
-/// Where a coordinate or variable begins.
+/// The initial value of a coordinate or variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beginning {
     /// Its name.
     pub name: String,
     /// Its value.
     pub value: f64,
-    /// The key `velocity` or `momentum`, and its value; a variable has neither.
+    /// The key `velocity` or `momentum` and its value; a variable has neither.
     pub rate: Option<(&'static str, f64)>,
 }
 
 impl Rewrite {
-    /// The text with these values.
+    /// Writes the values into a text.
     ///
     /// # Errors
-    /// Where the text is no TOML.
+    /// Returns an error if the text is not valid TOML.
     pub fn of(&self, text: &str) -> Result<String, TomlError> {
         let mut file: DocumentMut = text.parse()?;
         for beginning in &self.initial {
@@ -81,10 +81,10 @@ impl Rewrite {
         Ok(file.to_string())
     }
 
-    /// The text without those of its expectations that stand at these places; `None` where none does.
+    /// Removes the expectations at these ranges; returns `None` if there are none.
     ///
     /// # Errors
-    /// Where the text is no TOML.
+    /// Returns an error if the text is not valid TOML.
     pub fn without_expectations(
         text: &str,
         places: &[Range<usize>],
@@ -139,10 +139,10 @@ impl Rewrite {
     }
 }
 
-/// The table of what a file expects of its motion.
+/// The table of expectations.
 const EXPECT: &str = "expect";
 
-/// The table behind an entry; a value of its own becomes the table's value of this key.
+/// The table at an entry; a plain value is moved to this key of a new table.
 fn table_in<'a>(entry: &'a mut Item, key: &str) -> &'a mut dyn TableLike {
     if !entry.is_table_like() {
         let mut table = InlineTable::new();
@@ -162,7 +162,7 @@ fn run_table(file: &mut DocumentMut) -> &mut dyn TableLike {
     table_in(file.entry("run").or_insert(Item::Table(Table::new())), "method")
 }
 
-/// Sets a number; what stands round it stays.
+/// Sets a number and preserves the whitespace and comments around it.
 fn set(table: &mut dyn TableLike, key: &str, number: f64) {
     let decor = table.get(key).and_then(Item::as_value).map(|old| old.decor().clone());
     let mut new = Value::from(number);

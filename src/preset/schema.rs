@@ -1,18 +1,18 @@
-//! The preset's tables: which keys each may have, of what kind, and what they are for.
+//! The preset's tables: the allowed keys of each, their kinds, and their purposes.
 //!
-//! In: nothing. Out: [`FILE`], from which the reader takes the keys that are allowed or missing, and [`reference`], the
-//! description of the format for people. Never here: values, names of the file's own, or what they mean together.
+//! In: nothing. Out: [`FILE`], by which the reader decides which keys are allowed or missing, and [`reference`], the
+//! description of the format for users. Never here: values, names chosen by the file, or their combined meaning.
 
 use std::fmt::Write as _;
 
 /// A table of the file, or of a list in it.
 #[derive(Debug)]
 pub(super) struct Section {
-    /// How it is headed: `[run]`, `[[events]]`, or what its entries are called.
+    /// Its heading: `[run]`, `[[events]]`, or what its entries are called.
     pub(super) head: &'static str,
-    /// What it is for.
+    /// Its purpose.
     pub(super) about: &'static str,
-    /// Its keys in the order in which they are reported; none where the names are the file's own.
+    /// Its keys in the order of reporting; empty if the file chooses the names.
     pub(super) keys: &'static [Key],
 }
 
@@ -21,19 +21,19 @@ pub(super) struct Section {
 pub(super) struct Key {
     /// Its name.
     pub(super) name: &'static str,
-    /// What stands at it.
+    /// The kind of its value.
     pub(super) kind: Kind,
-    /// The unit of its number; empty where it has none, or the file says which.
+    /// The unit of its number; empty if it has none, or if the file determines it.
     pub(super) unit: &'static str,
-    /// The kinds of entries that may have it; empty where all may.
+    /// The kinds of entries that may have it; empty for all.
     pub(super) only: &'static [&'static str],
-    /// What is to be written where it is missing; `None` where it may be left out.
+    /// What to write if it is missing; `None` if it is optional.
     pub(super) missing: Option<&'static str>,
-    /// What it is for, one line.
+    /// Its purpose, on one line.
     pub(super) help: &'static str,
 }
 
-/// What stands at a key.
+/// The kind of a value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     /// A text in quotes.
@@ -48,27 +48,27 @@ pub(super) enum Kind {
     Constant,
     /// A number or an expression in quotes.
     Formula,
-    /// One or several of these.
+    /// One or more formulas.
     Formulas,
     /// A list of two or three expressions.
     Point,
     /// A list of three expressions.
     Triple,
-    /// Names of the file's own, each with an expression.
+    /// Names chosen by the file, each with an expression.
     Names,
     /// A list of `[a, b, {a, b}]`.
     Brackets,
     /// A table.
     Table(&'static Section),
-    /// A table whose keys are names of the file's own, each with such a table.
+    /// A table of names chosen by the file, each with such a table.
     Named(&'static Section),
-    /// Tables, each under a head in double brackets.
+    /// Tables, each under a heading in double brackets.
     Tables(&'static Section),
-    /// Tables, of which each kind has keys that its own reader knows.
+    /// Tables of several kinds, whose keys are known to their own readers.
     Kinds(&'static Section),
     /// A list of tables in braces.
     List(&'static Section),
-    /// What this version does not read yet.
+    /// A value that this version does not read yet.
     NotYet,
 }
 
@@ -264,7 +264,7 @@ const BODY: Section = Section {
         .needed("write pieces = [ { solid = \"sphere\", mass = \"m\", radius = \"a\" } ]")],
 };
 
-/// The solids that a body can be made of.
+/// The solids that a body can be composed of.
 pub(super) const SOLIDS: &[&str] = &[
     "sphere",
     "spherical-shell",
@@ -310,7 +310,7 @@ pub(super) const PIECE: Section = Section {
     ],
 };
 
-/// How a piece is turned.
+/// The rotation of a piece.
 pub(super) const TURN: Section = Section {
     head: "`turned` of a piece",
     about: "By an axis and an angle, by the right-hand rule; or by Euler's angles.",
@@ -500,7 +500,7 @@ const RUN: Section = Section {
 };
 
 impl Kind {
-    /// What it is, in a few words.
+    /// A short description of the kind.
     fn words(self) -> &'static str {
         match self {
             Text => "text",
@@ -522,7 +522,7 @@ impl Kind {
         }
     }
 
-    /// The table that it leads to, if it does.
+    /// The nested table, if there is one.
     pub(super) fn section(self) -> Option<&'static Section> {
         match self {
             Table(section) | Named(section) | Tables(section) | Kinds(section) | List(section) => {
@@ -533,7 +533,7 @@ impl Kind {
     }
 }
 
-/// The tables of the file, each before those in it.
+/// The tables of the file, each before the tables nested in it.
 fn sections() -> Vec<&'static Section> {
     let mut all = vec![&FILE];
     let mut at = 0;

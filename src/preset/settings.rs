@@ -1,7 +1,7 @@
-//! A file of nothing but keys with plain values, as a configuration is: read with the same care and complained of in
-//! the same words as a preset.
+//! A flat file of keys with plain values, such as a configuration. It is read with the same care as a preset, and its
+//! mistakes are reported in the same words.
 //!
-//! In: a [`Document`] and the keys it may have. Out: the values as written, each in its place. Never here: what a key
+//! In: a [`Document`] and its allowed keys. Out: the values as written, each with its range. Never here: what a key
 //! is for.
 
 use toml::de::DeValue;
@@ -12,33 +12,33 @@ use crate::diagnostic::Document;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
-/// One key of the file and what stands at it.
+/// A key of the file with its value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Entry {
     /// The key.
     pub key: &'static str,
-    /// Where its value stands, as bytes of the file.
+    /// The byte range of its value in the file.
     pub place: SourceRange,
     /// Its value.
     pub value: Plain,
 }
 
-/// A value without parts.
+/// A plain value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Plain {
     /// A text in quotes.
     Text(String),
-    /// A number, as it is written.
+    /// A number as written.
     Number(String),
     /// `true` or `false`.
     Flag(bool),
-    /// Anything else, by what it is called: "a list".
+    /// Anything else, by its name: "a list".
     Other(&'static str),
 }
 
 impl Document {
-    /// Reads a file that may have these keys and no other, `called` being how complaints name it: what could be read,
-    /// and every slip of TOML and every unknown key.
+    /// Reads a file that may have only these keys. `called` is its name in messages. Returns the values that could be
+    /// read, every TOML error and every unknown key.
     pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Entry>, Vec<Diagnostic>) {
         if let Some(mistake) = self.unreadable() {
             return (Vec::new(), vec![mistake.clone()]);
@@ -56,7 +56,7 @@ impl Document {
             table.finish(&mut mistakes);
         }
         let mistakes = mistakes.into_list();
-        // nothing more is said of a value that is no TOML
+        // a value that is not TOML is already reported
         entries.retain(|entry| !mistakes.iter().any(|m| m.place == entry.place));
         (entries, mistakes)
     }

@@ -1,8 +1,8 @@
-//! TOML's own grammar: text in, tables with spans out. Its mistakes are said in our words, and as
-//! much of the file is saved as can be, so that the other mistakes can be reported as well.
+//! TOML's own grammar: text in, tables with spans out. Errors are reported in our own words, and as much of the file
+//! as possible is recovered, so that its other mistakes can be reported as well.
 //!
-//! What a mistake is follows from where it arises (between tokens, in a key, in a value, in a table),
-//! from what was expected there and from the text in its place; never from the parser's own words.
+//! The message for an error depends on its context (between tokens, in a key, in a value, in a table), on what was
+//! expected there, and on the text at its range; never on the parser's own words.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -15,11 +15,11 @@ use crate::diagnostic::Diagnostics;
 use crate::diagnostic::SourceRange;
 use crate::printable;
 
-/// The file as a table; what is not TOML is left out or patched, after a complaint.
+/// Parses the file as a table. Whatever is not TOML is reported, then dropped or patched.
 pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<DeTable<'f>> {
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut slips = if errors.is_empty() { Vec::new() } else { slips(text) };
-    // beyond those there are only keys of a table that are there already
+    // the remaining errors lie beyond the grammar, such as duplicate keys
     let others: Vec<SourceRange> = errors
         .iter()
         .map(|error| error.span().unwrap_or(0..0))
@@ -28,7 +28,7 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<De
     slips.extend(others.into_iter().map(|place| beyond_grammar(text, place)));
     slips.sort_by_key(|slip| slip.place.start);
     for Slip { place, message, help, loses } in slips {
-        // once the way is lost, what follows is mostly its echo
+        // once the parser has lost track, the errors that follow are mostly consequences
         if mistakes.lost_track() {
             break;
         }
@@ -45,7 +45,7 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<De
     table
 }
 
-/// Complains of every name and text in which a character would steer the terminal that shows it; no more is said of it.
+/// Reports every name and text that contains a terminal control character; no further mistakes are reported for it.
 fn steering(table: &DeTable<'_>, mistakes: &mut Diagnostics) {
     for (key, value) in table {
         if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
@@ -74,18 +74,18 @@ fn steering_value(value: &Spanned<DeValue<'_>>, mistakes: &mut Diagnostics) {
     }
 }
 
-/// What is not there to be checked after a slip.
+/// The part of the file that is lost to an error.
 #[derive(Clone, Copy)]
 enum Loses {
-    /// The key that stands at the place, with its value.
+    /// The key at the range, with its value.
     Key,
-    /// What stands at the place.
+    /// The value at the range.
     Value,
-    /// Whatever follows.
+    /// Everything that follows.
     Track,
 }
 
-/// A slip in our words.
+/// An error in our own words.
 struct Slip {
     place: SourceRange,
     message: String,
@@ -103,10 +103,10 @@ impl Slip {
     }
 }
 
-/// Tables and lists in each other: as many as the reader allows.
+/// The greatest nesting of tables and lists, as in the TOML parser.
 const DEEPEST: u32 = 80;
 
-/// All slips of the grammar; keys given twice are none.
+/// All errors of the grammar; duplicate keys are not among them.
 fn slips(text: &str) -> Vec<Slip> {
     let source = Source::new(text);
     let (mut events, mut errors) = (Vec::<Event>::new(), Vec::new());
@@ -143,7 +143,7 @@ fn place_of(error: &ParseError) -> SourceRange {
     error.unexpected().map_or(0..0, |span| span.start()..span.end())
 }
 
-/// What is well formed and cannot be all the same: a date that there is not, or a key of a table that has it already.
+/// The error of a well-formed but invalid value, such as a nonexistent date, or of a key that its table already has.
 fn beyond_grammar(text: &str, place: SourceRange) -> Slip {
     let there = text.get(place.clone()).unwrap_or("");
     let before = text.get(..place.start).unwrap_or("").trim_end();
@@ -154,7 +154,7 @@ fn beyond_grammar(text: &str, place: SourceRange) -> Slip {
     Slip::new(place, format!("`{key}` is given twice"), Loses::Key).help("keep one of them")
 }
 
-/// A token that is missing, or one too many.
+/// The error of a missing or superfluous token.
 fn between_tokens(text: &str, error: &ParseError) -> Slip {
     let place = place_of(error);
     let expects = |token: &str| {
@@ -191,7 +191,7 @@ fn in_key(place: SourceRange) -> Slip {
     Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
 }
 
-/// In a value without quotes: a number that is none, a word, or nothing.
+/// The error of an unquoted value: an invalid number, a word, or nothing.
 fn in_plain_value(value: &str, place: SourceRange) -> Slip {
     let loses = Loses::Value;
     let digits = value.trim_start_matches(['+', '-']);
@@ -213,10 +213,10 @@ fn in_plain_value(value: &str, place: SourceRange) -> Slip {
     }
 }
 
-/// In a text: an escape that is none, or quotes that are not closed.
+/// The error of a text: an invalid escape or a missing quote.
 fn in_quotes(text: &str, place: SourceRange, quotes: Encoding) -> Slip {
     let before = text.get(..place.start).unwrap_or("");
-    // an escape is cut short behind its letter, `u` for instance, and reported there or behind its digits
+    // an incomplete escape is reported after its letter, such as `u`, or after its digits
     let escape = before.trim_end_matches(|c: char| c.is_ascii_hexdigit());
     if before.ends_with('\\') {
         let help = "write `\\\\` for a backslash, or quote with '...'";

@@ -1,7 +1,7 @@
-//! What an `Assert` of a script comes to at its moment.
+//! Evaluates an `Assert` of a script.
 //!
-//! In: a claim, the application. Out: whether it holds, and the sentence that says so with the values; a mistake where it
-//! speaks of what is not there. Never here: when it is asked.
+//! In: an assertion, the application. Out: whether it is true, with a sentence that gives the values; or a mistake if
+//! it names something that does not exist. Never here: when it is evaluated.
 
 use crate::app::{App, Lab};
 use crate::diagnostic::Diagnostic;
@@ -13,16 +13,16 @@ use crate::num::significant;
 
 use super::script::{Assert, Measure, Relation, Text};
 
-/// A claim held against the moment.
+/// The result of an assertion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Finding {
     /// Whether it is true.
     pub(super) holds: bool,
-    /// What was found.
+    /// A sentence with the values.
     pub(super) sentence: String,
 }
 
-/// Holds a claim against the present; `screen` is the screen's rows.
+/// Evaluates an assertion; `screen` contains the screen's rows.
 pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Finding, Diagnostic> {
     match claim {
         Assert::Screen(text) => {
@@ -102,7 +102,7 @@ fn compared(
     Finding { holds, sentence }
 }
 
-/// A number that need not be read back: four digits.
+/// A number with four digits, for display only.
 fn short(x: f64) -> String {
     significant(x, 4, 1e-3..1e6)
 }
@@ -167,7 +167,7 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
     })
 }
 
-/// The present value of an expression.
+/// The current value of an expression.
 pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
     // a number needs no system
     if let Ok(number) = written.text.parse::<f64>()
@@ -176,7 +176,7 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
         return Ok(number);
     }
     let (lab, snapshot) = seen(app, written)?;
-    // the name of a column need not be one of an expression
+    // the name of a column need not be a valid expression
     let channels = lab.loaded.system.channels();
     if let Some(at) = channels.iter().position(|channel| channel.name == written.text) {
         return Ok(snapshot.values[at]);
@@ -206,7 +206,7 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
     Err(Diagnostic::error(written.place.clone(), message))
 }
 
-/// The value of a measure of a plot, `KIND.WORD`; nothing where the text is none.
+/// The value of a measure of a plot, `KIND.WORD`, or `None` if the text is not one.
 fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic> {
     let Some((kind, word)) = written.text.split_once('.') else { return Ok(None) };
     let is_word = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic());
@@ -232,14 +232,14 @@ fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic
     let Some(present) = lab.present().filter(|_| plots.peek().is_some()) else {
         return refused(format!("no pane shows a plot of kind `{kind}`"));
     };
-    // of several it is the first that has the number
+    // the first plot that has the number
     match plots.find_map(|plot| (measure.value)(plot, &present, lab.answer(plot))) {
         Some(value) => Ok(Some(value)),
         None => refused(format!("no plot of kind `{kind}` has `{word}` here")),
     }
 }
 
-/// What is not there, and the nearest that is.
+/// A mistake about something that does not exist, with the nearest name that does.
 pub(super) fn missing<'a>(
     kind: &str,
     name: &Text,

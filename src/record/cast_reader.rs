@@ -1,7 +1,7 @@
-//! The tape: a cast read back, version 2 or 3, whoever wrote it.
+//! Reads a cast of version 2 or 3, from any program.
 //!
-//! In: the text of a cast. Out: what is to be shown when, within limits. It is a stranger's: nothing of it may reach a
-//! terminal but through an emulator. Never here: showing it.
+//! In: the text of a cast. Out: its timed events, within limits. The cast is untrusted: nothing of it may reach a
+//! terminal except through an emulator. Never here: showing it.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -13,32 +13,32 @@ use crate::printable;
 /// A cast in memory.
 #[derive(Clone, Debug)]
 pub struct RecordedCast {
-    /// Its title, if it has one.
+    /// The title, if it has one.
     pub title: Option<String>,
-    /// Columns and rows at the beginning.
+    /// The initial number of columns and rows.
     pub size: (u16, u16),
-    /// What happens when, in time.
+    /// The events in order of time.
     pub events: Vec<(Micros, CastEvent)>,
-    /// When it ends.
+    /// The time of the end.
     pub end: Micros,
 }
 
-/// What happens on a tape.
+/// An event of a cast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CastEvent {
     /// Text for the emulated terminal.
     Output(String),
-    /// It has so many columns and rows from now on.
+    /// A new size in columns and rows.
     Resize(u16, u16),
     /// A chapter begins.
     Marker(String),
 }
 
-/// Why a text is no cast.
+/// Why a text is not a cast.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {what}")]
 pub struct CastError {
-    /// The line, from 1.
+    /// The line number, from 1.
     pub line: usize,
     /// What is wrong.
     pub what: String,
@@ -48,7 +48,7 @@ pub struct CastError {
 const MOST_COLUMNS: u64 = 1000;
 const MOST_ROWS: u64 = 500;
 
-/// The longest a cast may last, in seconds: a day.
+/// The greatest duration of a cast in seconds: one day.
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Deserialize)]
@@ -71,7 +71,7 @@ impl RecordedCast {
     /// Reads a cast.
     ///
     /// # Errors
-    /// The first line that is none of a cast.
+    /// Returns an error for the first line that does not belong to a cast.
     pub fn read(text: &str) -> Result<RecordedCast, CastError> {
         let wrong = |line: usize, what: String| CastError { line, what };
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
@@ -87,7 +87,7 @@ impl RecordedCast {
                 return Err(wrong(1, what));
             }
         };
-        let mut tape = RecordedCast {
+        let mut cast = RecordedCast {
             title: head.title,
             size: sized(size).map_err(|what| wrong(1, what))?,
             events: Vec::new(),
@@ -104,15 +104,15 @@ impl RecordedCast {
             let passed = if head.version == 2 { time - last } else { time };
             last = time;
             let passed = (passed.clamp(0.0, idle) * SECOND as f64).round() as Micros;
-            tape.end += passed;
-            if tape.end > (LONGEST as Micros) * SECOND {
+            cast.end += passed;
+            if cast.end > (LONGEST as Micros) * SECOND {
                 return Err(wrong(
                     number,
                     "a cast may last a day; this one lasts longer".to_owned(),
                 ));
             }
             let data = data.as_str().unwrap_or_default();
-            let turn = match code.as_str() {
+            let event = match code.as_str() {
                 "o" => Some(CastEvent::Output(data.to_owned())),
                 "m" => Some(CastEvent::Marker(data.to_owned())),
                 "r" => {
@@ -123,12 +123,12 @@ impl RecordedCast {
                     let (columns, rows) = size.map_err(|what| wrong(number, what))?;
                     Some(CastEvent::Resize(columns, rows))
                 }
-                // what was typed, how it ended, and what later versions may add
+                // input, the exit status, and what later versions may add
                 _ => None,
             };
-            tape.events.extend(turn.map(|turn| (tape.end, turn)));
+            cast.events.extend(event.map(|event| (cast.end, event)));
         }
-        Ok(tape)
+        Ok(cast)
     }
 }
 
@@ -141,14 +141,14 @@ fn sized((columns, rows): (u64, u64)) -> Result<(u16, u16), String> {
 
 impl From<Recording> for RecordedCast {
     fn from(recording: Recording) -> RecordedCast {
-        let turn = |event| match event {
+        let converted = |event| match event {
             Event::Output(text) => CastEvent::Output(text),
             Event::Marker(name) => CastEvent::Marker(name),
         };
         RecordedCast {
             title: Some(recording.title),
             size: recording.size,
-            events: recording.events.into_iter().map(|(time, e)| (time, turn(e))).collect(),
+            events: recording.events.into_iter().map(|(time, e)| (time, converted(e))).collect(),
             end: recording.end,
         }
     }
@@ -168,9 +168,9 @@ mod tests {
             (2_000_000, CastEvent::Marker("x".to_owned())),
         ];
         for text in [two, three] {
-            let tape = RecordedCast::read(text).expect("a cast");
-            assert_eq!((tape.size, tape.end), ((80, 24), 2_000_000));
-            assert_eq!(tape.events, events);
+            let cast = RecordedCast::read(text).expect("a cast");
+            assert_eq!((cast.size, cast.end), ((80, 24), 2_000_000));
+            assert_eq!(cast.events, events);
         }
     }
 

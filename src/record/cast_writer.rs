@@ -1,10 +1,10 @@
-//! Casts: recordings as asciinema writes them, one JSON value a line.
+//! Casts: recordings in asciinema's format, one JSON value per line.
 //!
-//! In: texts for a terminal and names of chapters, each with its time in microseconds. Out: lines of an asciicast, version 3
-//! (<https://docs.asciinema.org/manual/asciicast/v3/>: time since the event before) or version 2
-//! (<https://docs.asciinema.org/manual/asciicast/v2/>: time since the beginning). The head holds the size, the title and the
-//! theme, and nothing of the machine. Never here: the alternate screen, whose end would leave the last picture
-//! blank; files.
+//! In: text for a terminal and names of chapters, each with its time in microseconds. Out: the lines of an asciicast,
+//! version 3 (<https://docs.asciinema.org/manual/asciicast/v3/>: times since the previous event) or version 2
+//! (<https://docs.asciinema.org/manual/asciicast/v2/>: times since the beginning). The header contains the size, the
+//! title and the theme, and nothing about the machine. Never here: the alternate screen, whose end would leave the
+//! last picture blank; files.
 
 use std::io::{self, Write};
 
@@ -15,33 +15,33 @@ use super::recording::{Event, Recording};
 use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 
-/// The form of a cast.
+/// The version of a cast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Version {
-    /// Of asciinema 2.
+    /// The format of asciinema 2.
     Two,
-    /// Of asciinema 3.
+    /// The format of asciinema 3.
     #[default]
     Three,
 }
 
-/// A cast being written.
+/// A cast that is being written.
 #[derive(Debug)]
 pub struct Cast<W> {
     out: W,
     version: Version,
-    /// When the last event was.
+    /// The time of the last event.
     last: Micros,
 }
 
-/// Hides the cursor: a picture needs none.
+/// Hides the cursor, which a picture does not need.
 const HIDE: &str = "\x1b[?25l";
 
 impl<W: Write> Cast<W> {
-    /// Writes the head.
+    /// Writes the header.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Returns an error if writing fails.
     pub fn begin(
         mut out: W,
         version: Version,
@@ -64,41 +64,41 @@ impl<W: Write> Cast<W> {
         Ok(cast)
     }
 
-    /// Text for the terminal at a time, which is not before the last one.
+    /// Writes text for the terminal at a time that is not before the last one.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Returns an error if writing fails.
     pub fn output(&mut self, time: Micros, text: &str) -> io::Result<()> {
         self.event(time, "o", text)
     }
 
-    /// The terminal has another size from now on.
+    /// Writes a new size of the terminal.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Returns an error if writing fails.
     pub fn resize(&mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<()> {
         self.event(time, "r", &format!("{columns}x{rows}"))
     }
 
-    /// A chapter begins.
+    /// Writes the beginning of a chapter.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Returns an error if writing fails.
     pub fn marker(&mut self, time: Micros, name: &str) -> io::Result<()> {
         self.event(time, "m", name)
     }
 
-    /// Writes the end: the last picture stays, and the cursor is given back in its last corner, where a player's
-    /// shell goes on.
+    /// Writes the end. The last picture stays, and the cursor is shown again in the last corner, where the shell of a
+    /// player continues.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Returns an error if writing fails.
     pub fn end(&mut self, time: Micros, (columns, rows): (u16, u16)) -> io::Result<()> {
         self.event(time, "o", &format!("\x1b[0m\x1b[{rows};{columns}H\x1b[?25h"))?;
         self.out.flush()
     }
 
-    /// Where it was written to.
+    /// The underlying writer.
     pub fn into_inner(self) -> W {
         self.out
     }
@@ -111,7 +111,7 @@ impl<W: Write> Cast<W> {
         };
         self.last = time;
         let (whole, rest) = (shown / SECOND, shown % SECOND);
-        // a line at a time, so that no file ends within one
+        // writes whole lines, so that no file ends within one
         let line = format!("[{whole}.{rest:06}, \"{code}\", {}]\n", Value::from(data));
         self.out.write_all(line.as_bytes())
     }
@@ -120,7 +120,7 @@ impl<W: Write> Cast<W> {
 /// Writes a whole recording.
 ///
 /// # Errors
-/// Those of writing.
+/// Returns an error if writing fails.
 pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::Result<W> {
     let palette = recording.look.theme.palette();
     let mut cast = Cast::begin(out, version, recording.size, &recording.title, palette)?;
@@ -134,7 +134,7 @@ pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::R
     Ok(cast.into_inner())
 }
 
-/// The colours a terminal is to have: those of the palette, and for its sixteen the ones of the VGA text mode, softened.
+/// The terminal's colours: those of the palette, and softened VGA colours for the sixteen basic ones.
 fn theme(palette: &Palette) -> Value {
     const SIXTEEN: [u32; 16] = [
         0x1a_1b26, 0xc8_4f4f, 0x4f_a86a, 0xc4_961a, 0x5a_7fd0, 0xb0_6ab8, 0x3f_a7b6, 0xb8_bcc8,

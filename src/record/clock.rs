@@ -1,6 +1,6 @@
-//! The virtual clock: frames at whole microseconds, and simulated time that keeps pace with them.
+//! The virtual clock: frames at whole microseconds, and simulated time in step with them.
 //!
-//! In: frames a second, what is asked of time. Out: when each frame is. Never here: the time of day.
+//! In: the frame rate, and requests for time to pass. Out: the time of each frame. Never here: the time of day.
 
 use std::time::Duration;
 
@@ -10,54 +10,55 @@ pub(super) type Micros = u64;
 /// Microseconds in a second.
 pub(super) const SECOND: Micros = 1_000_000;
 
-/// Frames at an even pace.
+/// Frames at a constant rate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     fps: u32,
-    /// The frame that is shown.
+    /// The current frame.
     frame: u64,
-    /// How far time was asked to pass.
+    /// The time up to which frames were requested.
     until: Micros,
 }
 
 impl Clock {
-    /// At the first frame.
+    /// Starts at the first frame.
     pub(super) fn new(fps: u32) -> Clock {
         Clock { fps: fps.max(1), frame: 0, until: 0 }
     }
 
-    /// The frame that is shown, the first being 0.
+    /// The current frame, counted from 0.
     pub(super) fn frame(&self) -> u64 {
         self.frame
     }
 
-    /// When it came. Frame times are rounded down to whole microseconds each by itself, so they never drift.
+    /// The time of the current frame. Each frame time is rounded down to whole microseconds separately, so the times
+    /// never drift.
     pub(super) fn now(&self) -> Micros {
         self.time_of(self.frame)
     }
 
-    /// When a frame comes.
+    /// The time of a frame.
     pub(super) fn time_of(&self, frame: u64) -> Micros {
         frame.saturating_mul(SECOND) / u64::from(self.fps)
     }
 
-    /// When the frame after it comes.
+    /// The time of the next frame.
     pub(super) fn next(&self) -> Micros {
         self.time_of(self.frame + 1)
     }
 
-    /// Lets time pass; [`Clock::tick`] brings the frames that fall into it. Parts of a frame are kept for the next time.
+    /// Lets time pass; [`Clock::tick`] yields the frames within it. A fraction of a frame is carried over.
     pub(super) fn pass(&mut self, time: Micros) {
         self.until = self.until.saturating_add(time);
     }
 
-    /// How many frames are still to come before time has passed as asked.
+    /// The number of frames remaining in the requested time.
     pub(super) fn left(&self) -> u64 {
         let last = (u128::from(self.until) * u128::from(self.fps) / u128::from(SECOND)) as u64;
         last.saturating_sub(self.frame)
     }
 
-    /// Goes on to the next frame if it is due, and says how long that took.
+    /// Advances to the next frame if it is due, and returns the time since the last one.
     pub(super) fn tick(&mut self) -> Option<Duration> {
         if self.left() == 0 {
             return None;
@@ -67,7 +68,7 @@ impl Clock {
         Some(Duration::from_micros(self.now() - before))
     }
 
-    /// The seconds between two frames so many apart.
+    /// The seconds between frames that are so many frames apart.
     pub(super) fn seconds(&self, frames: u64) -> f64 {
         frames as f64 / f64::from(self.fps)
     }

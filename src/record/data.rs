@@ -1,16 +1,18 @@
-//! The trail of a motion as a table: what `run` would print, of the rows that the laboratory has recorded.
+//! The trail of a motion as a table, like the output of `run` but for the rows that the laboratory has recorded.
 //!
-//! In: a loaded system and its snapshot. Out: comma-separated values, as `phaselab run` writes them. Never here: files.
+//! In: a loaded system and its snapshot. Out: comma-separated values, as `phaselab run` writes them. Never here:
+//! files.
 
 use std::io::{self, Write};
 
 use crate::app::Loaded;
 use crate::experiment::Snapshot;
 
-/// Writes version, title, parameters and method in `#` lines, the names of the columns, and a row for each recorded time.
+/// Writes the version, title, parameters and method in `#` lines, the names of the columns, and one row for each
+/// recorded time.
 ///
 /// # Errors
-/// Those of writing.
+/// Returns an error if writing fails.
 pub fn write(loaded: &Loaded, snapshot: &Snapshot, out: &mut impl Write) -> io::Result<()> {
     let (model, system) = (&loaded.model, &loaded.system);
     let title: Vec<&str> = model.info.title.split_whitespace().collect();

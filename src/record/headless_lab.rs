@@ -1,7 +1,7 @@
-//! The laboratory on virtual time: the application and its experiment, brought together without a thread.
+//! The laboratory on virtual time: the application and its experiment, without threads.
 //!
-//! In: events and the passing of frames. Out: an application whose effects are done at once; what concerns a terminal or
-//! a file is not done. Never here: scripts, or how anything looks.
+//! In: events and the passing of frames. Out: an application whose effects are performed at once; effects on a
+//! terminal or a file are ignored. Never here: scripts, or how anything looks.
 
 use std::mem;
 use std::sync::Arc;
@@ -12,49 +12,49 @@ use crate::diagnostic::Document;
 use crate::experiment::{Command, Experiment, Prepared, Progress, Status};
 use crate::preset::Catalog;
 
-/// The most steps and rows of a motion in one frame: as a rule, and where time runs as fast as it can. One too slow for
-/// its speed falls behind by the same amount on every machine.
+/// The most steps and rows of a motion in one frame, at a finite speed and at an unlimited speed. A motion that is
+/// too slow for its speed falls behind by the same amount on every machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     paced: u64,
     flat_out: u64,
-    /// So many frames may use up all their steps and not keep pace; `None` for any number.
+    /// The number of frames that may use up their steps before the motion is overdue; `None` for any number.
     patience: Option<u32>,
 }
 
 impl Budget {
-    /// For a recording, which nobody waits in front of.
+    /// For a recording, which runs unattended.
     pub(super) const RECORDED: Budget =
         Budget { paced: 100_000, flat_out: 20_000, patience: Some(20) };
 
-    /// For someone who watches, and may press a key.
+    /// For a live performance, in which a viewer may press a key.
     pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000, patience: None };
 }
 
-/// The application, and what moves in it.
+/// The application and its experiment.
 pub(super) struct HeadlessLab {
     pub(super) app: App,
     pub(super) clock: Clock,
-    /// How its system is called on the screen.
+    /// The system's name on the screen.
     pub(super) called: String,
-    /// Whether it was left.
+    /// Whether the application was quit.
     pub(super) left: bool,
     document: Document,
     catalog: Catalog,
     experiment: Option<Experiment>,
     epoch: u64,
-    /// From where simulated time keeps pace: the frame, the time, the speed.
+    /// The base of simulated time: the frame, the time, the speed.
     base: (u64, f64, f64),
     budget: Budget,
-    /// How many frames used up all their steps.
+    /// The number of frames that used up their steps.
     behind: u32,
     repaint: bool,
 }
 
 impl HeadlessLab {
-    /// Opened at a system.
+    /// Opens the laboratory with a system.
     pub(super) fn open(document: &Document, called: &str, fps: u32, budget: Budget) -> HeadlessLab {
-        // the user's own presets are no part of a demo that is to be the same everywhere
+        // the user's own presets are excluded, so that a demo is the same everywhere
         let catalog = Catalog::with_folder(None);
         let (app, effects) = App::new(&catalog, Some(called));
         let mut laboratory = HeadlessLab {
@@ -75,12 +75,12 @@ impl HeadlessLab {
         laboratory
     }
 
-    /// When the frame that is shown came.
+    /// The time of the current frame.
     pub(super) fn now(&self) -> Micros {
         self.clock.now()
     }
 
-    /// Goes on to the next frame, if it is due.
+    /// Advances to the next frame if it is due.
     pub(super) fn tick(&mut self) -> bool {
         let Some(elapsed) = self.clock.tick() else { return false };
         self.advance();
@@ -89,7 +89,7 @@ impl HeadlessLab {
         true
     }
 
-    /// Why it is not gone on with, where the motion costs more steps than a recording has.
+    /// Why the recording stops, if the motion needs more steps than it may take.
     pub(super) fn overdue(&self) -> Option<String> {
         let (patience, experiment) = (self.budget.patience?, self.experiment.as_ref()?);
         (self.behind >= patience).then(|| {
@@ -102,19 +102,19 @@ impl HeadlessLab {
         })
     }
 
-    /// Something happens to the application.
+    /// Sends an event to the application.
     pub(super) fn happen(&mut self, event: Event) {
         let effects = self.app.update(event);
         self.perform(effects);
     }
 
-    /// Gives a value to a parameter, or to an initial value.
+    /// Sets a parameter or an initial value.
     pub(super) fn set(&mut self, target: ValueId, value: f64) {
         let effects = self.app.give(target, value);
         self.perform(effects);
     }
 
-    /// Tells the experiment something.
+    /// Sends a command to the experiment.
     pub(super) fn tell(&mut self, command: Command) {
         let Some(experiment) = &mut self.experiment else { return };
         let clockwork = |e: &Experiment| (e.status() == Status::Running, e.time(), e.speed());
@@ -127,12 +127,12 @@ impl HeadlessLab {
         self.look_at_motion();
     }
 
-    /// Whether every cell is to be painted again, asked once.
+    /// Whether every cell must be painted again; resets the flag.
     pub(super) fn takes_repaint(&mut self) -> bool {
         mem::take(&mut self.repaint)
     }
 
-    /// Carries the motion on to where it should be at this frame.
+    /// Advances the motion to its time at this frame.
     fn advance(&mut self) {
         let Some(experiment) = &mut self.experiment else { return };
         if experiment.status() != Status::Running {
@@ -161,7 +161,7 @@ impl HeadlessLab {
         }
     }
 
-    /// Does what the application asks for.
+    /// Performs the effects that the application requests.
     fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             match effect {
@@ -173,7 +173,7 @@ impl HeadlessLab {
                 }
                 Effect::Repaint => self.repaint = true,
                 Effect::Quit => self.left = true,
-                // A demo has no terminal to be changed and no files to be written.
+                // A demo has no terminal to configure and no files to write.
                 _ => {}
             }
         }

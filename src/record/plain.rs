@@ -1,12 +1,13 @@
-//! Cells of one character each: what stands over a letter is written behind it.
+//! Cells of one character each: a mark over a letter is written after it.
 //!
-//! Players of casts hold one character in a cell; a dot over θ, which no letter of Unicode has in one, would take the cell
-//! beside it (<https://github.com/asciinema/avt/issues/27>). So θ̇ becomes θ′ and the rest of the row moves by one, up to
-//! where it is blank. In: a picture. Out: the same of single characters. Never here: how a terminal shows it.
+//! Players of casts store one character per cell. A combining dot, as in θ̇, which has no precomposed character in
+//! Unicode, would take the next cell (<https://github.com/asciinema/avt/issues/27>). So θ̇ becomes θ′ and the rest of
+//! the row shifts by one, up to the next blank. In: a picture. Out: the same picture with single characters. Never
+//! here: how a terminal shows it.
 
 use ratatui::buffer::{Buffer, Cell};
 
-/// Rewrites every row, so that each cell holds one character.
+/// Rewrites every row so that each cell contains one character.
 pub fn plain(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
@@ -20,7 +21,7 @@ pub fn plain(buffer: &mut Buffer) {
     }
 }
 
-/// The marks that have a sign of their own to be written behind a letter.
+/// The sign that replaces a combining mark after its letter.
 fn sign(mark: char) -> Option<&'static str> {
     match mark {
         '\u{307}' => Some("′"),
@@ -35,7 +36,7 @@ fn write_behind(row: &mut [Cell], x: usize) {
     let sign = characters.next().and_then(sign);
     row[x].set_symbol(&letter);
     let Some(sign) = sign else { return };
-    // blank before something blank or a frame: a cell that nobody misses
+    // a blank before another blank or a frame can be dropped
     let blank = |i: usize| row.get(i).is_some_and(|cell| cell.symbol() == " ");
     let spare = (x + 1..row.len()).find(|&i| blank(i) && (blank(i + 1) || is_frame(row, i + 1)));
     let narrow = |i: usize| (x..i).any(|at| is_frame(row, at));

@@ -1,7 +1,7 @@
-//! Recordings: a performance taken down from its beginning to its end.
+//! Recordings: a complete performance of a script.
 //!
-//! In: a [`Script`], a document. Out: a [`Recording`], or every mistake that only playing shows. Never here: what a line
-//! of a script does, or the form of a cast.
+//! In: a [`Script`], a document. Out: a [`Recording`], or the mistakes that only playing reveals. Never here: what a
+//! line of a script does, or the format of a cast.
 
 use std::io;
 use std::time::Duration;
@@ -17,34 +17,34 @@ use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
 use crate::view::frame::Frames;
 
-/// What came of a script.
+/// A recorded performance.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Its title.
+    /// The title.
     pub title: String,
     /// Columns and rows.
     pub size: (u16, u16),
-    /// Frames in a second.
+    /// Frames per second.
     pub fps: u32,
-    /// How many frames time has passed: the whole lasts `frames / fps`.
+    /// The number of frames; the duration is `frames / fps`.
     pub frames: u64,
-    /// When it ends.
+    /// The time of the end.
     pub end: Micros,
-    /// How it looks.
+    /// The render style.
     pub look: RenderStyle,
-    /// What is to be shown when: bytes for a terminal, and the names of chapters.
+    /// The timed output: bytes for a terminal and names of chapters.
     pub events: Vec<(Micros, Event)>,
     /// The chapters.
     pub markers: Vec<Marker>,
     /// The screen at the end.
     pub last: Buffer,
-    /// What was done and found.
+    /// The actions and assertions.
     pub log: Vec<(Micros, Entry)>,
-    /// The claims that turned out false.
+    /// The assertions that failed.
     pub false_claims: Vec<Diagnostic>,
 }
 
-/// Something in a recording.
+/// An event of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
     /// Text for the terminal.
@@ -56,31 +56,31 @@ pub enum Event {
 /// A chapter.
 #[derive(Clone, Debug)]
 pub struct Marker {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// When it begins.
+    /// The time of its beginning.
     pub time: Micros,
-    /// What was on the screen then.
+    /// The screen at that time.
     pub screen: Buffer,
 }
 
-/// A line of the account.
+/// An entry of the transcript.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// Something was done.
+    /// An action.
     Done(&'static str, String),
-    /// Something was claimed: whether it held, and what was found.
+    /// An assertion: whether it was true, and a sentence with the values.
     Claimed(bool, String),
-    /// A chapter began; its place among the markers.
+    /// The beginning of a chapter, with its index among the markers.
     Marker(usize),
 }
 
 /// Plays a script.
 ///
-/// `called` is how the system is called on the screen, `size` the screen where the script gives none.
+/// `called` is the system's name on the screen; `size` is the screen size if the script does not give one.
 ///
 /// # Errors
-/// The mistakes of the script that only its system and its screen show.
+/// Returns the mistakes of the script that only its system and its screen reveal.
 pub fn play(
     script: &Script,
     document: &Document,
@@ -106,7 +106,7 @@ pub fn play(
         log: Vec::new(),
         false_claims: Vec::new(),
     };
-    while take.goes_on().map_err(alone)? {}
+    while take.advance().map_err(alone)? {}
     let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
     let lab = performance.lab;
     let of_system = || {
@@ -128,12 +128,12 @@ pub fn play(
     })
 }
 
-/// A frame that could not be written down.
+/// A frame that could not be written.
 fn unwritten(why: &io::Error) -> Diagnostic {
     Diagnostic::error(0..0, format!("a frame cannot be written: {why}"))
 }
 
-/// Captions that have no room on a screen of this width.
+/// Captions that are too long for a screen of this width.
 fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
     let room = Script::caption_room(width);
     let long = script.steps.iter().filter(|(_, step)| match step {
@@ -144,7 +144,7 @@ fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
     long.map(|(place, _)| Diagnostic::error(place.clone(), message.clone())).collect()
 }
 
-/// A performance being taken down.
+/// A recording in progress.
 struct Take {
     performance: ScriptRunner,
     screen: Frames,
@@ -157,11 +157,11 @@ struct Take {
 }
 
 impl Take {
-    /// Takes the next beat down; whether there are more to come.
-    fn goes_on(&mut self) -> Result<bool, Diagnostic> {
-        let beat = self.performance.beat()?;
+    /// Records the next event; returns whether there are more.
+    fn advance(&mut self) -> Result<bool, Diagnostic> {
+        let next = self.performance.beat()?;
         let now = self.performance.now();
-        match beat {
+        match next {
             RunnerEvent::Frame => self.draw(now).map_err(|why| unwritten(&why))?,
             RunnerEvent::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
             RunnerEvent::Claim(place, claim) => {
@@ -184,7 +184,7 @@ impl Take {
         Ok(true)
     }
 
-    /// Shows the present as a frame.
+    /// Draws the current state as a frame.
     fn draw(&mut self, now: Micros) -> io::Result<()> {
         let Self { performance, screen, look, .. } = self;
         if performance.lab.takes_repaint() {
@@ -211,7 +211,7 @@ pub(super) fn rows(screen: &Buffer) -> Vec<String> {
     (screen.area.top()..screen.area.bottom()).map(row).collect()
 }
 
-/// Time in an account: seconds with hundredths.
+/// A time in a transcript: seconds with hundredths.
 pub(super) fn seconds(time: Micros) -> String {
     format!("{:.2}", Duration::from_micros(time).as_secs_f64())
 }

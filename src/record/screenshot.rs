@@ -1,6 +1,6 @@
-//! Stills: one screen as a drawing, as plain text, or as text with its colours.
+//! Stills: one screen as a drawing, as plain text, or as coloured text.
 //!
-//! In: a screen of cells. Out: SVG, text, or text with ANSI colours. Never here: which moment, or files.
+//! In: a screen of cells. Out: SVG, text, or text with ANSI colours. Never here: when it is taken, or files.
 
 mod ansi;
 mod shape;
@@ -13,21 +13,21 @@ use ratatui::buffer::Buffer;
 use super::recording::rows;
 use crate::view::theme::Palette;
 
-/// The form of a still.
+/// The format of a still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A drawing: dots and lines are shapes, words are text in whatever font there is.
+    /// A drawing: dots and lines are shapes, words are text in any available font.
     Svg,
-    /// Characters alone.
+    /// Characters without colours.
     Text,
-    /// Characters with their colours, for `cat` in a terminal.
+    /// Characters with colours, for `cat` in a terminal.
     Ansi,
 }
 
 impl FromStr for Form {
     type Err = String;
 
-    /// The form by the ending of a file's name.
+    /// Determines the format from a file name's extension.
     fn from_str(path: &str) -> Result<Form, String> {
         let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
         match ending.to_ascii_lowercase().as_str() {
@@ -39,7 +39,7 @@ impl FromStr for Form {
     }
 }
 
-/// The screen in a form; `palette` says the background it was made for.
+/// Writes the screen in a format; `palette` gives the background.
 pub fn write(screen: &Buffer, palette: &Palette, form: Form, title: &str) -> String {
     match form {
         Form::Svg => svg::write(screen, palette, title),

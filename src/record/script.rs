@@ -1,7 +1,7 @@
-//! The script of a demo: one thing a line, in the order in which they happen.
+//! The script of a demo: one action per line, in order.
 //!
-//! In: text. Out: a [`Script`], or every mistake in its place with what would be right. [`COMMANDS`] has one row for each
-//! word a line may begin with; README and the nearest right word come from it. Never here: what a name of the script
+//! In: text. Out: a [`Script`], or every mistake with its range and a correction. [`COMMANDS`] has one row for each
+//! word that a line may begin with; README and the suggestions come from it. Never here: what a name of the script
 //! means in a system, or playing it.
 
 mod command;
@@ -24,34 +24,34 @@ use super::clock::{Micros, SECOND};
 pub use command::{CLAIMS, COMMANDS, Command, read_size};
 use line::Line;
 
-/// The longest demo, in seconds: a script that waits for a day would fill the memory.
+/// The longest demo in seconds; a script that waits for a day would fill the memory.
 pub const LONGEST: u64 = 3600;
 
-/// A demo as written, understood as far as it can be without its system.
+/// A parsed script, understood as far as is possible without its system.
 #[derive(Clone, Debug)]
 pub struct Script {
-    /// What is said before anything happens.
+    /// The settings of the whole demo.
     pub head: Head,
-    /// What happens, in order.
+    /// The steps, in order.
     pub steps: Vec<(SourceRange, Step)>,
 }
 
-/// What holds for the whole demo.
+/// The settings of a demo.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
-    /// The preset or file it is about, if the script says so.
+    /// The preset or file to open, if the script names one.
     pub open: Option<Text>,
-    /// Its title; that of the system otherwise.
+    /// The title; by default the system's.
     pub title: Option<String>,
     /// Columns and rows.
     pub size: Option<(u16, u16)>,
-    /// Frames in a second.
+    /// Frames per second.
     pub fps: u32,
     /// The palette's name.
     pub theme: &'static str,
-    /// How many colours are used.
+    /// The colour depth.
     pub colour: ColourDepth,
-    /// What is drawn with.
+    /// The glyph set.
     pub glyphs: Glyphs,
 }
 
@@ -70,7 +70,7 @@ impl Default for Head {
 }
 
 impl Head {
-    /// How the screen looks: by the script alone, whatever the environment.
+    /// The render style, which depends on the script alone and not on the environment.
     pub fn look(&self) -> RenderStyle {
         let theme = Theme::named(self.theme, self.colour);
         RenderStyle {
@@ -80,60 +80,60 @@ impl Head {
     }
 }
 
-/// A piece of a line whose meaning depends on the system, and where it stands.
+/// A piece of a line whose meaning depends on the system, and its range.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text {
-    /// As written, without quotes.
+    /// The text without quotes.
     pub text: String,
-    /// Where.
+    /// The range in the script.
     pub place: SourceRange,
 }
 
-/// How one value goes in a sweep.
+/// The path of one value in a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPath {
-    /// Which.
+    /// The name of the value.
     pub name: Text,
-    /// From where; from its present value otherwise.
+    /// The start; by default the current value.
     pub from: Option<Text>,
-    /// To where.
+    /// The end.
     pub to: Text,
 }
 
-/// Something that happens.
+/// An action of a script.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// Each key that follows is given so much time to be seen.
+    /// Sets how long each following key is shown.
     Pace(Micros),
-    /// Keys are pressed.
+    /// Presses keys.
     Press(Vec<KeyEvent>),
-    /// Characters are typed.
+    /// Types characters.
     Type(String),
-    /// Time passes.
+    /// Lets time pass.
     Wait(Micros),
-    /// A parameter or an initial value is set.
+    /// Sets a parameter or an initial value.
     Set(Text, Text),
-    /// Parameters and initial values go evenly to others while time passes.
+    /// Moves parameters and initial values evenly to other values while time passes.
     Sweep {
-        /// Which, all at once.
+        /// The values, which move simultaneously.
         ways: Vec<SweepPath>,
-        /// In what time.
+        /// The duration.
         time: Micros,
     },
-    /// Simulated seconds in a second.
+    /// Sets the simulated seconds per second.
     Speed(Text),
-    /// The line below the screen says this; empty, it says nothing.
+    /// Sets the line below the screen; an empty text clears it.
     Caption(String),
-    /// A chapter begins.
+    /// Begins a chapter.
     Marker(String),
-    /// Something must hold now.
+    /// Asserts a claim.
     Assert(Assert),
 }
 
-/// What must hold.
+/// An assertion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Assert {
-    /// Time runs, is held, has ended, or cannot go on.
+    /// The status: running, paused, ended or stopped.
     Status(Word),
     /// The text is on the screen.
     Screen(String),
@@ -141,15 +141,15 @@ pub enum Assert {
     Verdict(Text, Word),
     /// A number compares with another.
     Number {
-        /// What is measured.
+        /// The measure.
         measure: Measure,
-        /// Of what, or which expression.
+        /// Its subject, or the expression.
         of: Text,
-        /// How it compares.
+        /// The relation.
         relation: Relation,
-        /// With what.
+        /// The other number.
         with: Text,
-        /// How far it may be off; where numbers are to be equal.
+        /// The tolerance, if the numbers are to be equal.
         within: Option<Text>,
     },
 }
@@ -157,31 +157,31 @@ pub enum Assert {
 /// One of a few words.
 pub type Word = &'static str;
 
-/// What is measured.
+/// A number that can be asserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// An expression of the present state.
+    /// An expression of the current state.
     Value,
     /// The greatest drift of a gauge since its reference.
     Drift,
     /// The least value of a channel since the motion began.
     Least,
-    /// The greatest.
+    /// The greatest value of a channel since the motion began.
     Greatest,
-    /// How often an event or an impulse has happened.
+    /// The number of occurrences of an event or impulse.
     Count,
-    /// When it last happened.
+    /// The time of the last occurrence.
     Time,
 }
 
-/// How two numbers compare.
+/// A relation between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// Equal, within a tolerance.
     Equal,
-    /// Below.
+    /// Less.
     Less,
-    /// Above.
+    /// Greater.
     More,
 }
 
@@ -189,7 +189,7 @@ impl Script {
     /// Reads a script.
     ///
     /// # Errors
-    /// Every mistake, in its place.
+    /// Returns every mistake with its range.
     pub fn read(document: &Document) -> Result<Script, Vec<Diagnostic>> {
         if let Some(mistake) = document.unreadable() {
             return Err(vec![mistake.clone()]);
@@ -203,17 +203,17 @@ impl Script {
         reading.conclude(document.text.len())
     }
 
-    /// How many characters a caption may have on a screen of this width.
+    /// The number of characters that fit in a caption on a screen of this width.
     pub fn caption_room(width: u16) -> usize {
         usize::from(width).saturating_sub(4)
     }
 
-    /// Whether a row of the screen is kept for captions.
+    /// Whether a row of the screen is reserved for captions.
     pub fn has_captions(&self) -> bool {
         self.steps.iter().any(|(_, step)| matches!(step, Step::Caption(_)))
     }
 
-    /// How long it lasts, but for what a key's pace adds.
+    /// The duration, without the time for keys.
     fn length(&self) -> Micros {
         let (mut pace, mut length) = (PACE, 0_u64);
         for (_, step) in &self.steps {
@@ -232,32 +232,32 @@ impl Script {
     }
 }
 
-/// How long a key is given to be seen, where the script does not say.
+/// How long a key is shown if the script does not specify it.
 pub const PACE: Micros = 150_000;
 
-/// What was read so far.
+/// The result of reading so far.
 #[derive(Default)]
 struct Reading {
     head: Head,
-    said: HashMap<&'static str, SourceRange>,
+    given: HashMap<&'static str, SourceRange>,
     steps: Vec<(SourceRange, Step)>,
     markers: HashMap<String, SourceRange>,
     mistakes: Vec<Diagnostic>,
 }
 
-/// What a line says.
+/// The meaning of a line.
 pub(super) enum Said {
-    /// Something for the whole demo.
+    /// A setting of the whole demo.
     Head(Box<dyn FnOnce(&mut Head)>),
-    /// Something that happens.
+    /// A step.
     Step(Step),
 }
 
-/// More mistakes than these are not reported.
+/// At most this many mistakes are reported.
 const MOST_MISTAKES: usize = 100;
 
 impl Reading {
-    /// One line of the text, which begins at a byte.
+    /// Reads one line of the text, which begins at this byte.
     fn line(&mut self, text: &str, start: usize) {
         let mut line = Line::new(text, start);
         let Some(word) = line.word() else { return };
@@ -271,17 +271,17 @@ impl Reading {
     fn command(&mut self, word: &Text, line: &mut Line<'_>) -> Result<(), Diagnostic> {
         let command = COMMANDS.iter().find(|command| command.name == word.text);
         let command = command.ok_or_else(|| unknown(word))?;
-        let said = (command.read)(line)?;
+        let parsed = (command.read)(line)?;
         line.end(command.form)?;
         let place = word.place.start..line.here();
-        match said {
+        match parsed {
             Said::Head(say) => {
                 if !self.steps.is_empty() {
                     let message = format!("`{}` comes too late: the demo has begun", word.text);
                     let help = "what holds for the whole demo stands before what happens";
                     return Err(Diagnostic::error(word.place.clone(), message).with_help(help));
                 }
-                if let Some(first) = self.said.insert(command.name, word.place.clone()) {
+                if let Some(first) = self.given.insert(command.name, word.place.clone()) {
                     let message = format!("`{}` is said twice", word.text);
                     let mistake = Diagnostic::error(word.place.clone(), message);
                     return Err(mistake.with_also(first, "it was said here"));

@@ -1,8 +1,8 @@
-//! A performance: a script on its way, frame by frame, in the laboratory on virtual time.
+//! A script being performed, frame by frame, in the laboratory on virtual time.
 //!
-//! In: a [`Script`] and the system it is about. Out: what happens next, one [`RunnerEvent`] at a time, and the screen as it is
-//! then. Whoever asks for the beats decides whether they come as fast as they can (a recording) or as time passes (a demo
-//! on a terminal). Never here: a cast, a clock, a terminal.
+//! In: a [`Script`] and its system. Out: the next [`RunnerEvent`], one at a time, and the screen at that point. The
+//! caller decides whether the events come as fast as possible (a recording) or as time passes (a demo on a terminal).
+//! Never here: a cast, a clock, a terminal.
 
 use std::ops::Range;
 use std::{mem, vec};
@@ -28,17 +28,17 @@ const KEY_SHOWN: Micros = 1_200_000;
 /// The most keys shown there.
 const KEYS_SHOWN: usize = 6;
 
-/// The most rows a caption takes on a screen narrower than the one it was written for.
+/// The most rows of a caption on a screen narrower than the one it was written for.
 const CAPTION_ROWS: u16 = 3;
 
 /// A script being performed.
 pub struct ScriptRunner {
     pub(super) lab: HeadlessLab,
     script: Script,
-    /// The step that comes next.
+    /// The index of the next step.
     next: usize,
     under_way: UnderWay,
-    /// Time passes, or something else needs a first picture.
+    /// Whether a first picture is due, because time passes or something else needs it.
     begins: bool,
     begun: bool,
     pace: Micros,
@@ -48,14 +48,14 @@ pub struct ScriptRunner {
     size: Size,
 }
 
-/// What of a step is still to be done.
+/// The unfinished part of a step.
 enum UnderWay {
     Nothing,
     Keys(vec::IntoIter<KeyEvent>),
     Sweep { courses: Vec<Course>, frame: u64, count: u64 },
 }
 
-/// A value on its way, from one number to another.
+/// A value that moves from one number to another.
 #[derive(Clone, Copy)]
 struct Course {
     target: ValueId,
@@ -63,29 +63,29 @@ struct Course {
     to: f64,
 }
 
-/// A key beside the caption: its name, how often it was pressed (0 for typed text), until when it is shown.
+/// A key beside the caption: its name, its number of presses (0 for typed text), and the time it disappears.
 struct ShownKey {
     name: String,
     count: usize,
     until: Micros,
 }
 
-/// What happens next in a performance.
+/// The next event of a performance.
 pub(super) enum RunnerEvent {
-    /// A frame has come and is to be drawn.
+    /// A frame is due and is to be drawn.
     Frame,
-    /// Something was done.
+    /// An action was performed.
     Done(&'static str, String),
-    /// Something is claimed there; [`ScriptRunner::find`] says what to think of it.
+    /// An assertion at this range; [`ScriptRunner::find`] evaluates it.
     Claim(Range<usize>, Assert),
     /// A chapter begins.
     Marker(String),
-    /// It is over.
+    /// The performance has ended.
     Overlay,
 }
 
 impl ScriptRunner {
-    /// At its beginning, on a screen of some size; `called` is how the system is called on the screen.
+    /// Starts at the beginning, on a screen of some size; `called` is the system's name on the screen.
     pub(super) fn new(
         script: Script,
         document: &Document,
@@ -113,10 +113,10 @@ impl ScriptRunner {
         })
     }
 
-    /// A performance for someone who watches.
+    /// Starts a live performance.
     ///
     /// # Errors
-    /// The mistake by which the system cannot be opened.
+    /// Returns the mistake for which the system cannot be opened.
     pub fn watched(
         script: Script,
         document: &Document,
@@ -126,11 +126,11 @@ impl ScriptRunner {
         ScriptRunner::new(script, document, called, size.into(), Budget::WATCHED)
     }
 
-    /// Goes on until so much time has passed since the beginning; whether there is more to come. What is claimed on the
-    /// way is not looked at: on another screen than its own a demo may show less.
+    /// Advances to this time since the beginning; returns whether there is more. Assertions are skipped, because a
+    /// demo may show less on a screen of another size.
     ///
     /// # Errors
-    /// The mistake of the script that only its system shows.
+    /// Returns a mistake of the script that only its system reveals.
     pub fn go_on(&mut self, time: Micros) -> Result<bool, Diagnostic> {
         while !self.begun || self.lab.clock.next() <= time {
             if matches!(self.beat()?, RunnerEvent::Overlay) {
@@ -140,12 +140,12 @@ impl ScriptRunner {
         Ok(true)
     }
 
-    /// When the frame that is shown came.
+    /// The time of the current frame.
     pub fn now(&self) -> Micros {
         self.lab.now()
     }
 
-    /// Does what comes next.
+    /// Performs the next action.
     pub(super) fn beat(&mut self) -> Result<RunnerEvent, Diagnostic> {
         loop {
             if self.begins && !self.begun {
@@ -184,7 +184,7 @@ impl ScriptRunner {
     /// Begins the next step of the script.
     fn step(&mut self) -> Result<Option<RunnerEvent>, Diagnostic> {
         let Some((place, step)) = self.script.steps.get(self.next).cloned() else {
-            // what never showed anything shows its first picture
+            // a script that has not shown anything draws its first picture
             self.begins = true;
             return Ok(self.begun.then_some(RunnerEvent::Overlay));
         };
@@ -229,15 +229,15 @@ impl ScriptRunner {
             Step::Sweep { ways, time } => {
                 let courses =
                     ways.iter().map(|way| self.course(way)).collect::<Result<Vec<_>, _>>()?;
-                let told = ways.iter().zip(&courses).map(|(way, Course { from, to, .. })| {
+                let moves = ways.iter().zip(&courses).map(|(way, Course { from, to, .. })| {
                     format!("{} from {from} to {to}", way.name.text)
                 });
-                let told = told.collect::<Vec<_>>().join(", ");
+                let moves = moves.collect::<Vec<_>>().join(", ");
                 self.lab.app.hold_on();
                 self.pass(time);
                 let count = self.lab.clock.left();
                 self.under_way = UnderWay::Sweep { courses, frame: 0, count };
-                done("sweep", told)
+                done("sweep", moves)
             }
             Step::Speed(written) => {
                 let speed = assertion::value(&self.lab.app, &written)?;
@@ -257,12 +257,12 @@ impl ScriptRunner {
         }
     }
 
-    /// What is to be thought of a claim now.
+    /// Evaluates an assertion now.
     pub(super) fn find(&self, claim: &Assert, screen: &[String]) -> Result<Finding, Diagnostic> {
         assertion::find(claim, &self.lab.app, screen)
     }
 
-    /// Which value a name means: a parameter, or an initial value.
+    /// The value that a name refers to: a parameter or an initial value.
     fn target(&self, name: &Text) -> Result<ValueId, Diagnostic> {
         let Some(lab) = &self.lab.app.lab else {
             return Err(Diagnostic::error(name.place.clone(), "there is no system here"));
@@ -279,7 +279,7 @@ impl ScriptRunner {
         })
     }
 
-    /// What goes from where to where.
+    /// The course of one value in a sweep.
     fn course(&self, way: &SweepPath) -> Result<Course, Diagnostic> {
         let target = self.target(&way.name)?;
         let of = |text: &Text| assertion::value(&self.lab.app, text);
@@ -291,26 +291,26 @@ impl ScriptRunner {
         Ok(Course { target, from, to: of(&way.to)? })
     }
 
-    /// Puts values at a part of their ways.
+    /// Sets the values at a fraction of their courses.
     fn carry(&mut self, courses: &[Course], part: f64) {
         for &Course { target, from, to } in courses {
             self.lab.set(target, if part < 1.0 { from + (to - from) * part } else { to });
         }
     }
 
-    /// All that it carried is there; a key would take it back as one.
+    /// Ends a sweep, after which undo reverts all of it at once.
     fn end_sweep(&mut self) {
         self.under_way = UnderWay::Nothing;
         self.lab.app.drop_hold();
     }
 
-    /// Lets time pass; its frames are the next beats.
+    /// Lets time pass; its frames are the next events.
     fn pass(&mut self, time: Micros) {
         self.begins = true;
         self.lab.clock.pass(time);
     }
 
-    /// Presses a key, and gives it time to be seen.
+    /// Presses a key and gives it time to be seen.
     fn press(&mut self, key: KeyEvent) {
         if self.lab.left {
             return;
@@ -320,7 +320,7 @@ impl ScriptRunner {
         self.pass(self.pace);
     }
 
-    /// The key stands beside the caption for a while; typed characters stand together.
+    /// Shows the key beside the caption for a while; typed characters are grouped.
     fn show_key(&mut self, key: KeyEvent) {
         let until = self.lab.now().saturating_add(KEY_SHOWN);
         let typing = self.lab.app.is_typing() && matches!(key.code, KeyCode::Char(c) if c != ' ');
@@ -338,7 +338,7 @@ impl ScriptRunner {
         }
     }
 
-    /// Goes on by one frame.
+    /// Advances by one frame.
     fn frame(&mut self) {
         if let UnderWay::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;
@@ -355,32 +355,32 @@ impl ScriptRunner {
         self.keys.drain(..surplus);
     }
 
-    /// Draws the present, and tells the application what became of it.
-    pub fn draw(&mut self, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
+    /// Draws the current state, and reports the result to the application.
+    pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
         self.size = area.as_size();
-        let drawn = self.paint(look, area, buffer);
+        let drawn = self.paint(style, area, buffer);
         self.lab.happen(Event::Drawn(drawn));
         drawn
     }
 
-    /// Holds time, or lets it go on: what is shown says so.
+    /// Pauses or resumes time; the screen shows which.
     pub fn hold(&mut self, held: bool) {
         self.lab.app.held = held;
     }
 
     /// The screen as it would be drawn now.
-    pub fn picture(&self, look: &RenderStyle) -> Buffer {
+    pub fn picture(&self, style: &RenderStyle) -> Buffer {
         let area = Rect::from(self.size);
         let mut buffer = Buffer::empty(area);
-        self.paint(look, area, &mut buffer);
+        self.paint(style, area, &mut buffer);
         buffer
     }
 
     /// Draws the lab, and the caption below it.
-    fn paint(&self, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
+    fn paint(&self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
         let rows = self.caption_rows(area.width).min(area.height);
         let height = area.height - rows;
-        let drawn = view::draw(&self.lab.app, look, Rect { height, ..area }, buffer);
+        let drawn = view::draw(&self.lab.app, style, Rect { height, ..area }, buffer);
         if rows > 0 {
             let below = Rect { y: area.y + height, height: rows, ..area };
             let written = |key: &ShownKey| match key.count {
@@ -388,13 +388,13 @@ impl ScriptRunner {
                 count => format!("{} x{count}", key.name),
             };
             let keys: Vec<String> = self.keys.iter().map(written).collect();
-            caption::draw(look, &Caption { text: &self.caption, keys: &keys }, below, buffer);
+            caption::draw(style, &Caption { text: &self.caption, keys: &keys }, below, buffer);
         }
         plain(buffer);
         drawn
     }
 
-    /// How many rows are kept for captions, the same from beginning to end.
+    /// The number of rows reserved for captions, constant throughout.
     fn caption_rows(&self, width: u16) -> u16 {
         let texts = self.script.steps.iter().filter_map(|(_, step)| match step {
             Step::Caption(text) => Some(text.as_str()),

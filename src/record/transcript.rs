@@ -1,11 +1,11 @@
-//! The account of a recording in words: what was done when, what was claimed and found, and the screen at each chapter.
+//! The transcript of a recording: the actions and assertions with their times, and the screen at each chapter.
 //!
-//! In: a [`Recording`]. Out: text of lines no wider than the screen needs. Never here: files.
+//! In: a [`Recording`]. Out: text with lines no wider than the screen needs. Never here: files.
 
 use super::clock::Micros;
 use super::recording::{Entry, Recording, rows, seconds};
 
-/// The account.
+/// Writes the transcript.
 pub fn write(recording: &Recording) -> String {
     let Recording { title, size: (columns, height), fps, end, .. } = recording;
     let mut account = vec![
@@ -34,7 +34,7 @@ fn line(time: Micros, what: &str, text: &str) -> String {
     format!("{:>8} s  {what:<8}  {text}", seconds(time)).trim_end().to_owned()
 }
 
-/// A row of the screen, set apart from the account's own lines.
+/// A row of the screen, set off from the transcript's own lines.
 fn framed(row: &str) -> String {
     format!("    | {row}").trim_end().to_owned()
 }

@@ -200,7 +200,7 @@ pub(super) struct NewFile {
     registered: Registered,
     /// The bytes not written yet.
     pending: Vec<u8>,
-    /// The number of bytes in the file that form whole lines (or the end of the file).
+    /// The number of bytes that stay in the file: whole lines, except at the end.
     whole: u64,
     folder: PathBuf,
     stem: String,
@@ -279,9 +279,9 @@ impl NewFile {
             }
         }
         let why = named(&place, &why);
-        let kept = temporary.keep().map_or(self.registered.0.clone(), |(_, path)| path);
-        let told = format!("{why}; it is in {}", printable::path(&kept));
-        Err(io::Error::new(why.kind(), told))
+        let path = temporary.keep().map_or(self.registered.0.clone(), |(_, path)| path);
+        let message = format!("{why}; it is in {}", printable::path(&path));
+        Err(io::Error::new(why.kind(), message))
     }
 
     /// Returns the path with this number.
@@ -325,15 +325,15 @@ fn numbered(stem: &str, number: u32, ending: &str) -> String {
 /// do not belong in a file name.
 fn plain(name: &str) -> String {
     let last = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    let kept: String =
+    let clean: String =
         last.chars().filter(|&c| !printable::is_steering(c) && !"/\\:".contains(c)).collect();
-    if kept.is_empty() { "phaselab".to_owned() } else { kept }
+    if clean.is_empty() { "phaselab".to_owned() } else { clean }
 }
 
 /// Adds the file's name to an error.
 pub(super) fn named(path: &Path, why: &io::Error) -> io::Error {
-    let told = format!("cannot write {}: {}", printable::path(path), printable::why(why));
-    io::Error::new(why.kind(), told)
+    let message = format!("cannot write {}: {}", printable::path(path), printable::why(why));
+    io::Error::new(why.kind(), message)
 }
 
 /// Returns the unfinished files in a folder whose writers have ended (killed, or by a power failure), with the

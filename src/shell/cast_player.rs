@@ -19,7 +19,7 @@ use crate::view::theme::Role;
 
 /// A cast being shown.
 pub struct CastPlayer {
-    tape: RecordedCast,
+    cast: RecordedCast,
     look: RenderStyle,
     screen: avt::Vt,
     /// The index of the next event, and how many bytes of it have been written.
@@ -28,7 +28,7 @@ pub struct CastPlayer {
     time: f64,
     /// An index into [`SPEEDS`].
     speed: usize,
-    held: bool,
+    paused: bool,
     /// Whether the user has shown or hidden the control line, if so.
     wanted: Option<bool>,
     /// How much longer the control line is shown by default.
@@ -37,7 +37,7 @@ pub struct CastPlayer {
     size: Size,
     /// The parts of the control line that change by themselves: the second, whether the cast is over, whether the
     /// line is shown.
-    told: (u64, bool, bool),
+    shown: (u64, bool, bool),
 }
 
 /// How long the control line covers the last row after a key, and at the start.
@@ -48,7 +48,7 @@ const AT_FIRST: Duration = Duration::from_secs(5);
 const SPEEDS: [f64; 9] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0];
 
 /// The index of the cast's own speed.
-const EVEN: usize = 3;
+const NORMAL: usize = 3;
 
 /// The time that a frame may spend on the cast, and the number of characters written between two checks of it.
 const SPENT: Duration = Duration::from_millis(15);
@@ -62,20 +62,20 @@ const LEAP: f64 = 5e6;
 
 impl CastPlayer {
     /// Creates a player at the start of a cast.
-    pub fn new(tape: RecordedCast, look: RenderStyle) -> Self {
-        let screen = blank(tape.size);
+    pub fn new(cast: RecordedCast, look: RenderStyle) -> Self {
+        let screen = blank(cast.size);
         Self {
-            tape,
+            cast,
             look,
             screen,
             next: (0, 0),
             time: 0.0,
-            speed: EVEN,
-            held: false,
+            speed: NORMAL,
+            paused: false,
             wanted: None,
             awake: AT_FIRST,
             size: Size::default(),
-            told: (0, false, true),
+            shown: (0, false, true),
         }
     }
 
@@ -85,8 +85,8 @@ impl CastPlayer {
     }
 
     /// Whether the control line is shown.
-    fn is_reported(&self) -> bool {
-        let by_itself = self.has_room() || self.held || self.is_over() || !self.awake.is_zero();
+    fn shows_controls(&self) -> bool {
+        let by_itself = self.has_room() || self.paused || self.is_over() || !self.awake.is_zero();
         self.wanted.unwrap_or(by_itself)
     }
 
@@ -105,14 +105,14 @@ impl CastPlayer {
 
     /// Whether the cast is over.
     pub fn is_over(&self) -> bool {
-        self.next.0 == self.tape.events.len() && self.time >= self.tape.end as f64
+        self.next.0 == self.cast.events.len() && self.time >= self.cast.end as f64
     }
 
     /// Seeks to a time; seeking backwards replays the cast from the start.
     fn go(&mut self, time: f64) {
-        let time = time.clamp(0.0, self.tape.end as f64);
+        let time = time.clamp(0.0, self.cast.end as f64);
         if time < self.time {
-            self.screen = blank(self.tape.size);
+            self.screen = blank(self.cast.size);
             self.next = (0, 0);
         }
         self.time = time;
@@ -120,22 +120,22 @@ impl CastPlayer {
 
     /// Advances to the next event and pauses there.
     fn step(&mut self) {
-        self.held = true;
+        self.paused = true;
         let later = |(time, _): &&(u64, CastEvent)| *time as f64 > self.time;
-        let next = self.tape.events.iter().find(later).map(|(time, _)| *time as f64);
-        self.go(next.unwrap_or(self.tape.end as f64));
+        let next = self.cast.events.iter().find(later).map(|(time, _)| *time as f64);
+        self.go(next.unwrap_or(self.cast.end as f64));
     }
 
     /// Returns the chapters, ordered by time.
     fn chapters(&self) -> impl DoubleEndedIterator<Item = (f64, &str)> {
-        self.tape.events.iter().filter_map(|(time, turn)| match turn {
+        self.cast.events.iter().filter_map(|(time, event)| match event {
             CastEvent::Marker(name) => Some((*time as f64, name.as_str())),
             _ => None,
         })
     }
 
     fn press(&mut self, key: KeyEvent) -> ScreenRequest {
-        let told = self.is_reported();
+        let shown = self.shows_controls();
         self.awake = self.awake.max(AWAKE);
         let ctrl = key.modifiers.contains(KeyModifiers::CONTROL);
         match key.code {
@@ -148,15 +148,15 @@ impl CastPlayer {
             code => match code {
                 KeyCode::Char('q') | KeyCode::Esc => return ScreenRequest::Quit,
                 KeyCode::Char(' ' | 'p') if self.is_over() => self.go(0.0),
-                KeyCode::Char(' ' | 'p') => self.held = !self.held,
+                KeyCode::Char(' ' | 'p') => self.paused = !self.paused,
                 KeyCode::Char('.') => self.step(),
-                KeyCode::Char('c') => self.wanted = Some(!told),
+                KeyCode::Char('c') => self.wanted = Some(!shown),
                 KeyCode::Char('[') => self.speed = self.speed.saturating_sub(1),
                 KeyCode::Char(']') => self.speed = (self.speed + 1).min(SPEEDS.len() - 1),
                 KeyCode::Left | KeyCode::Char('h') => self.go(self.time - LEAP),
                 KeyCode::Right | KeyCode::Char('l') => self.go(self.time + LEAP),
                 KeyCode::Home | KeyCode::Char('0') => self.go(0.0),
-                KeyCode::End => self.go(self.tape.end as f64),
+                KeyCode::End => self.go(self.cast.end as f64),
                 KeyCode::Tab | KeyCode::BackTab => {
                     let to = if code == KeyCode::BackTab {
                         // Shortly after a chapter's start, go to the previous one.
@@ -182,11 +182,11 @@ impl CastPlayer {
     fn write(&mut self) -> bool {
         let began = Instant::now();
         let mut written = false;
-        while let Some((time, turn)) = self.tape.events.get(self.next.0) {
+        while let Some((time, event)) = self.cast.events.get(self.next.0) {
             if *time as f64 > self.time {
                 break;
             }
-            match turn {
+            match event {
                 CastEvent::Output(text) => {
                     let rest = &text[self.next.1..];
                     let end = rest.char_indices().nth(CHARACTERS).map_or(rest.len(), |(at, _)| at);
@@ -215,9 +215,9 @@ impl CastPlayer {
     }
 
     /// Draws the control line: the time in the cast, then the keys, the most important first.
-    fn tell(&self, row: Rect, buffer: &mut Buffer) {
+    fn draw_controls(&self, row: Rect, buffer: &mut Buffer) {
         let glyphs = self.look.glyphs;
-        let (sign, role) = match (self.is_over(), self.held) {
+        let (sign, role) = match (self.is_over(), self.paused) {
             (true, _) => (glyphs.pick("■", "#"), Role::Dim),
             (_, true) => (glyphs.pick("‖", "="), Role::Warn),
             _ => (glyphs.pick("▶", ">"), Role::Good),
@@ -227,7 +227,7 @@ impl CastPlayer {
         let pieces = [
             (role, format!("{sign} ")),
             (Role::Accent, clock(self.time)),
-            (Role::Dim, format!(" of {}  ", clock(self.tape.end as f64))),
+            (Role::Dim, format!(" of {}  ", clock(self.cast.end as f64))),
             (Role::Text, format!("×{}{chapter}", SPEEDS[self.speed])),
         ];
         let (pause, rest) = if self.is_over() { ("again", "") } else { ("pause", "  . step") };
@@ -293,16 +293,16 @@ impl Screen for CastPlayer {
     fn advance(&mut self, elapsed: Duration) -> bool {
         // All events up to the current time must be written before time advances.
         let behind =
-            self.tape.events.get(self.next.0).is_some_and(|(t, _)| (*t as f64) < self.time);
-        if !self.held && !behind {
+            self.cast.events.get(self.next.0).is_some_and(|(t, _)| (*t as f64) < self.time);
+        if !self.paused && !behind {
             let passed = elapsed.as_secs_f64() * 1e6 * SPEEDS[self.speed];
-            self.time = (self.time + passed).min(self.tape.end as f64);
+            self.time = (self.time + passed).min(self.cast.end as f64);
         }
         let written = self.write();
         self.awake = self.awake.saturating_sub(elapsed);
-        let told = ((self.time / 1e6) as u64, self.is_over(), self.is_reported());
-        let changed = written || told != self.told;
-        self.told = told;
+        let shown = ((self.time / 1e6) as u64, self.is_over(), self.shows_controls());
+        let changed = written || shown != self.shown;
+        self.shown = shown;
         changed
     }
 
@@ -326,10 +326,10 @@ impl Screen for CastPlayer {
                 x += cell.width() as u16;
             }
         }
-        if area.height > 0 && self.is_reported() {
+        if area.height > 0 && self.shows_controls() {
             let rows = self.screen.size().1;
             let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };
-            self.tell(Rect { y, height: 1, ..area }, buffer);
+            self.draw_controls(Rect { y, height: 1, ..area }, buffer);
             if let Some(sentence) = self.cut_off().filter(|_| y > area.y) {
                 let row = Rect { y: y - 1, height: 1, ..area };
                 self.write_over(row, &[(Role::Warn, sentence)], buffer);

@@ -1,4 +1,4 @@
-//! The decoder: the bytes a terminal sends, as crossterm's events.
+//! The decoder: turns the bytes that a terminal sends into crossterm's events.
 //!
 //! In: bytes, in pieces of any size, and timeouts without input; which reports are enabled.
 //! Out: [`Event`]s. Never here: what a key does. No byte string makes it panic or get stuck.
@@ -11,13 +11,13 @@
 //!
 //! | crossterm's reader | thread | test |
 //! |---|---|---|
-//! | A paste whose end never comes swallows all further keys, without a limit of bytes or time, and `poll` does not return. | #1060 | `a_paste_without_an_end_is_taken_when_it_rests`, `pastes_are_one_event_and_bounded`, `a_paste_that_never_ends_does_not_keep_it` |
-//! | So do `CSI <`, `CSI M` and `CSI ?` without an end … | #1104 | `a_sequence_without_an_end_swallows_no_key_for_long`, `a_report_that_never_ends_does_not_keep_it` |
-//! | … and an answer `CSI ? … y` that has one. | #1104, #1106 | `an_answer_that_is_not_understood_swallows_no_key` |
-//! | An arrow key cut after its first byte, as a slow line cuts it, is Esc and two letters. | #993 | `a_cut_arrow_key_is_no_esc` |
+//! | A paste without an end swallows all further keys, with no limit of bytes or time, and `poll` does not return. | #1060 | `a_paste_without_an_end_is_taken_when_it_rests`, `pastes_are_one_event_and_bounded`, `a_paste_that_never_ends_does_not_keep_it` |
+//! | `CSI <`, `CSI M` and `CSI ?` without an end do the same … | #1104 | `a_sequence_without_an_end_swallows_no_key_for_long`, `a_report_that_never_ends_does_not_keep_it` |
+//! | … and so does a complete answer `CSI ? … y`. | #1104, #1106 | `an_answer_that_is_not_understood_swallows_no_key` |
+//! | An arrow key split after its first byte, as on a slow connection, is read as Esc and two letters. | #993 | `a_cut_arrow_key_is_no_esc` |
 //! | A report of the mouse from column or row 0 panics, or wraps to 65535 in a release. | #835, #590, #1049 | `a_report_from_row_or_column_zero_is_none` |
-//! | An answer nobody asked for (OSC, DCS, `CSI >`) is typed, letter by letter. | #834 | `what_nobody_asked_for_is_no_key` |
-//! | Once the terminal is gone `poll` spins and never returns. | #793, #1067, #1116 | `a_dead_line_ends_it_soon_and_without_a_loop` |
+//! | An unsolicited answer (OSC, DCS, `CSI >`) is read as typed text, letter by letter. | #834 | `what_nobody_asked_for_is_no_key` |
+//! | Once the terminal is gone, `poll` spins and never returns. | #793, #1067, #1116 | `a_dead_line_ends_it_soon_and_without_a_loop` |
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};

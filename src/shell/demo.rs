@@ -26,7 +26,7 @@ pub(super) struct Demo {
     detail: Detail,
     /// The time since the start, without pauses.
     time: Duration,
-    held: bool,
+    paused: bool,
     /// How it ended, by itself or by the user; an error if the script is wrong.
     end: Option<Result<(), Diagnostic>>,
 }
@@ -35,7 +35,7 @@ impl Demo {
     /// Creates a demo at its start.
     pub(super) fn new(performance: ScriptRunner, look: RenderStyle) -> Self {
         let (detail, time) = (Detail::default(), Duration::ZERO);
-        Self { performance, look, detail, time, held: false, end: None }
+        Self { performance, look, detail, time, paused: false, end: None }
     }
 
     /// Returns the last picture of a demo that was not ended by the user, or what is wrong with the script.
@@ -56,8 +56,8 @@ impl Screen for Demo {
             (KeyCode::Char('l'), true) => ScreenRequest::Repaint,
             (KeyCode::Char('q') | KeyCode::Esc, _) => ScreenRequest::Quit,
             (KeyCode::Char(' '), _) => {
-                self.held = !self.held;
-                self.performance.hold(self.held);
+                self.paused = !self.paused;
+                self.performance.hold(self.paused);
                 ScreenRequest::Nothing
             }
             _ => ScreenRequest::Nothing,
@@ -65,7 +65,7 @@ impl Screen for Demo {
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
-        if self.held || self.end.is_some() {
+        if self.paused || self.end.is_some() {
             return false;
         }
         self.time += elapsed.min(LONGEST);

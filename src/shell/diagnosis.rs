@@ -86,14 +86,14 @@ fn why<T: PartialEq>(
     };
     let deciding: Vec<&str> = set.iter().copied().filter(decides).collect();
     // If several variables agree, none of them decides alone.
-    let told = if deciding.is_empty() { set } else { deciding };
-    let told = told.iter().map(|name| match variables(name) {
+    let listed = if deciding.is_empty() { set } else { deciding };
+    let listed = listed.iter().map(|name| match variables(name) {
         // The addresses of a connection are private and do not belong in a report.
         Some(value) if !OF_LINE.contains(name) => format!("{name}={value}"),
         _ => format!("{name} is set"),
     });
-    let told = told.collect::<Vec<_>>().join(", ");
-    if told.is_empty() { format!("none of {} is set", names.join(", ")) } else { told }
+    let listed = listed.collect::<Vec<_>>().join(", ");
+    if listed.is_empty() { format!("none of {} is set", names.join(", ")) } else { listed }
 }
 
 #[cfg(test)]

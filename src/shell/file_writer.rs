@@ -155,8 +155,8 @@ mod tests {
         assert_eq!(outcomes.len(), 3);
         assert_eq!(fs::read_to_string(&path).expect("it is there"), "two");
         let (_, failed) = &outcomes[2];
-        let told = failed.as_ref().expect_err("there is no such folder").to_string();
-        assert!(told.starts_with("cannot write ") && told.contains("b.toml"), "{told}");
+        let message = failed.as_ref().expect_err("there is no such folder").to_string();
+        assert!(message.starts_with("cannot write ") && message.contains("b.toml"), "{message}");
         file_writer.remove(&path);
         file_writer.remove(&path);
         assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));

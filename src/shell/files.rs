@@ -34,8 +34,8 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
         }
     }
     if fs::metadata(place).is_ok_and(|about| about.permissions().readonly()) {
-        let told = format!("{} is read-only, and stays as it is", place.display());
-        return Err(SaveError::Refused(told));
+        let message = format!("{} is read-only, and stays as it is", place.display());
+        return Err(SaveError::Refused(message));
     }
     atomic_file::write(place, text.as_bytes(), Durability::OnDisk)
         .map_err(|error| refused("write", place, &error))
@@ -70,8 +70,8 @@ fn refused(what: &str, place: &Path, error: &io::Error) -> SaveError {
 /// Returns an error that names the file if it cannot be read, is not a regular file, is not text or is too long.
 pub(super) fn read(place: &Path) -> io::Result<String> {
     regular::read_text(place, TEXT_LIMIT).map_err(|error| {
-        let told = format!("cannot read {}: {}", place.display(), printable::why(&error));
-        io::Error::new(error.kind(), told)
+        let message = format!("cannot read {}: {}", place.display(), printable::why(&error));
+        io::Error::new(error.kind(), message)
     })
 }
 
@@ -222,8 +222,8 @@ mod tests {
         assert_eq!(watch.look(&place, LOOKS), text("again", false));
         // It is gone for good.
         fs::remove_file(&place).expect("it goes");
-        let looks: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
-        assert_eq!(looks, [FileChange::Gone], "it is reported once");
+        let changes: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
+        assert_eq!(changes, [FileChange::Gone], "it is reported once");
         fs::write(&place, "again").expect("it is written");
         assert_eq!(watch.look(&place, LOOKS), text("again", true));
         assert_eq!(watch.look(&place, LOOKS), None);

@@ -48,7 +48,7 @@ pub trait Screen {
     /// program is being terminated and there is little time.
     fn on_exit(&mut self, _hurried: bool) {}
 
-    /// Called if the connection to the terminal is too slow or fast again: sets the detail of the next pictures.
+    /// Sets the level of detail of the next pictures, as the bandwidth allows.
     fn reduce(&mut self, _detail: Detail) {}
 }
 
@@ -106,7 +106,7 @@ pub fn perform(page: &mut impl Screen, pace: Pace) -> Result<Ending, LabError> {
     panic::guard(&terminal);
     let signals = Signals::watch(Arc::clone(&terminal))?;
     let guard = Guard(terminal);
-    let mut stage = Stage {
+    let mut frame_loop = FrameLoop {
         terminal: &guard.0,
         signals,
         events: Decoder::default(),
@@ -117,7 +117,7 @@ pub fn perform(page: &mut impl Screen, pace: Pace) -> Result<Ending, LabError> {
         mouse: pace.mouse,
         failures: 0,
     };
-    let ended = stage.enter().and_then(|()| stage.run(page));
+    let ended = frame_loop.enter().and_then(|()| frame_loop.run(page));
     page.on_exit(!matches!(ended, Ok(Ending::Quit)));
     Ok(ended?)
 }
@@ -131,7 +131,7 @@ impl Drop for Guard {
     }
 }
 
-struct Stage<'a, E> {
+struct FrameLoop<'a, E> {
     terminal: &'a Terminal,
     signals: Signals,
     events: E,
@@ -144,21 +144,21 @@ struct Stage<'a, E> {
     failures: u32,
 }
 
-impl<E: EventSource> Stage<'_, E> {
+impl<E: EventSource> FrameLoop<'_, E> {
     fn run(&mut self, page: &mut impl Screen) -> io::Result<Ending> {
         let mut last = Instant::now();
         let mut due = last;
         let mut changed = true;
         loop {
-            let notes = self.signals.take();
-            if let Some(signal) = notes.fatal {
+            let pending = self.signals.take();
+            if let Some(signal) = pending.fatal {
                 return Ok(Ending::Signal(signal));
             }
-            if notes.stop {
+            if pending.stop {
                 self.suspend()?;
-            } else if notes.resumed {
+            } else if pending.resumed {
                 self.enter()?;
-            } else if notes.resized {
+            } else if pending.resized {
                 // Even if the size is the same again, the terminal may have lost its contents.
                 self.screen.forget();
             }

@@ -1,6 +1,6 @@
-//! The lab on a terminal: set up, run, and left as it was found.
+//! The lab on a terminal: set up, run, and the terminal restored.
 //!
-//! In: a [`Request`]. Out: how it ended. Never here: the loop itself (`stage`), what a session does.
+//! In: a [`Request`]. Out: how it ended. Never here: the loop itself (`frame_loop`), what a session does.
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -22,11 +22,11 @@ use crate::diagnostic::Diagnostic;
 use crate::preset::Catalog;
 use crate::record::{RecordedCast, ScriptRunner, screenshot};
 
-/// Opens the laboratory on the terminal until it is left.
+/// Opens the laboratory on the terminal until the user leaves it.
 ///
 /// # Errors
-/// Where there is no terminal, no session or nothing of that name, before the screen is touched; and where the session
-/// could not be saved, after it was left.
+/// Returns an error, before the screen is touched, if there is no terminal, no session or nothing of that name; and
+/// afterwards if the session could not be saved.
 pub fn run(request: &Request) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let catalog = Catalog::load();
@@ -69,7 +69,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     match (lost, ending) {
         (Err(why), Ending::Quit) => Err(why),
         (Err(why), Ending::Signal(_) | Ending::Gone) => {
-            // the signal decides how it ends; where nobody can read this it makes no difference
+            // The signal decides the exit status; nothing changes if the message cannot be written.
             let _ = writeln!(io::stderr(), "phaselab: {why}");
             Ok(ending)
         }
@@ -77,21 +77,21 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     }
 }
 
-/// Shows a tape on the terminal until it is left.
+/// Shows a cast on the terminal until the user leaves it.
 ///
 /// # Errors
-/// Where there is no terminal, before the screen is touched.
-pub fn show(tape: RecordedCast, request: &Request) -> Result<Ending, LabError> {
+/// Returns an error, before the screen is touched, if there is no terminal.
+pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    perform(&mut CastPlayer::new(tape, request.look(&variable)), request.pace(&variable))
+    perform(&mut CastPlayer::new(cast, request.look(&variable)), request.pace(&variable))
 }
 
-/// Performs a demo on the terminal until it ends or is left. What it ends with: its last picture as text with colours, where
-/// it was not left before; or what is wrong with its script.
+/// Performs a demo on the terminal until it ends or the user leaves it. Returns its last picture as text with
+/// colours if the user did not leave it before, or what is wrong with its script.
 ///
 /// # Errors
-/// Where there is no terminal, before the screen is touched.
+/// Returns an error, before the screen is touched, if there is no terminal.
 pub fn perform_demo(
     performance: ScriptRunner,
     request: &Request,

@@ -1,7 +1,7 @@
-//! The loader: from a name to an experiment, on the side.
+//! The loader: builds an experiment from a name, in the background.
 //!
-//! In: what to open. Out: everything that was made of it, once, or why it could not be. What was asked for before the
-//! newest is stopped. Never here: the stages themselves.
+//! In: what to open. Out: all that was built from it, once, or the reason why it failed. A new request cancels the
+//! previous one. Never here: the stages themselves.
 
 use std::sync::Arc;
 
@@ -17,35 +17,35 @@ use crate::worker::Side;
 #[derive(Debug)]
 pub(super) struct Loader {
     catalog: Arc<Catalog>,
-    /// What was asked for last.
+    /// The name requested last.
     name: String,
     side: Side<Result<Box<Prepared>, String>>,
 }
 
-/// What was asked for and what was made of it.
+/// The requested name with the prepared experiment, or an error.
 type Outcome = Result<(String, Box<Prepared>), LoadError>;
 
 impl Loader {
-    /// A loader that knows these presets.
+    /// Creates a loader with the presets of this catalog.
     pub(super) fn new(catalog: Arc<Catalog>) -> Self {
         Self { catalog, name: String::new(), side: Side::new("loader") }
     }
 
-    /// What is being loaded is no longer wanted.
+    /// Cancels the load under way.
     pub(super) fn stop(&mut self) {
         self.side.stop();
     }
 
-    /// Begins to load a preset or file, and stops what is still being loaded.
+    /// Starts to load a preset or file, and cancels the previous load.
     pub(super) fn load(&mut self, name: String) {
         let (catalog, asked) = (Arc::clone(&self.catalog), name.clone());
-        // the token is the system's once it is there
+        // The token passes to the system once that exists.
         let job = Job::new("loading", move |progress| prepare(&catalog, &asked, progress.token()));
         self.name = name;
         self.side.begin(0, job);
     }
 
-    /// What was asked for last, once it is there.
+    /// Returns the outcome of the latest request as soon as there is one.
     pub(super) fn take(&mut self) -> Option<Outcome> {
         let name = self.name.clone();
         let made = match self.side.take()?.1 {

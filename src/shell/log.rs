@@ -1,8 +1,8 @@
-//! The log: what happened and when, in a file, for whoever wants to know it afterwards.
+//! The log: what happened and when, in a file, for later diagnosis.
 //!
-//! In: events of `tracing`, from any thread. Out: lines of a file, each with its time and level. Never here: the terminal;
-//! waiting. Lines are written by a thread of their own; where the disk is slower than what happens, some are left out
-//! and their number is reported at the end.
+//! In: events of `tracing`, from any thread. Out: lines of a file, each with its time and level. Never here: the
+//! terminal; waiting. A separate thread writes the lines; if the disk cannot keep up, some are dropped and their
+//! number is reported at the end.
 
 use std::fmt;
 use std::fs::{self, File};
@@ -28,17 +28,17 @@ use crate::printable;
 pub enum LogFile {
     /// `phaselab/phaselab.log` where XDG keeps state.
     Usual,
-    /// A file of one's own.
+    /// A file chosen by the user.
     At(PathBuf),
 }
 
-/// Why there is no log, as a sentence for the user.
+/// The error if the log cannot be written, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write the log {}: {}", printable::path(.path), printable::why(.reason))]
 pub struct LogError {
     /// The file.
     path: PathBuf,
-    /// What the system says.
+    /// The reason given by the system.
     reason: io::Error,
 }
 
@@ -53,8 +53,7 @@ pub(super) struct Log {
 }
 
 impl Log {
-    /// Has the events of all threads written to a file from now on, after what it holds; the folder is made where there
-    /// is none.
+    /// Sends the events of all threads to a file, appending to its contents; the folder is created if needed.
     pub(super) fn open(place: &LogFile) -> Result<Self, LogError> {
         let path = match place {
             LogFile::At(path) => path.clone(),
@@ -64,7 +63,7 @@ impl Log {
             })?,
         };
         let (log, subscriber) = Self::at(&path).map_err(|reason| LogError { path, reason })?;
-        // one log a program: where there is one already, that one goes on
+        // There is one log per program: if there is one already, it stays in use.
         let _ = tracing::subscriber::set_global_default(subscriber);
         Ok(log)
     }
@@ -80,7 +79,7 @@ impl Log {
         Ok((log, subscriber.finish()))
     }
 
-    /// Waits a little for the last lines to be written. What a disk does not take in this time is lost.
+    /// Waits a short time for the last lines to be written. Lines not written by then are lost.
     pub(super) fn close(self) {
         let lost = self.lost.dropped_lines();
         if lost > 0 {
@@ -89,7 +88,7 @@ impl Log {
         let (done, wait) = channel();
         let close = move || {
             drop(self.writer);
-            // nobody waits any more where it took too long
+            // The receiver is gone if it took too long.
             let _ = done.send(());
         };
         if thread::Builder::new().name("log".to_owned()).spawn(close).is_ok() {
@@ -102,7 +101,7 @@ fn usual() -> Option<PathBuf> {
     Some(Xdg::new().ok()?.state_dir()?.join("phaselab").join("phaselab.log"))
 }
 
-/// `2026-03-01T12:00:00.250417Z error …`; what has several lines is indented after the first.
+/// Formats `2026-03-01T12:00:00.250417Z error …`; the further lines of a message are indented.
 struct Line;
 
 impl<S, N> FormatEvent<S, N> for Line

@@ -1,9 +1,10 @@
-//! The options of the laboratory: one structure, from which the command line, the configuration, the environment, the
-//! manual page and the README are made.
+//! The options of the laboratory: one structure, from which the command line, the configuration, the environment,
+//! the manual page and the README are generated.
 //!
-//! In: words, from any of these. Out: [`Options`], or what is wrong with a word. Never here: where the words come from,
-//! or what an option does. Each option is `--name` on the command line, `name` in the configuration and
-//! `PHASELAB_NAME` in the environment; the first paragraph about it is what it is for, the second what it may be.
+//! In: words, from any of these. Out: [`Options`], or what is wrong with a word. Never here: where the words come
+//! from, or what an option does. Each option is `--name` on the command line, `name` in the configuration and
+//! `PHASELAB_NAME` in the environment; the first paragraph of its documentation is its purpose, the second its
+//! values.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -20,7 +21,7 @@ use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
 
-/// What the laboratory is to be used with; the defaults are what it is where nobody asks.
+/// The options of the laboratory, with their defaults.
 #[derive(Args, Clone, PartialEq, Eq, Debug)]
 pub struct Options {
     /// Go on with the last session: its system, views, values and motion.
@@ -70,7 +71,7 @@ pub struct Options {
     pub no_sync: bool,
 }
 
-/// How help calls the value of a switch.
+/// The placeholder for the value of a switch in the help.
 const SWITCH: &str = "true|false";
 
 /// How many colours.
@@ -91,7 +92,7 @@ pub enum Color {
 }
 
 impl Color {
-    /// The depth asked for; none where the environment says it.
+    /// Returns the requested depth, or `None` if the environment decides.
     pub fn depth(self) -> Option<ColourDepth> {
         match self {
             Self::Auto => None,
@@ -123,13 +124,13 @@ pub enum GlyphSet {
 }
 
 impl GlyphSet {
-    /// The glyphs asked for; none where the locale says it.
+    /// Returns the requested glyphs, or `None` if the locale decides.
     pub fn glyphs(self) -> Option<Glyphs> {
         self.to_possible_value().and_then(|value| Glyphs::named(value.get_name()))
     }
 }
 
-/// The themes by name, and leaving it to the terminal.
+/// Returns the names of the themes, and `auto`.
 fn themes() -> PossibleValuesParser {
     let auto = PossibleValue::new("auto").help("dark, or light where COLORFGBG says so");
     let themes =
@@ -137,7 +138,7 @@ fn themes() -> PossibleValuesParser {
     PossibleValuesParser::new([auto].into_iter().chain(themes))
 }
 
-/// A value, or leaving it to the terminal and the line to it.
+/// A value, or `auto`: the terminal and the connection decide.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Auto<T> {
     /// `auto`.
@@ -147,7 +148,7 @@ pub enum Auto<T> {
 }
 
 impl<T> Auto<T> {
-    /// The value, if one is given.
+    /// Returns the value, if one is given.
     pub fn given(self) -> Option<T> {
         match self {
             Self::Auto => None,
@@ -164,7 +165,7 @@ impl<T: FromStr> FromStr for Auto<T> {
     }
 }
 
-/// Frames in a second.
+/// Frames per second.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Frames(pub u16);
 
@@ -179,7 +180,7 @@ impl FromStr for Frames {
     }
 }
 
-/// Where the log goes, if anywhere.
+/// The destination of the log, if there is one.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct LogTarget(pub Option<LogFile>);
 
@@ -196,18 +197,18 @@ impl FromStr for LogTarget {
     }
 }
 
-/// What is to be said of one option.
+/// The description of one option.
 #[derive(Debug)]
 pub struct Row {
     /// Its name.
     pub name: String,
-    /// What it is for, a sentence.
+    /// Its purpose, as a sentence.
     pub about: String,
-    /// The words it may be, each with what it means; none where it may be others.
+    /// Its possible words, each with its meaning; empty if others are possible.
     pub words: Vec<(String, String)>,
-    /// What else it may be, in a few words.
+    /// A short description of its other possible values.
     pub shape: String,
-    /// What it is where nobody asks.
+    /// Its default.
     pub usual: String,
     /// Whether it is true or false.
     pub is_switch: bool,
@@ -216,7 +217,7 @@ pub struct Row {
 static ROWS: LazyLock<Vec<Row>> =
     LazyLock::new(|| command().get_arguments().map(Row::new).collect());
 
-/// All options, in the order in which help lists them.
+/// Returns all options, in the order of the help.
 pub fn rows() -> &'static [Row] {
     &ROWS
 }
@@ -245,21 +246,21 @@ impl Row {
         }
     }
 
-    /// The environment variable that asks for it: `PHASELAB_NO_SYNC`.
+    /// Returns its environment variable: `PHASELAB_NO_SYNC`.
     pub fn variable(&self) -> String {
         format!("PHASELAB_{}", self.name.to_uppercase().replace('-', "_"))
     }
 
-    /// The words it may be, in a few words.
+    /// Returns a short description of its possible values.
     pub fn may_be(&self) -> String {
         let words: Vec<&str> = self.words.iter().map(|(word, _)| word.as_str()).collect();
         if words.is_empty() { self.shape.clone() } else { words.join(", ") }
     }
 
-    /// Whether it may be this.
+    /// Checks a value.
     ///
     /// # Errors
-    /// What is wrong, a clause without a full stop, and what would be right.
+    /// Returns what is wrong, as a clause without a full stop, and a suggested correction.
     pub fn accept(&self, word: &str) -> Result<(), Wrong> {
         if command().try_get_matches_from([format!("--{}={word}", self.name)]).is_ok() {
             return Ok(());
@@ -277,22 +278,22 @@ impl Row {
     }
 }
 
-/// Why a word is not taken.
+/// Why a word is not accepted.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Wrong {
     /// What is wrong.
     pub message: String,
-    /// What would be right, where that can be said.
+    /// A suggested correction, if there is one.
     pub help: Option<String>,
 }
 
-/// What is asked for beside the command line: words that are accepted, by the names of their options.
+/// Option values from outside the command line: accepted words with the names of their options.
 pub type Words = Vec<(&'static str, String)>;
 
-/// What the environment asks for, `variable` being what it says.
+/// Reads the options from the environment; `variable` returns the value of a variable.
 ///
 /// # Errors
-/// A sentence on a variable that cannot be used.
+/// Returns a sentence about a variable that cannot be used.
 pub fn of_environment(variable: &dyn Fn(&str) -> Option<String>) -> Result<Words, String> {
     let mut words = Words::new();
     for row in rows() {
@@ -307,8 +308,8 @@ pub fn of_environment(variable: &dyn Fn(&str) -> Option<String>) -> Result<Words
     Ok(words)
 }
 
-/// A command line with these words in the place of the defaults: the last of one name counts, and what is asked for on
-/// the command line wins.
+/// Returns a command line with these words as defaults. The last word for a name counts, and the command line takes
+/// precedence.
 #[must_use]
 pub fn with_defaults(command: Command, words: Words) -> Command {
     words.into_iter().fold(command, |command, (name, word)| {
@@ -354,9 +355,9 @@ mod tests {
 
     #[test]
     fn a_variable_that_cannot_be_used_is_reported() {
-        let check = |name: &str, word: &str, told: &str| {
+        let check = |name: &str, word: &str, expected: &str| {
             let variable = |asked: &str| (asked == name).then(|| word.to_owned());
-            assert_eq!(of_environment(&variable), Err(told.to_owned()));
+            assert_eq!(of_environment(&variable), Err(expected.to_owned()));
         };
         check(
             "PHASELAB_FPS",

@@ -1,8 +1,8 @@
-//! Panics: the terminal is restored before anyone reads about them.
+//! Panics: the terminal is restored before they are reported.
 //!
-//! In: a panic on any thread. Out: on the thread that holds the terminal, the terminal as it was, then the report, and
-//! the exit status 101 by unwinding; on any other thread no report, for it is caught where the thread was started, and
-//! writing about it would spoil the screen. The log has both. Never here: catching.
+//! In: a panic on any thread. Out: on the thread that owns the terminal, the restored terminal, then the report,
+//! and the exit status 101 by unwinding. On any other thread there is no report, since the panic is caught where
+//! the thread was started and a report would spoil the screen. The log has both. Never here: catching.
 
 use std::io::{Write, stderr};
 use std::panic;
@@ -14,10 +14,10 @@ use color_eyre::config::{HookBuilder, Theme};
 
 use super::terminal::Terminal;
 
-/// Has panics and errors reported plainly, without colours, as what they are. Once, before anything else.
+/// Installs plain reports of panics and errors, without colours. Call it once, before anything else.
 ///
 /// # Errors
-/// Where reports have been set up before.
+/// Returns an error if reports have been set up before.
 pub fn report_panics() -> Result<()> {
     let (report, errors) = HookBuilder::default()
         .theme(Theme::new())
@@ -27,13 +27,13 @@ pub fn report_panics() -> Result<()> {
         .try_into_hooks()?;
     errors.install()?;
     panic::set_hook(Box::new(move |info| {
-        // Where nobody can read it, another panic would abort and leave the terminal as it is.
+        // If it cannot be written, another panic would abort the program without restoring the terminal.
         let _ = writeln!(stderr(), "{}", report.panic_report(info));
     }));
     Ok(())
 }
 
-/// Puts the present panic hook behind the restoring of this terminal, for the thread that calls it.
+/// Restores this terminal before the current panic hook runs, for panics of the calling thread.
 pub(super) fn guard(terminal: &Arc<Terminal>) {
     let report = panic::take_hook();
     let terminal = Arc::clone(terminal);

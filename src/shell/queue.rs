@@ -1,6 +1,6 @@
-//! The queue: bytes on their way to a terminal that may be slow, stuck or gone.
+//! The output queue: bytes for a terminal that may be slow, stalled or gone.
 //!
-//! In: frames. Out: as much as the terminal takes at the moment. Never here: waiting.
+//! In: frames. Out: as many bytes as the terminal accepts at the time. Never here: waiting.
 
 use std::io::{Error, ErrorKind, Result, Write};
 
@@ -12,17 +12,17 @@ pub(super) struct Queue {
 }
 
 impl Queue {
-    /// Whether something is still to be sent; then no frame should be drawn.
+    /// Whether bytes are still to be sent; no frame should be drawn then.
     pub(super) fn is_busy(&self) -> bool {
         self.sent < self.bytes.len()
     }
 
-    /// Drops all that is not sent.
+    /// Drops all unsent bytes.
     pub(super) fn clear(&mut self) {
         (self.bytes, self.sent) = (Vec::new(), 0);
     }
 
-    /// Sends what can be sent without waiting. After an error the queue is empty, and what the terminal shows is
+    /// Sends what can be sent without blocking. After an error the queue is empty, and the terminal's contents are
     /// unknown.
     pub(super) fn send(&mut self, mut write: impl FnMut(&[u8]) -> Result<usize>) -> Result<()> {
         while self.is_busy() {
@@ -45,7 +45,7 @@ impl Queue {
     }
 }
 
-/// Bytes are put at the end; crossterm's commands are queued so.
+/// Appends bytes; this is how crossterm's commands are queued.
 impl Write for Queue {
     fn write(&mut self, bytes: &[u8]) -> Result<usize> {
         self.bytes.extend(bytes);
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
     use crate::view::frame::Frames;
 
-    /// A terminal that takes at most so many bytes at a time, and between them answers as told.
+    /// Simulates a terminal that accepts at most this many bytes at a time, with the given results in between.
     fn sent(
         queue: &mut Queue,
         answers: &[std::result::Result<usize, ErrorKind>],
@@ -126,7 +126,7 @@ mod tests {
         let all = [Ok(9999)];
         let (whole, _) = paint("first", &mut queue, &[Ok(30), Err(ErrorKind::Other)], false);
         assert!(!whole);
-        // as the stage does after an error
+        // The frame loop does the same after an error.
         let (whole, contents) = paint("second", &mut queue, &all, true);
         assert!(whole);
         assert_eq!(contents, ["second"; 4].join("\n"));

@@ -1,7 +1,7 @@
-//! The recorder: what the laboratory shows, into a cast, as it is shown.
+//! The recorder: records what the laboratory shows into a cast.
 //!
-//! In: drawn screens. Out: a cast of version 3 beside them, written as it grows, so that it takes no memory. Never here:
-//! what is drawn, or the form of a cast.
+//! In: drawn screens. Out: a cast of version 3 in the current folder, written as it grows, so that it takes no
+//! memory. Never here: what is drawn, or the format of a cast.
 
 use std::io;
 use std::path::Path;
@@ -38,7 +38,7 @@ impl Recorder {
         Ok(Self { cast, frames: Frames::new(false)?, began: Instant::now(), size })
     }
 
-    /// Takes a screen down.
+    /// Records a screen.
     pub(super) fn take(&mut self, screen: &Buffer) -> io::Result<()> {
         let now = self.now();
         let size = screen.area.as_size();
@@ -57,11 +57,11 @@ impl Recorder {
         self.cast.output(now, &String::from_utf8_lossy(&bytes))
     }
 
-    /// Ends the cast; its name. What cannot be written ends it before, and the error says under which name it is kept. `on_disk`
-    /// waits until the disk has all of it.
+    /// Ends the cast and returns its name. A write error ends it early, and names the file that was kept. With
+    /// `on_disk` the call waits until the disk has all of it.
     pub(super) fn end(mut self, on_disk: bool) -> io::Result<String> {
         let (now, size) = (self.now(), (self.size.width, self.size.height));
-        // what goes wrong here goes wrong again when the file is finished, if that is not all there is of it
+        // If writing fails here, finishing the file fails too, unless everything has been written already.
         let ended = self.cast.end(now, size);
         let mut file = self.cast.into_inner();
         let synced = if on_disk { file.sync() } else { Ok(()) };
@@ -73,7 +73,7 @@ impl Recorder {
         }
     }
 
-    /// Ends a cast that cannot go on, for that reason; what is to be reported.
+    /// Ends a cast that cannot be continued for this reason. Returns the sentence to report.
     pub(super) fn give_up(self, why: &io::Error) -> String {
         match self.cast.into_inner().finish() {
             Ok(name) if name == NOTHING => format!("nothing is recorded: {why}"),

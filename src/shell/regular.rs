@@ -1,7 +1,7 @@
-//! Regular files: read only where they are files, and no more of them than is allowed.
+//! Regular files: reads only regular files, up to a size limit.
 //!
-//! In: a path. Out: what it holds. Never here: waiting. A pipe or a device in the place of a file is refused before a
-//! byte of it is read, also where it took that place a moment ago.
+//! In: a path. Out: the contents. Never here: waiting. A pipe or a device in the place of a file is refused before
+//! a byte of it is read, even if it has only just replaced the file.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
@@ -13,56 +13,56 @@ use crate::diagnostic::Document;
 use crate::file;
 use crate::preset::{Catalog, NotFound};
 
-/// Opens a file to be locked, and makes it where there is none.
+/// Opens a file to be locked, and creates it if it does not exist.
 ///
 /// # Errors
-/// Where it cannot be, or is none.
+/// Returns an error if that fails, or if it is not a regular file.
 pub(super) fn open_or_make(path: &Path) -> io::Result<File> {
-    // opening a device can already do something
+    // Merely opening a device can have an effect.
     if let Ok(about) = fs::metadata(path) {
         file::check_regular(about.file_type())?;
     }
-    // who opens a pipe otherwise waits for its other end
+    // Without `NONBLOCK`, opening a pipe waits for its other end.
     let flags = OFlags::RDWR | OFlags::CREATE | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
     let file = File::from(rustix::fs::open(path, flags, Mode::from_raw_mode(0o666))?);
     file::check_regular(file.metadata()?.file_type())?;
     Ok(file)
 }
 
-/// What a file holds, which must not be longer than that.
+/// Returns the contents of a file of at most this size.
 ///
 /// # Errors
-/// Where it cannot be read, is no file or is longer.
+/// Returns an error if the file cannot be read, is not regular or is longer.
 pub(super) fn read(path: &Path, most: usize) -> io::Result<Vec<u8>> {
     let (bytes, _) = file::read_regular(path, most as u64)?;
     if bytes.len() > most {
-        let told = format!("it has more than {most} bytes");
-        return Err(io::Error::new(ErrorKind::FileTooLarge, told));
+        let message = format!("it has more than {most} bytes");
+        return Err(io::Error::new(ErrorKind::FileTooLarge, message));
     }
     Ok(bytes)
 }
 
-/// The same, where it is text.
+/// Returns the contents of a text file of at most this size.
 ///
 /// # Errors
-/// Those of [`read`]; that it is no UTF-8.
+/// Returns an error as [`read`] does, or if the file is not UTF-8.
 pub(super) fn read_text(path: &Path, most: usize) -> io::Result<String> {
     let text = String::from_utf8(read(path, most)?);
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// A document in a file.
+/// Reads a document from a file.
 ///
 /// # Errors
-/// Where it cannot be read or is no file.
+/// Returns an error if the file cannot be read or is not regular.
 pub(super) fn document(path: &Path) -> io::Result<Document> {
     Document::open_regular(path)
 }
 
-/// The document behind a preset's name or a path.
+/// Returns the document for a preset's name or a path.
 ///
 /// # Errors
-/// Where there is none, or no file.
+/// Returns an error if there is no such preset, or no regular file.
 pub(super) fn find(catalog: &Catalog, name: &str) -> Result<Document, NotFound> {
     match catalog.place(name) {
         Some(path) => document(&path).map_err(|reason| NotFound::File { path, reason }),
@@ -97,7 +97,7 @@ mod tests {
         let path = folder.path().join("a.toml");
         fs::write(&path, [b'a'; 10]).expect("written");
         assert_eq!(read(&path, 10).expect("it fits").len(), 10);
-        let told = read(&path, 9).expect_err("it does not").to_string();
-        assert_eq!(told, "it has more than 9 bytes");
+        let message = read(&path, 9).expect_err("it does not").to_string();
+        assert_eq!(message, "it has more than 9 bytes");
     }
 }

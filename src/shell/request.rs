@@ -1,6 +1,7 @@
-//! The request: what to open and how to show it, and what the environment says where nothing is asked for.
+//! The request: what to open and how to show it, with defaults from the environment.
 //!
-//! In: [`Options`]. Out: the look and the pace. Never here: where options come from; a question put to the terminal.
+//! In: [`Options`]. Out: the render style and the frame settings. Never here: where options come from; queries to
+//! the terminal.
 
 use crate::preset::NotFound;
 use crate::printable;
@@ -16,70 +17,72 @@ use super::options::Options;
 use super::store::SessionError;
 use super::terminal::TerminalError;
 
-/// Frames in a second where the terminal is near.
+/// The frames per second on a local terminal.
 const NEAR: u16 = 30;
 
-/// The same at the other end of a line.
+/// The frames per second over a remote connection.
 const FAR: u16 = 15;
 
-/// The most frames in a second that can be asked for.
+/// The maximum number of frames per second that can be requested.
 pub const MOST_FRAMES: u16 = 240;
 
-/// The same where motion is to be reduced.
+/// The maximum if motion is to be reduced.
 const CALM: u16 = 4;
 
-/// Bytes in a second at the other end of a line where nothing is said of it: half a megabit, which every line has that
-/// one would look at a picture over. More would only fill the buffers on the way, and every key would wait behind them.
+/// The default bytes per second over a remote connection: half a megabit, which every connection suitable for
+/// viewing pictures has. More would only fill the buffers on the way, and delay the response to every key.
 const LINE: u32 = 64 * 1024;
 
-/// What the laboratory is to be opened with.
+/// What to open the laboratory with.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
-    /// A preset's name or a file's path; without one the picker opens.
+    /// A preset's name or a file's path; with `None` the picker opens.
     pub open: Option<String>,
-    /// Goes on with the last session.
+    /// Whether to resume the last session.
     pub resume: bool,
-    /// How many colours to use; the environment says it otherwise.
+    /// How many colours to use; by default the environment decides.
     pub colour: Option<ColourDepth>,
-    /// What to draw with; the environment says it otherwise.
+    /// What to draw with; by default the environment decides.
     pub glyphs: Option<Glyphs>,
-    /// The most frames in a second; otherwise 30, and 15 where `SSH_CONNECTION` or `SSH_TTY` is set.
+    /// The maximum number of frames per second; by default 30, and 15 if `SSH_CONNECTION` or `SSH_TTY` is set.
     pub frames: Option<u16>,
-    /// The name of the theme; otherwise the one for dark terminals, or for light ones where `COLORFGBG` says so.
+    /// The name of the theme; by default the one for dark terminals, or for light ones if `COLORFGBG` indicates
+    /// one.
     pub theme: Option<String>,
-    /// Leaves out the marks round each frame, for terminals that show them.
+    /// Whether to omit the marks around each frame, for terminals that show them.
     pub unsynchronized: bool,
-    /// The most bytes in a second; otherwise no limit, and 64 KiB where `SSH_CONNECTION` or `SSH_TTY` is set.
+    /// The maximum number of bytes per second; by default no limit, and 64 KiB if `SSH_CONNECTION` or `SSH_TTY` is
+    /// set.
     pub bandwidth: Option<Bandwidth>,
-    /// Draws little that moves: at most 4 frames a second, and trails that do not fade.
+    /// Whether to reduce motion: at most 4 frames per second, and trails that do not fade.
     pub reduced_motion: bool,
-    /// Where to write what happens, if anywhere.
+    /// Where to write the log, if anywhere.
     pub log: Option<LogFile>,
-    /// Has the mouse reported from the beginning.
+    /// Whether to capture the mouse from the start.
     pub mouse: bool,
-    /// Builds the system anew whenever its file has changed.
+    /// Whether to rebuild the system whenever its file has changed.
     pub watch: bool,
 }
 
-/// Why the laboratory does not open.
+/// Why the laboratory could not be opened, or not be left cleanly.
 #[derive(Debug, thiserror::Error)]
 pub enum LabError {
     /// There is no terminal.
     #[error(transparent)]
     TerminalError(#[from] TerminalError),
-    /// What was asked for is not there.
+    /// There is no such preset or file.
     #[error(transparent)]
     NotFound(#[from] NotFound),
-    /// There is no session to go on with.
+    /// There is no session to resume.
     #[error(transparent)]
     SessionError(#[from] SessionError),
-    /// The laboratory was left, and its session could not be saved.
+    /// The session could not be saved at the end.
     #[error("the session is not saved: {}", printable::why(.0))]
     Unsaved(std::io::Error),
     /// The log cannot be written.
     #[error(transparent)]
     LogError(#[from] LogError),
-    /// The laboratory was left, and what it recorded could not be saved.
+    /// The recording could not be saved at the end.
     #[error("the recording is not whole: {}", printable::why(.0))]
     Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
@@ -88,10 +91,10 @@ pub enum LabError {
 }
 
 impl Request {
-    /// What the options ask for.
+    /// Creates the request from the options.
     pub fn new(open: Option<String>, options: &Options) -> Self {
         Self {
-            // a name wins over going on with the last session
+            // A name takes precedence over resuming the last session.
             resume: open.is_none() && options.resume,
             open,
             colour: options.color.depth(),
@@ -107,7 +110,7 @@ impl Request {
         }
     }
 
-    /// How the screen looks, `variable` being the environment.
+    /// Returns the render style; `variable` reads the environment.
     pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> RenderStyle {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
         let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
@@ -120,12 +123,12 @@ impl Request {
         RenderStyle { theme, glyphs }
     }
 
-    /// The most frames in a second that may be asked for.
+    /// Returns the maximum number of frames per second that may be requested.
     pub(super) fn most_frames(&self) -> u16 {
         if self.reduced_motion { CALM } else { MOST_FRAMES }
     }
 
-    /// How fast frames come.
+    /// Returns how frames are sent.
     pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> Pace {
         let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
         let frames = self.frames.unwrap_or(if far { FAR } else { NEAR }).min(self.most_frames());
@@ -135,8 +138,8 @@ impl Request {
     }
 }
 
-/// Whether the terminal says that it is light: some put the numbers of their colours, foreground and background, into
-/// `COLORFGBG`.
+/// Whether the terminal reports a light background: some terminals put the numbers of their foreground and
+/// background colours into `COLORFGBG`.
 fn is_light(variable: &dyn Fn(&str) -> Option<String>) -> bool {
     let colours = variable("COLORFGBG").unwrap_or_default();
     matches!(colours.rsplit(';').next(), Some("7" | "15"))

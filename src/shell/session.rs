@@ -1,7 +1,7 @@
-//! The session: the application with everything that does what it asks for.
+//! The session: the application together with everything that performs its effects.
 //!
-//! In: inputs and frames from the stage. Out: a drawn screen; commands to the worker, loads to the loader, wishes to
-//! the stage. Never here: what a key does, or how anything looks.
+//! In: inputs and frames from the frame loop. Out: a drawn screen; commands to the worker, loads to the loader,
+//! requests to the frame loop. Never here: what a key does, or how anything looks.
 
 use std::collections::HashMap;
 use std::io;
@@ -39,58 +39,59 @@ use crate::view::theme::{PALETTES, Palette, Theme};
 use crate::view::{self, Detail, RenderStyle};
 use crate::worker::{Side, Worker};
 
-/// The laboratory as it runs.
+/// The running laboratory.
 pub(super) struct Session {
     app: App,
     look: RenderStyle,
-    /// What is left out of the look on a slow line.
+    /// The level of detail, reduced over a slow connection.
     detail: Detail,
     worker: Worker,
     loader: Loader,
     checker: Checker,
-    /// The system's file, where it is to be watched.
+    /// The watch on the system's file, if it is to be watched.
     watch: Option<Watch>,
     store: Option<Store>,
-    /// Since the session was last saved, the texts were, and the place of another program was looked at.
+    /// The times since the session was saved, since the texts were stored, and since the other program was checked
+    /// for.
     since: Since,
-    /// The state of the texts when they were kept last.
+    /// The revision of the texts stored last.
     kept_texts: u64,
-    /// The file being written that a key asked for.
+    /// Writes the file that a key requested.
     writer: Writer,
-    /// Jobs on the side, for each who asks.
+    /// The background jobs of each asker.
     sides: HashMap<Asker, Side<Answer>>,
-    /// Told once more when the first system is there, for its loading ends what was reported before.
+    /// A warning to repeat when the first system is loaded, since loading clears notifications.
     warning: Option<String>,
-    /// The fault last told of there.
+    /// The last fault logged.
     fault: Option<String>,
-    /// What is shown goes in here too.
+    /// The recording under way, if there is one.
     recorder: Option<Recorder>,
     /// The screen's size when it was last drawn.
     size: Size,
-    /// What was written down at the end.
+    /// The result of saving at the end.
     left: Option<Left>,
 }
 
-/// What was written down at the end.
+/// The result of saving at the end.
 #[derive(Debug)]
 pub(super) struct Left {
     pub(super) recorded: io::Result<()>,
     pub(super) kept: io::Result<()>,
 }
 
-/// How often the session is saved while the laboratory is open, how soon a text that is typed, and how often it is
-/// looked whether another program that saves its session has ended.
+/// The interval at which the session is saved while the laboratory is open, the delay before typed text is stored,
+/// and the interval of checks whether another program that saves its session has ended.
 const SAVING: Duration = Duration::from_secs(15);
 const TEXTS: Duration = Duration::from_secs(1);
 const TAKING_OVER: Duration = Duration::from_secs(1);
 
-/// How long the disk is waited for at the end: without a hurry; where texts are not saved, which nothing could make
-/// again; else.
+/// How long to wait for the disk at the end: at a normal exit; at a forced exit with unsaved texts, which could not
+/// be recovered; and at any other forced exit.
 const UNHURRIED: Duration = Duration::from_secs(10);
 const FOR_TEXTS: Duration = Duration::from_millis(1200);
 const HURRIED: Duration = Duration::from_millis(100);
 
-/// Times since something was done.
+/// The times since the last run of each periodic task.
 #[derive(Debug, Default)]
 struct Since {
     saved: Duration,
@@ -99,7 +100,7 @@ struct Since {
 }
 
 impl Session {
-    /// The laboratory, opened at a preset or file, or at the picker.
+    /// Opens the laboratory at a preset or file, or at the picker.
     pub(super) fn new(
         catalog: Catalog,
         request: &Request,
@@ -140,13 +141,13 @@ impl Session {
         Ok(session)
     }
 
-    /// Goes on with a session once its system is loaded.
+    /// Resumes a session once its system is loaded.
     pub(super) fn resume(&mut self, saved: Saved) {
         self.app.resume(saved);
     }
 
-    /// Keeps the session in a store from now on, and takes the texts up that are kept there; `open` is what was asked
-    /// for. What is not kept the user is reported.
+    /// Saves the session in a store from now on, and restores the texts stored there; `open` is the requested name.
+    /// Whatever cannot be stored is reported to the user.
     pub(super) fn keep_in(&mut self, store: Result<Store, StoreError>, open: Option<&str>) {
         let mut troubles = match store {
             Err(why) => vec![why.to_string()],
@@ -169,13 +170,13 @@ impl Session {
             troubles.push(format!("unfinished files were left here: {first}{more}"));
         }
         if !troubles.is_empty() {
-            let told = troubles.join("; ");
-            self.app.notice = Some(Notification::error(&told));
-            self.warning = Some(told);
+            let report = troubles.join("; ");
+            self.app.notice = Some(Notification::error(&report));
+            self.warning = Some(report);
         }
     }
 
-    /// Takes texts up that were kept, each called as its system is here.
+    /// Restores stored texts under the names that their systems have in this program.
     fn take_texts(&mut self, texts: Vec<Unsaved>, open: Option<&str>) {
         let own = self.app.picker.entries.iter().filter_map(|entry| match &entry.origin {
             Origin::User(path) => Some((entry.name.as_str(), path.as_path())),
@@ -187,7 +188,7 @@ impl Session {
         self.app.workbench.put(texts);
     }
 
-    /// Has the session saved as it is now, and the texts that are not saved; nobody waits for the disk.
+    /// Queues the current session and the unsaved texts for saving, without waiting for the disk.
     fn keep(&mut self, last: bool) -> io::Result<()> {
         self.since = Since::default();
         if let Some(snapshot) = self.worker.newest() {
@@ -202,17 +203,17 @@ impl Session {
         Ok(())
     }
 
-    /// Has the texts kept that are not saved.
+    /// Queues the unsaved texts for storing.
     fn keep_texts(&mut self, last: bool) {
         self.since.texts = Duration::ZERO;
         self.kept_texts = self.app.workbench.revision();
         let Some(store) = &mut self.store else { return };
-        // one whose place cannot be reported is kept by the name it has
+        // If the file cannot be resolved, the text is stored under its current name.
         let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
         store.keep_texts(self.app.unsaved().into_iter().map(place).collect(), last);
     }
 
-    /// The same, and waits for the disk no longer than that.
+    /// Saves the session and the texts, waiting for the disk at most this long.
     fn keep_within(&mut self, time: Duration) -> io::Result<()> {
         self.keep(true)?;
         let Some(store) = &mut self.store else { return Ok(()) };
@@ -221,7 +222,7 @@ impl Session {
         first.map_or(Ok(()), Err)
     }
 
-    /// Whether the program may end: not where a text would be lost by it, before that was reported.
+    /// Whether the program may end. It may not before the user has been warned of the loss of a text.
     fn may_end(&mut self) -> bool {
         if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
             return true;
@@ -235,8 +236,9 @@ impl Session {
         self.app.workbench.keeps
     }
 
-    /// Has the session and the texts saved now and then. What goes wrong is reported once; it will go wrong again at the end.
-    fn keep_now_and_then(&mut self, elapsed: Duration) {
+    /// Saves the session and the texts periodically. An error is reported only once; it will occur again at the
+    /// end.
+    fn save_periodically(&mut self, elapsed: Duration) {
         let since = &mut self.since;
         for time in [&mut since.saved, &mut since.texts, &mut since.looked] {
             *time = time.saturating_add(elapsed);
@@ -256,23 +258,24 @@ impl Session {
             self.app.workbench.keeps = store.keeps_texts();
         }
         if let Some(error) = errors.first() {
-            let told = error.to_string();
-            if self.warning.as_ref() != Some(&told) {
-                self.app.notice = Some(Notification::error(&told));
-                self.warning = Some(told);
+            let report = error.to_string();
+            if self.warning.as_ref() != Some(&report) {
+                self.app.notice = Some(Notification::error(&report));
+                self.warning = Some(report);
             }
         }
     }
 
-    /// Saves the session from now on where another program did that and has ended.
+    /// Takes over saving the session if the program that did so has ended.
     fn take_over(&mut self) {
         let Some(store) = &mut self.store else { return };
         let Some(texts) = store.take_over() else { return };
         let troubles = std::mem::take(&mut store.troubles);
-        let mut told = vec!["The other phaselab has ended; this one saves the session now.".into()];
-        told.extend(troubles);
-        info!("{}", told.join(" "));
-        self.app.notice = Some(Notification::info(told.join(" ")));
+        let mut report =
+            vec!["The other phaselab has ended; this one saves the session now.".into()];
+        report.extend(troubles);
+        info!("{}", report.join(" "));
+        self.app.notice = Some(Notification::info(report.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
         self.keep_texts(false);
@@ -283,9 +286,9 @@ impl Session {
         self.perform(effects)
     }
 
-    /// Does what the application asks for; what concerns the terminal is the stage's to do.
+    /// Performs the application's effects. Returns the request to the frame loop, which controls the terminal.
     fn perform(&mut self, effects: Vec<Effect>) -> ScreenRequest {
-        let mut wish = ScreenRequest::Nothing;
+        let mut request = ScreenRequest::Nothing;
         for effect in effects {
             match effect {
                 Effect::Tell(command) => {
@@ -326,25 +329,25 @@ impl Session {
                     }
                     Err(why) => self.app.notice = Some(Notification::error(why.to_string())),
                 },
-                Effect::Repaint => wish = ScreenRequest::Repaint,
-                Effect::Frames(count) => wish = ScreenRequest::Frames(count),
-                Effect::Mouse(on) => wish = ScreenRequest::Mouse(on),
+                Effect::Repaint => request = ScreenRequest::Repaint,
+                Effect::Frames(count) => request = ScreenRequest::Frames(count),
+                Effect::Mouse(on) => request = ScreenRequest::Mouse(on),
                 Effect::Still => self.still(),
                 Effect::Data => self.data(),
                 Effect::Record(true) => self.record(),
                 Effect::Record(false) => self.end_recording(),
-                Effect::Suspend => wish = ScreenRequest::Suspend,
+                Effect::Suspend => request = ScreenRequest::Suspend,
                 Effect::Quit if self.may_end() => return ScreenRequest::Quit,
                 Effect::Quit => {}
             }
         }
-        wish
+        request
     }
 
-    /// Writes the present as a file of a system.
+    /// Exports the current state as a system file.
     fn export(&mut self) {
         let Some((loaded, snapshot)) = self.seen() else {
-            return self.told(Err("There is no motion here to write down.".to_owned()));
+            return self.report(Err("There is no motion here to write down.".to_owned()));
         };
         self.write_file(move || {
             let Loaded { name, document, model, system, .. } = &loaded;
@@ -355,32 +358,32 @@ impl Session {
         });
     }
 
-    /// The system in the lab and its newest snapshot.
+    /// Returns the system in the lab and its newest snapshot.
     fn seen(&self) -> Option<(Loaded, Arc<Snapshot>)> {
         let lab = self.app.lab.as_ref()?;
         lab.seen()?;
         Some((lab.loaded.clone(), Arc::clone(lab.snapshot.as_ref()?)))
     }
 
-    /// Has a file written that a key asked for; what becomes of it is reported.
+    /// Starts to write a file that a key requested; the outcome is reported.
     fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
         if let Err(why) = self.writer.begin(work) {
-            self.told(Err(why));
+            self.report(Err(why));
         }
     }
 
-    /// Tells what became of a file.
-    fn told(&mut self, told: Told) {
-        info!("{told:?}");
-        self.app.update(Event::Written(told));
+    /// Reports the outcome of writing a file.
+    fn report(&mut self, report: Told) {
+        info!("{report:?}");
+        self.app.update(Event::Written(report));
     }
 
-    /// Looks at the file of the system in the lab; whether it has changed.
+    /// Checks the file of the system being loaded or in the lab. Returns whether it has changed.
     fn watch(&mut self, elapsed: Duration) -> bool {
         if let Some(watch) = &mut self.watch
             && let Some(name) = self.app.loading().filter(|name| is_path(name))
         {
-            // what is being loaded is no longer what stands there
+            // The file has changed while it was being loaded.
             if let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) {
                 info!("load {name} again");
                 self.loader.load(name.to_owned());
@@ -390,7 +393,7 @@ impl Session {
         if let Some(watch) = &mut self.watch
             && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
         {
-            // a file that was wrong from the beginning
+            // This file could not be loaded at all.
             let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) else {
                 return false;
             };
@@ -418,7 +421,8 @@ impl Session {
         true
     }
 
-    /// Takes the answer to a check in, if one is there: what is right runs at once.
+    /// Takes in the result of a check, if there is one; a correct system runs at once. Returns whether there was
+    /// one.
     fn answer(&mut self) -> bool {
         let Some(answer) = self.checker.take() else { return false };
         let name = self.app.lab.as_ref().map(|lab| lab.loaded.name.clone());
@@ -429,8 +433,8 @@ impl Session {
         true
     }
 
-    /// Takes in what became of jobs on the side, and how far the others are; whether there are any.
-    fn look_aside(&mut self) -> bool {
+    /// Takes in the outcomes and the progress of background jobs. Returns whether there are any jobs.
+    fn poll_jobs(&mut self) -> bool {
         let mut events = Vec::new();
         let mut busy = false;
         for side in self.sides.values_mut() {
@@ -447,7 +451,7 @@ impl Session {
         busy
     }
 
-    /// Writes why the motion cannot go on, once.
+    /// Logs each fault of the motion once.
     fn report_faults(&mut self) {
         let fault = match self.app.snapshot().map(|snapshot| &snapshot.status) {
             Some(Status::Failed(fault)) => {
@@ -463,7 +467,7 @@ impl Session {
         }
     }
 
-    /// What files are called that are written about the present.
+    /// Returns the stem for files about the current state.
     fn stem(&self) -> String {
         self.app.lab.as_ref().map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.name.clone())
     }
@@ -473,7 +477,7 @@ impl Session {
         lab.map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.model.info.title.clone())
     }
 
-    /// A drawing of the screen, with all colours and the finest dots whatever the terminal has.
+    /// Saves a drawing of the screen, with all colours and the finest dots whatever the terminal supports.
     fn still(&mut self) {
         let palette = self.palette();
         let look =
@@ -489,10 +493,10 @@ impl Session {
         });
     }
 
-    /// The rows that are recorded of the motion.
+    /// Saves a table of the recorded motion.
     fn data(&mut self) {
         let Some((loaded, snapshot)) = self.seen() else {
-            return self.told(Err("There is no motion here to write down.".to_owned()));
+            return self.report(Err("There is no motion here to write down.".to_owned()));
         };
         self.write_file(move || {
             let mut table = Vec::new();
@@ -501,7 +505,7 @@ impl Session {
         });
     }
 
-    /// Begins to record; where that cannot be it is reported, and nothing is recorded.
+    /// Starts a recording, or reports why that is impossible.
     fn record(&mut self) {
         let palette = self.palette();
         match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
@@ -510,16 +514,16 @@ impl Session {
         }
     }
 
-    /// Records no longer, but keeps what was recorded; the next try begins another file.
+    /// Ends the recording after an error, but keeps what was recorded; the next attempt begins another file.
     fn give_up_recording(&mut self, why: &io::Error) {
         let recorder = self.recorder.take();
-        let told = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
-        error!("{told}");
+        let report = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
+        error!("{report}");
         self.app.recording = false;
-        self.app.notice = Some(Notification::error(format!("{told}.")));
+        self.app.notice = Some(Notification::error(format!("{report}.")));
     }
 
-    /// Ends a recording, and tells its name.
+    /// Ends a recording, and reports its name.
     fn end_recording(&mut self) {
         self.app.recording = false;
         if let Some(recorder) = self.recorder.take() {
@@ -528,47 +532,48 @@ impl Session {
         }
     }
 
-    /// What became of the recording and of the session when it ended; writes both down if that was not done yet.
+    /// Returns the result of saving the recording and the session at the end, and saves them if that has not been
+    /// done yet.
     pub(super) fn left(&mut self) -> Left {
         self.on_exit(true);
         self.left.take().unwrap_or(Left { recorded: Ok(()), kept: Ok(()) })
     }
 
-    /// The colours that are shown.
+    /// Returns the palette shown.
     fn palette(&self) -> &'static Palette {
         let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
         PALETTES.iter().find(named).unwrap_or_else(|| self.look.theme.palette())
     }
 
-    /// Adds where a text of a system that cannot be loaded is found.
+    /// Adds the location of an unsaved text to the message about a system that cannot be loaded.
     fn with_text_kept(&self, mut failure: LoadError) -> LoadError {
         let place = self.store.as_ref().and_then(Store::place_of_texts);
-        let kept = self.app.unsaved().iter().any(|text| text.name == failure.name);
-        if let Some(place) = place.filter(|_| kept) {
+        let unsaved = self.app.unsaved().iter().any(|text| text.name == failure.name);
+        if let Some(place) = place.filter(|_| unsaved) {
             let place = place.display();
             failure.message += &format!("\n\nThe text of it that is not saved is in {place}.\n");
         }
         failure
     }
 
-    /// Sets a loaded system in motion.
+    /// Starts a loaded system.
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
         let Prepared { document, model, equations, system, experiment } = ready;
-        // what is computed on the side is of the system before
+        // The background jobs belong to the previous system.
         self.sides.clear();
         let epoch = self.worker.load(experiment);
         Loaded { name, epoch, document, model, equations, system }
     }
 }
 
-/// Writes a file about the present into the current folder; a sentence on it.
+/// Writes a file about the current state into the current folder. Returns a sentence about it.
 fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> Told {
     let path = atomic_file::write_new(Path::new(""), stem, ending, bytes)
         .map_err(|why| why.to_string())?;
     Ok(format!("{} is written.", path.display()))
 }
 
-/// A name that means the same wherever the program is started next.
+/// Returns a name that is valid whatever folder the program is next started in.
 fn absolute(name: String) -> io::Result<String> {
     if !is_path(&name) {
         return Ok(name);
@@ -576,7 +581,7 @@ fn absolute(name: String) -> io::Result<String> {
     Ok(std::path::absolute(&name)?.display().to_string())
 }
 
-/// The one path of a file, whatever it is called: without links, also where there is no file now.
+/// Returns the canonical path of a file, with links resolved, even if the file does not exist.
 fn identity(path: &Path) -> io::Result<PathBuf> {
     let whole = std::path::absolute(path)?;
     if let Ok(real) = whole.canonicalize() {
@@ -589,7 +594,8 @@ fn identity(path: &Path) -> io::Result<PathBuf> {
     })
 }
 
-/// A text by its file, so that it is found however that is spelled and wherever the program is started next.
+/// Identifies a text by the canonical path of its file, so that it is found again from any folder and under any
+/// spelling.
 fn placed(text: Unsaved) -> io::Result<Unsaved> {
     let place = text.place.map(|place| identity(&place)).transpose()?;
     let name = if is_path(&text.name) {
@@ -600,7 +606,7 @@ fn placed(text: Unsaved) -> io::Result<Unsaved> {
     Ok(Unsaved { name, place, ..text })
 }
 
-/// A text that was kept, called as its file is here, where it is among these names.
+/// Renames a restored text to the one of these names that denotes its file, if there is one.
 fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
     let own = is_path(&text.name).then(|| PathBuf::from(&text.name)).or(text.place.clone());
     let Some(file) = own.and_then(|own| identity(&own).ok()) else { return text };
@@ -620,12 +626,12 @@ impl Screen for Session {
             TerminalEvent::Paste(text) => Event::Paste(text),
             TerminalEvent::Mouse(mouse) => {
                 if mouse.kind == MouseEventKind::Down(MouseButton::Left) {
-                    // Not every terminal says that the button came up.
+                    // Not every terminal reports the release of a button.
                     self.app.drop_hold();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::hit_test(&self.app, &self.look, area, mouse.column, mouse.row) {
-                    Some(spot) => Event::Mouse(mouse.kind, spot),
+                    Some(hit) => Event::Mouse(mouse.kind, hit),
                     None => return ScreenRequest::Nothing,
                 }
             }
@@ -636,10 +642,10 @@ impl Screen for Session {
         self.update(event)
     }
 
-    /// Time by itself changes nothing that is worth a frame, except that a notice goes.
+    /// The passing of time changes nothing visible by itself, except that a notification disappears.
     fn advance(&mut self, elapsed: Duration) -> bool {
         self.report_faults();
-        self.keep_now_and_then(elapsed);
+        self.save_periodically(elapsed);
         let noticed = self.app.notice.is_some();
         self.update(Event::Tick(elapsed));
         let mut changed = self.app.notice.is_some() != noticed;
@@ -661,9 +667,9 @@ impl Screen for Session {
         }
         changed |= self.watch(elapsed);
         changed |= self.answer();
-        changed |= self.look_aside();
-        if let Some(told) = self.writer.take() {
-            self.told(told);
+        changed |= self.poll_jobs();
+        if let Some(report) = self.writer.take() {
+            self.report(report);
             changed = true;
         }
         if let Some(snapshot) = self.worker.newest() {
@@ -695,7 +701,7 @@ impl Screen for Session {
         if self.left.is_some() {
             return;
         }
-        // a thread at work would take the time that is left
+        // A working thread would use up the time that is left.
         self.loader.stop();
         self.checker.stop();
         self.sides.clear();
@@ -707,12 +713,12 @@ impl Screen for Session {
         if let Some(store) = self.store.as_ref().filter(|_| hurried) {
             store.hurry();
         }
-        // the texts first: nothing could make them again
+        // The texts come first, since they could not be recovered.
         let kept = self.keep_within(time);
         let recorder = self.recorder.take();
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
         let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
-        let written = written.map_or(Ok(()), |told| told.map(|_| ()).map_err(io::Error::other));
+        let written = written.map_or(Ok(()), |report| report.map(|_| ()).map_err(io::Error::other));
         self.left = Some(Left { recorded: recorded.and(written), kept });
     }
 
@@ -736,7 +742,7 @@ mod tests {
     use crate::view::glyphs::Glyphs;
     use crate::view::theme::Theme;
 
-    /// A system in motion, and the terminal that shows it.
+    /// A running system, and the terminal that shows it.
     struct OpenSystem {
         app: App,
         experiment: Experiment,
@@ -766,7 +772,7 @@ mod tests {
             }
         }
 
-        /// The bytes of a frame at that time of the clock, in seconds.
+        /// Returns the size in bytes of a frame at this time of the clock, in seconds.
         fn frame(&mut self, time: f64, most: usize, detail: Detail) -> usize {
             self.experiment.advance(time * self.experiment.speed(), u64::MAX);
             self.app.update(Event::Tick(Duration::from_secs(1) / 30));
@@ -779,7 +785,8 @@ mod tests {
         }
     }
 
-    /// The bytes of so many frames, 30 in a second, after the first two seconds: their mean and the greatest.
+    /// Returns the mean and the greatest size in bytes of this many frames, at 30 per second, after the first two
+    /// seconds.
     fn frames(name: &str, count: u32) -> (usize, usize) {
         let mut motion = OpenSystem::of(name, ColourDepth::Ansi256, (80, 24));
         let frame =

@@ -1,8 +1,8 @@
-//! Signals: a thread that ends the program as it should end, and passes on what the frame loop has to do.
+//! Signals: a thread that receives them, wakes the frame loop, and makes sure that the program ends if it must.
 //!
-//! In: signals. Out: a note of what the frame loop has to do; where that does not end the program in time, a restored
-//! terminal and the exit status 128 + n. Never here: work inside a signal
-//! handler; the thread is an ordinary one, woken through a pipe.
+//! In: signals. Out: the pending signals for the frame loop; if the program does not end in time, a restored
+//! terminal and the exit status 128 + n. Never here: work inside a signal handler; the thread is an ordinary one,
+//! woken through a pipe.
 
 use std::io::{self, Read, Write};
 use std::mem;
@@ -22,72 +22,73 @@ use signal_hook::iterator::Signals as Caught;
 
 use super::terminal::Terminal;
 
-/// How long the frame loop has to save what there is and end, before the terminal is restored without it; and how long
-/// it has beyond that, if it has begun to end, before the program is ended all the same.
-const LAST_WORDS: Duration = Duration::from_millis(150);
+/// How long the frame loop has to save everything and end before the terminal is restored without it; and how much
+/// longer it has, if it has begun to end, before the process is ended anyway.
+const GRACE: Duration = Duration::from_millis(150);
 const SAVING: Duration = Duration::from_millis(1500);
 
-/// What ends a program that does not catch it. A thread that is to be reported of SIGSEGV, SIGILL or SIGFPE would be reported too
-/// late, so they cannot be caught here, and SIGKILL nowhere; a real abort ends the program before the thread is awake.
+/// The signals that end a process by default. SIGSEGV, SIGILL and SIGFPE would reach the thread too late, so they
+/// cannot be handled here, and SIGKILL cannot be handled at all. A real abort ends the process before the thread
+/// wakes up.
 const FATAL: [i32; 15] = [
     SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
     SIGIO, SIGABRT, SIGBUS, SIGSYS, SIGTRAP,
 ];
 
-/// What the frame loop has to do beside; and a file that has become too large (SIGXFSZ), of which its writer hears by an
-/// error.
+/// The other signals for the frame loop; and SIGXFSZ, for a file that has become too large, which is ignored
+/// because the writer gets an error.
 const OTHERS: [i32; 4] = [SIGTSTP, SIGCONT, SIGWINCH, SIGXFSZ];
 
-/// The way from the signal thread to the frame loop.
+/// The channel from the signal thread to the frame loop.
 #[derive(Debug)]
 pub(super) struct Signals {
-    posted: Arc<Mutex<PendingSignals>>,
+    pending: Arc<Mutex<PendingSignals>>,
     wake: UnixStream,
-    /// The frame loop has heard that it is to end.
+    /// Whether the frame loop has noticed that it is to end.
     answered: Arc<AtomicBool>,
 }
 
-/// What has happened since the last look.
+/// The signals since the last check.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PendingSignals {
-    /// The program was asked to stop (SIGTSTP).
+    /// Whether the program was asked to stop (SIGTSTP).
     pub(super) stop: bool,
-    /// It was stopped and goes on (SIGCONT).
+    /// Whether it was stopped and has been resumed (SIGCONT).
     pub(super) resumed: bool,
-    /// The window has changed its size (SIGWINCH).
+    /// Whether the window has changed its size (SIGWINCH).
     pub(super) resized: bool,
-    /// The program was asked to end by this signal; it stays noted.
+    /// The signal that asked the program to end, if there was one; it stays set.
     pub(super) fatal: Option<i32>,
 }
 
 impl Signals {
-    /// Starts to watch; the thread ends with the program.
+    /// Starts the thread, which runs until the program ends.
     pub(super) fn watch(terminal: Arc<Terminal>) -> io::Result<Self> {
-        let (wake, mut bell) = UnixStream::pair()?;
+        let (wake, mut waker) = UnixStream::pair()?;
         wake.set_nonblocking(true)?;
-        bell.set_nonblocking(true)?;
-        let posted = Arc::new(Mutex::new(PendingSignals::default()));
-        let board = Arc::clone(&posted);
-        let heard = Arc::new(AtomicBool::new(false));
-        let answered = Arc::clone(&heard);
+        waker.set_nonblocking(true)?;
+        let pending = Arc::new(Mutex::new(PendingSignals::default()));
+        let shared = Arc::clone(&pending);
+        let noticed = Arc::new(AtomicBool::new(false));
+        let answered = Arc::clone(&noticed);
         let mut signals = Caught::new(FATAL.iter().chain(&OTHERS))?;
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             for signal in signals.forever() {
-                let mut notes = board.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut pending = shared.lock().unwrap_or_else(PoisonError::into_inner);
                 match signal {
-                    SIGTSTP => notes.stop = true,
-                    SIGCONT => notes.resumed = true,
-                    SIGWINCH => notes.resized = true,
+                    SIGTSTP => pending.stop = true,
+                    SIGCONT => pending.resumed = true,
+                    SIGWINCH => pending.resized = true,
                     SIGXFSZ => continue,
-                    fatal => notes.fatal = Some(fatal),
+                    fatal => pending.fatal = Some(fatal),
                 }
-                let fatal = notes.fatal;
-                drop(notes);
-                // A full pipe wakes as well as one more byte.
-                let _ = bell.write(&[0]);
+                let fatal = pending.fatal;
+                drop(pending);
+                // A full pipe wakes the reader as well as one more byte.
+                let _ = waker.write(&[0]);
                 if let Some(fatal) = fatal {
-                    // The frame loop ends the program; one that is stuck is not waited for.
-                    thread::sleep(LAST_WORDS);
+                    // The frame loop ends the program; a blocked frame loop is not waited for.
+                    thread::sleep(GRACE);
                     terminal.leave();
                     if answered.load(Ordering::Acquire) {
                         thread::sleep(SAVING);
@@ -96,27 +97,28 @@ impl Signals {
                 }
             }
         })?;
-        Ok(Self { posted, wake, answered: heard })
+        Ok(Self { pending, wake, answered: noticed })
     }
 
-    /// Can be read when there is a note.
+    /// Returns a stream that is readable when signals are pending.
     pub(super) fn wake(&self) -> &UnixStream {
         &self.wake
     }
 
-    /// Takes the notes.
+    /// Takes the pending signals.
     pub(super) fn take(&self) -> PendingSignals {
         while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
-        let mut posted = self.posted.lock().unwrap_or_else(PoisonError::into_inner);
-        self.answered.fetch_or(posted.fatal.is_some(), Ordering::Release);
-        let left = PendingSignals { fatal: posted.fatal, ..PendingSignals::default() };
-        mem::replace(&mut *posted, left)
+        let mut pending = self.pending.lock().unwrap_or_else(PoisonError::into_inner);
+        self.answered.fetch_or(pending.fatal.is_some(), Ordering::Release);
+        let left = PendingSignals { fatal: pending.fatal, ..PendingSignals::default() };
+        mem::replace(&mut *pending, left)
     }
 
-    /// Stops the program and all that was started with it in one pipeline, as the terminal's own Ctrl-Z does, and
-    /// returns when it goes on.
+    /// Stops the program and everything in its process group, as the terminal's own Ctrl-Z does. Returns when it is
+    /// resumed.
     pub(super) fn stop(&self) -> io::Result<()> {
-        // Not SIGTSTP: that is caught here, and by default it does nothing in a group that has no shell.
+        // SIGTSTP would not work: it is caught here, and its default action is ignored in an orphaned process
+        // group.
         kill_current_process_group(Signal::STOP)?;
         while !matches!(
             self.take(),
@@ -133,6 +135,6 @@ impl Signals {
 
     /// Whether the program was asked to end.
     pub(super) fn is_fatal(&self) -> bool {
-        self.posted.lock().unwrap_or_else(PoisonError::into_inner).fatal.is_some()
+        self.pending.lock().unwrap_or_else(PoisonError::into_inner).fatal.is_some()
     }
 }

@@ -1,12 +1,12 @@
-//! The store: the files in which the last session and the texts that were not saved are kept, and the locks by which two
-//! programs do not write them both.
+//! The store: the files of the last session and of unsaved texts, and the locks that keep two programs from writing
+//! the same file.
 //!
-//! In: a session, texts. Out: their files, whole or as they were; both read back. Never here: what they are made of;
-//! waiting for a disk, unless that is asked for.
+//! In: a session, texts. Out: their files, complete or unchanged; both can be read back. Never here: their
+//! contents; waiting for a disk, unless requested.
 //!
-//! One program keeps the session and its texts. Another that runs meanwhile keeps its texts in a file of its own
-//! (`texts-2.toml`, …), takes the place of the first when that ends, and whoever is first takes up what others left.
-//! What stands there and is of a newer program is never written over; what is no session at all is put aside.
+//! One program saves the session and its texts. Another program that runs at the same time stores its texts in a
+//! separate file (`texts-2.toml`, …), and takes the place of the first when that ends. The first program also
+//! adopts what others left behind. Files of a newer version are never overwritten; a malformed file is moved aside.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -23,29 +23,29 @@ use super::regular;
 use crate::app::{Saved, Unsaved};
 use crate::printable;
 
-/// The place where sessions are kept, held for as long as this lives.
+/// The session folder, locked as long as this value lives.
 #[derive(Debug)]
 pub(super) struct Store {
-    /// The session's file; `None` where what stands there is not to be written over, or another program has it.
+    /// The session's file; `None` if its contents must not be overwritten, or if another program saves the session.
     session: Option<PathBuf>,
-    /// The same of the texts.
+    /// The file of the texts; `None` if its contents must not be overwritten.
     texts: Option<PathBuf>,
-    /// The texts as the file has them, or will soon have them.
+    /// The texts as they are, or soon will be, in the file.
     known: Vec<Unsaved>,
-    /// The file of the texts could not be written last.
+    /// Whether the last write of the file of texts failed.
     failed: bool,
-    /// The place of the first program, where this one is another.
+    /// The session's file of the first program, if this is another program.
     waits_for: Option<PathBuf>,
-    /// The file in which the texts were kept before the place of the first was taken.
+    /// The previous file of the texts, from before this program took the place of the first.
     former: Option<PathBuf>,
     file_writer: FileWriter,
-    /// What is not kept and why, in sentences.
+    /// What is not stored and why, in sentences.
     pub(super) troubles: Vec<String>,
-    /// Let go by the system, whatever becomes of the program.
+    /// The system releases the lock however the program ends.
     _lock: File,
 }
 
-/// The form of the file of texts.
+/// The format of the file of texts.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Kept {
     version: u32,
@@ -53,36 +53,36 @@ struct Kept {
     texts: Vec<Unsaved>,
 }
 
-/// The version of that form.
+/// The version of that format.
 const TEXTS_VERSION: u32 = 1;
 
-/// The most bytes that are read of a session or of texts: more than 30 texts of the greatest length with what they were
-/// made from. What is longer was not written by phaselab.
+/// The maximum size of a session or of texts, in bytes: more than 30 texts of the greatest length, each with its
+/// base text. Phaselab writes nothing longer.
 const LONGEST: usize = 64 << 20;
 
-/// So many programs keep texts at the same time.
+/// The maximum number of programs that store texts at the same time.
 const PROGRAMS: u32 = 64;
 
-/// Why sessions are not kept, as a sentence for the user.
+/// Why sessions are not stored, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum StoreError {
-    /// There is no place for it.
+    /// There is no home folder for it.
     #[error("the session will not be saved: there is no home folder to save it in")]
     NoHome,
-    /// The place cannot be written to.
+    /// The file cannot be written.
     #[error("the session will not be saved: cannot write {}: {}", .path.display(), printable::why(.reason))]
     Refused {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The reason given by the system.
         reason: io::Error,
     },
-    /// Other programs have all places.
+    /// Other programs have taken all files.
     #[error("the session will not be saved: {PROGRAMS} others are running and save their own")]
     Taken,
 }
 
-/// Why there is no session to go on with.
+/// Why there is no session to resume.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// There is no home folder.
@@ -93,10 +93,10 @@ pub enum SessionError {
     Unread {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The reason given by the system.
         reason: io::Error,
     },
-    /// A newer program wrote it.
+    /// It was written by a newer version of the program.
     #[error(
         "{} is a session of form {found}, of a newer phaselab; this one reads form {} and older",
         .path.display(), Saved::VERSION
@@ -107,24 +107,24 @@ pub enum SessionError {
         /// Its version.
         found: i64,
     },
-    /// It is no session.
+    /// It is not a session.
     #[error("{} is no session:\n{reason}", .path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// What is wrong and where.
+        /// What is wrong, with the position.
         reason: String,
     },
 }
 
-/// The session's file, `phaselab/session.toml` where XDG keeps state.
+/// Returns the session's file, `phaselab/session.toml` in the XDG state folder.
 fn place() -> Option<PathBuf> {
     let folder = Xdg::new().ok()?.state_dir()?;
     Some(folder.join("phaselab").join("session.toml"))
 }
 
 impl Store {
-    /// The usual place.
+    /// Opens the store in its default place.
     pub(super) fn open() -> Result<Self, StoreError> {
         Self::at(place().ok_or(StoreError::NoHome)?)
     }
@@ -146,7 +146,7 @@ impl Store {
         Err(StoreError::Taken)
     }
 
-    /// The store of the program that keeps the session.
+    /// Creates the store of the program that saves the session.
     fn first(session: &Path, lock: File, file_writer: FileWriter) -> Self {
         let mut troubles = Vec::new();
         let what = "the session will not be saved";
@@ -170,10 +170,11 @@ impl Store {
         store
     }
 
-    /// The store of a program that runs beside that.
+    /// Creates the store of a program that runs beside the first.
     fn another(session: PathBuf, texts: PathBuf, lock: File, file_writer: FileWriter) -> Self {
-        let told = "the session will not be saved: another phaselab is running and saves its own";
-        let mut troubles = vec![told.to_owned()];
+        let message =
+            "the session will not be saved: another phaselab is running and saves its own";
+        let mut troubles = vec![message.to_owned()];
         let what = "texts that are left unsaved will not be kept";
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         Self {
@@ -189,7 +190,7 @@ impl Store {
         }
     }
 
-    /// Takes up the texts of other programs that have ended and could not pass them on.
+    /// Adopts the texts of other programs that have ended without passing them on.
     fn take_up_others(&mut self, session: &Path) {
         let Some(texts) = self.texts.clone() else { return };
         for number in 2..=PROGRAMS {
@@ -204,10 +205,10 @@ impl Store {
                     self.known.push(text);
                 }
             }
-            // theirs goes only once it stands here
+            // Their file is removed only after the texts have been written to this one.
             match form(&self.known).and_then(|text| file_writer::write(&texts, &text)) {
                 Ok(()) => {
-                    // one that stays is taken up once more, which does no harm
+                    // If removing it fails, it is adopted once more, which does not matter.
                     let _ = fs::remove_file(&theirs);
                 }
                 Err(why) => self.troubles.push(why.to_string()),
@@ -215,44 +216,44 @@ impl Store {
         }
     }
 
-    /// Takes the place of the first program once that has ended; the texts that are to be taken up then.
+    /// Takes the place of the first program if that has ended. Returns the texts to restore from it.
     pub(super) fn take_over(&mut self) -> Option<Vec<Unsaved>> {
         let session = self.waits_for.as_ref()?;
         let lock = lock(&session.with_extension("lock")).ok().flatten()?;
         let file_writer = FileWriter::new().ok()?;
         let session = self.waits_for.take()?;
         let mut own = std::mem::replace(self, Self::first(&session, lock, file_writer));
-        // one that still has something to write goes on
+        // The current file writer stays, since it may still have work to do.
         std::mem::swap(&mut self.file_writer, &mut own.file_writer);
         let found = self.known.clone();
-        // what this program kept so far stands in its old file until it stands in the new one
+        // The texts of this program remain in the old file until they are in the new one.
         self.former = own.texts;
         Some(found)
     }
 
-    /// Has a session put in the place of the last one. What goes wrong leaves that as it was.
+    /// Queues a session to replace the last one. If writing fails, the last one stays.
     pub(super) fn save(&mut self, saved: Saved) {
         let Some(path) = &self.session else { return };
         self.file_writer.write(path, move || toml::to_string(&saved).map_err(io::Error::other));
     }
 
-    /// The texts that were not saved, as they were kept last.
+    /// Returns the unsaved texts as they were stored last.
     pub(super) fn texts(&self) -> &[Unsaved] {
         &self.known
     }
 
-    /// The file of the texts; `None` where none are kept.
+    /// Returns the file of the texts, or `None` if no texts are stored.
     pub(super) fn place_of_texts(&self) -> Option<&Path> {
         self.texts.as_deref()
     }
 
-    /// Whether texts are kept, as far as is known.
+    /// Whether texts are stored, as far as is known.
     pub(super) fn keeps_texts(&self) -> bool {
         self.texts.is_some() && !self.failed
     }
 
-    /// Has these texts kept in the place of those before; whether that was necessary. Where it is the last time, nobody
-    /// relies on what was written before.
+    /// Queues these texts to replace the stored ones. Returns whether that was necessary. The last call does not
+    /// rely on earlier writes.
     pub(super) fn keep_texts(&mut self, texts: Vec<Unsaved>, last: bool) -> bool {
         let changed = texts != self.known || self.failed || self.former.is_some();
         let needed = changed || last && !texts.is_empty();
@@ -266,24 +267,24 @@ impl Store {
         true
     }
 
-    /// There is no time any more to wait for a disk.
+    /// Stops waiting for the disk from now on.
     pub(super) fn hurry(&self) {
         self.file_writer.hurry();
     }
 
-    /// What went wrong since this was asked last; each error names its file.
+    /// Returns the errors since the last call; each names its file.
     pub(super) fn errors(&mut self) -> Vec<io::Error> {
         let outcomes = self.file_writer.outcomes();
-        self.hear(outcomes)
+        self.collect_errors(outcomes)
     }
 
-    /// The same of all that is under way, waited for no longer than that.
+    /// Returns the errors of all queued work, waiting at most this long.
     pub(super) fn settle(&mut self, time: Duration) -> Vec<io::Error> {
         let outcomes = self.file_writer.settle(time);
-        self.hear(outcomes)
+        self.collect_errors(outcomes)
     }
 
-    fn hear(&mut self, outcomes: Vec<(PathBuf, io::Result<()>)>) -> Vec<io::Error> {
+    fn collect_errors(&mut self, outcomes: Vec<(PathBuf, io::Result<()>)>) -> Vec<io::Error> {
         for (path, done) in &outcomes {
             if self.texts.as_ref() != Some(path) {
                 continue;
@@ -299,12 +300,12 @@ impl Store {
     }
 }
 
-/// The file of the texts of another program.
+/// Returns the file of texts of another program.
 fn numbered(session: &Path, number: u32) -> PathBuf {
     session.with_file_name(format!("texts-{number}.toml"))
 }
 
-/// A lock, if nobody has it.
+/// Takes a lock, unless another program has it.
 fn lock(path: &Path) -> io::Result<Option<File>> {
     let file = regular::open_or_make(path)?;
     match file.try_lock() {
@@ -314,10 +315,10 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
     }
 }
 
-/// A file that must not be written over.
+/// A file that must not be overwritten.
 struct Untouchable;
 
-/// What a file holds; nothing where it is not there, or is of no use and was put aside.
+/// Reads a file. Returns `None` if it does not exist, or if it was malformed and has been moved aside.
 fn read_or_put_aside<T>(
     path: &Path,
     what: &str,
@@ -340,7 +341,7 @@ fn read_or_put_aside<T>(
     Err(Untouchable)
 }
 
-/// Gives a file a name that nothing has yet; `None` where that cannot be.
+/// Renames a file to an unused name. Returns `None` if that fails.
 fn put_aside(path: &Path) -> Option<PathBuf> {
     let stem = path.file_stem()?.to_str()?;
     let names = (1..=PROGRAMS).map(|n| path.with_file_name(format!("{stem}-damaged-{n}.toml")));
@@ -348,14 +349,14 @@ fn put_aside(path: &Path) -> Option<PathBuf> {
     fs::rename(path, &place).ok().map(|()| place)
 }
 
-/// The file of these texts.
+/// Serializes texts into the contents of their file.
 fn form(texts: &[Unsaved]) -> io::Result<String> {
     let phaselab = env!("CARGO_PKG_VERSION").to_owned();
     let form = Kept { version: TEXTS_VERSION, phaselab, texts: texts.to_vec() };
     toml::to_string_pretty(&form).map_err(io::Error::other)
 }
 
-/// The last session.
+/// Reads the last session.
 pub(super) fn read() -> Result<Saved, SessionError> {
     read_from(&place().ok_or(SessionError::NoHome)?)
 }
@@ -371,12 +372,12 @@ fn read_texts(path: &Path) -> Result<Vec<Unsaved>, SessionError> {
 fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, SessionError> {
     let unread = |reason| SessionError::Unread { path: path.to_owned(), reason };
     let text = regular::read_text(path, LONGEST).map_err(unread)?;
-    // a disk without power leaves zeros, or nothing
+    // A power failure can leave zeros, or nothing.
     if text.bytes().all(|byte| byte == 0 || byte.is_ascii_whitespace()) {
         let empty = io::Error::new(io::ErrorKind::NotFound, "it is empty");
         return Err(unread(empty));
     }
-    // Another form may have other keys, so its number is looked at first.
+    // Another version may have other keys, so the version is checked first.
     let number = text.parse::<toml::Table>().ok().and_then(|t| t.get("version")?.as_integer());
     if let Some(found) = number.filter(|found| *found > i64::from(version)) {
         return Err(SessionError::Newer { path: path.to_owned(), found });
@@ -388,12 +389,12 @@ fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, Sessio
 }
 
 impl SessionError {
-    /// Whether there is nothing at all.
+    /// Whether the file does not exist.
     fn is_missing(&self) -> bool {
         matches!(self, Self::Unread { reason, .. } if reason.kind() == io::ErrorKind::NotFound)
     }
 
-    /// In one line.
+    /// Returns the error in one line.
     fn in_short(&self) -> String {
         match self {
             Self::NoHome => "there is no home folder".to_owned(),
@@ -538,7 +539,7 @@ mod tests {
         pipe(&path.with_file_name("texts.toml"));
         let store = Store::at(path.clone()).expect("it is free");
         assert_eq!(store.troubles.len(), 2, "{:?}", store.troubles);
-        assert!(store.troubles.iter().all(|told| told.contains("it is a pipe, not a file")));
+        assert!(store.troubles.iter().all(|message| message.contains("it is a pipe, not a file")));
         drop(store);
         fs::remove_file(path.with_extension("lock")).expect("it goes");
         pipe(&path.with_extension("lock"));
@@ -598,15 +599,18 @@ mod tests {
         let mut store = Store::at(path.clone()).expect("it is free");
         store.save(session());
         settled(&mut store);
-        // a folder without the right to write would not stop root: a folder stands where the file is to be
+        // Missing write permission would not stop root, so a folder takes the place of the file.
         fs::remove_file(&path).expect("it goes");
         fs::create_dir(&path).expect("a folder");
         fs::write(path.join("in the way"), "").expect("it is written");
         store.save(Saved { open: "planet".to_owned(), ..session() });
         let errors = store.settle(LONG);
         let [error] = &errors[..] else { panic!("{errors:?}") };
-        let told = error.to_string();
-        assert!(told.starts_with("cannot write ") && told.contains("session.toml"), "{told}");
+        let message = error.to_string();
+        assert!(
+            message.starts_with("cannot write ") && message.contains("session.toml"),
+            "{message}"
+        );
         assert!(path.join("in the way").exists());
     }
 
@@ -614,16 +618,16 @@ mod tests {
     fn what_is_no_session_is_reported_in_its_place() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("session.toml");
-        let told = |text: &str| {
+        let message = |text: &str| {
             fs::write(&path, text).expect("it is written");
             read_from(&path).expect_err("it is wrong").to_string()
         };
-        let newer = told("version = 2\nsomething = \"else\"\n");
+        let newer = message("version = 2\nsomething = \"else\"\n");
         assert!(newer.contains("form 2, of a newer phaselab"), "{newer}");
-        let malformed = told("version = 1\npage = \"nowhere\"\n");
+        let malformed = message("version = 1\npage = \"nowhere\"\n");
         assert!(malformed.contains("is no session:\n"), "{malformed}");
-        assert!(told("version = ]\n").contains("line 1"));
-        assert!(told(" \n").contains("it is empty"));
+        assert!(message("version = ]\n").contains("line 1"));
+        assert!(message(" \n").contains("it is empty"));
         let gone = read_from(&folder.path().join("other.toml")).expect_err("it is not there");
         assert!(gone.to_string().starts_with("there is no session to resume: "), "{gone}");
     }

@@ -1,9 +1,10 @@
-//! The terminal and its one guard: every mode that is set goes through here, and one call undoes them all.
+//! The terminal and its guard: every mode is set here, and one call restores them all.
 //!
-//! In: what to set, bytes to show. Out: crossterm's commands for the modes, bytes typed, the window's size. Several
-//! threads hold it: the frame loop, the signal thread and the panic hook, any of which may have to [`Terminal::leave`];
-//! after that no byte is sent. (`ratatui::restore` would leave pastes, the mouse and focus as they were set.)
-//! Never here: what the bytes mean, or a question put to the terminal.
+//! In: modes to set, bytes to show. Out: crossterm's commands for the modes, typed bytes, the window's size.
+//! Several threads share it: the frame loop, the signal thread and the panic hook, any of which may have to call
+//! [`Terminal::leave`]; after that no byte is sent. (`ratatui::restore` would not reset pastes, the mouse and
+//! focus.)
+//! Never here: what the bytes mean, or queries to the terminal.
 
 use std::ffi::OsStr;
 use std::io::{self, Write};
@@ -28,16 +29,16 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode as FileMode, OFlags, open};
 use rustix::termios::{QueueSelector, isatty, tcflush, ttyname};
 
-/// How long a terminal may take to accept what restores it, before its unsent output is thrown away.
+/// How long a terminal may take to accept the restoring bytes before its unsent output is discarded.
 const PATIENCE: Duration = Duration::from_millis(60);
 
-/// Sizes beyond this, columns and rows, are taken for an error of whoever reports them.
+/// Larger sizes, in columns and rows, are treated as errors of the terminal.
 const LARGEST: (u16, u16) = (1000, 1000);
 
-/// The size of a terminal that does not know its own.
+/// The size assumed for a terminal that does not know its own.
 const USUAL: (u16, u16) = (80, 24);
 
-/// Why there is no terminal to work with, as a sentence for the user.
+/// Why there is no usable terminal, as a sentence for the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TerminalError {
     /// Standard input or output is a file or a pipe.
@@ -50,11 +51,11 @@ pub enum TerminalError {
     Dumb,
 }
 
-/// What can be done without one.
+/// An alternative that needs no terminal.
 const HEADLESS: &str = "`phaselab run PRESET` integrates without one";
 
 impl TerminalError {
-    /// Whether there is a terminal to work with.
+    /// Checks that there is a usable terminal.
     pub(super) fn check() -> Result<(), TerminalError> {
         if !isatty(rustix::stdio::stdin()) || !isatty(rustix::stdio::stdout()) {
             return Err(TerminalError::Redirected);
@@ -64,23 +65,23 @@ impl TerminalError {
     }
 }
 
-/// Something a terminal can be switched to.
+/// A mode of a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// A screen of our own; the shell's comes back unharmed.
+    /// The alternate screen; the shell's screen reappears unchanged.
     AlternateScreen,
-    /// No cursor.
+    /// The cursor is hidden.
     HiddenCursor,
-    /// Pasted text comes in brackets.
+    /// Pasted text is enclosed in brackets.
     Paste,
     /// Buttons, drags and the wheel are reported, in decimal numbers.
     Mouse,
-    /// It is reported when the window gets the keyboard and loses it.
+    /// Changes of the window's focus are reported.
     Focus,
 }
 
 impl Mode {
-    /// Writes what switches it on or off.
+    /// Writes the commands that switch it on or off.
     fn switch(self, on: bool, mut out: impl Write) -> io::Result<()> {
         match (self, on) {
             (Self::AlternateScreen, true) => queue!(out, EnterAlternateScreen),
@@ -96,9 +97,9 @@ impl Mode {
     }
 }
 
-/// Has buttons, drags and the wheel reported, or not any more. crossterm's `EnableMouseCapture` has every motion
-/// reported besides (mode 1003, crossterm-rs/crossterm#640): a line would carry some ten bytes, and the program wake,
-/// for each place that the mouse passes.
+/// Enables or disables reports of buttons, drags and the wheel. crossterm's `EnableMouseCapture` also enables
+/// reports of every motion (mode 1003, crossterm-rs/crossterm#640): the connection would carry some ten bytes, and
+/// the program wake up, for each cell that the mouse passes.
 struct ReportMouse(bool);
 
 impl Command for ReportMouse {
@@ -112,12 +113,12 @@ impl Command for ReportMouse {
     }
 }
 
-/// What a wait has brought.
+/// The result of a wait.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Ready {
-    /// Something was typed.
+    /// Whether there is input.
     pub(super) input: bool,
-    /// The terminal has hung up.
+    /// Whether the terminal has hung up.
     pub(super) gone: bool,
 }
 
@@ -125,41 +126,43 @@ pub(super) struct Ready {
 #[derive(Debug)]
 pub(super) struct Terminal {
     input: BorrowedFd<'static>,
-    /// Opened anew, so that it does not block and the setting is not shared with the shell that started us.
+    /// Opened separately, so that it does not block and its flags are not shared with the shell that started the
+    /// program.
     output: OwnedFd,
-    /// What has to be undone, raw mode beside; `None` where nothing has.
-    held: Mutex<Option<Vec<Mode>>>,
+    /// The modes to be undone, besides raw mode; `None` if the terminal has not been changed.
+    active: Mutex<Option<Vec<Mode>>>,
 }
 
 impl Terminal {
-    /// The terminal, not touched yet.
+    /// Opens the terminal without changing it.
     pub(super) fn open() -> io::Result<Self> {
         let (input, output) = (rustix::stdio::stdin(), rustix::stdio::stdout());
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
         let output = ttyname(output, Vec::new())
             .and_then(|name| open(name, flags, FileMode::empty()))
             .or_else(|_| open("/dev/tty", flags, FileMode::empty()))
-            // Both can be out of reach, in a container or after a change of user. A stalled terminal then blocks.
+            // The device can be inaccessible, in a container or after a change of user. A stalled terminal then
+            // blocks.
             .or_else(|_| rustix::io::dup(output))?;
-        Ok(Self { input, output, held: Mutex::new(None) })
+        Ok(Self { input, output, active: Mutex::new(None) })
     }
 
-    /// Makes the terminal raw, and writes what sets its modes. Entering again sets everything anew, for after a stop or a
-    /// failure nobody knows how the terminal was left.
+    /// Makes the terminal raw, and writes the commands for its modes. Entering again sets everything again, since
+    /// the state of the terminal is unknown after a stop or a failure.
     pub(super) fn enter(&self, mut out: impl Write) -> io::Result<()> {
-        let mut held = self.lock();
+        let mut active = self.lock();
         let first = || vec![Mode::AlternateScreen, Mode::HiddenCursor, Mode::Focus];
-        let modes = held.get_or_insert_with(first);
-        // what crossterm takes for raw may have been made otherwise since by a shell
+        let modes = active.get_or_insert_with(first);
+        // A shell may have changed the mode since, although crossterm still considers it raw.
         disable_raw_mode()?;
         enable_raw_mode()?;
         modes.iter().try_for_each(|mode| mode.switch(true, &mut out))
     }
 
-    /// Switches a mode, and writes what does that.
+    /// Switches a mode, and writes the commands for that.
     pub(super) fn switch(&self, mode: Mode, on: bool, out: impl Write) -> io::Result<()> {
-        let mut held = self.lock();
-        let Some(modes) = held.as_mut().filter(|modes| modes.contains(&mode) != on) else {
+        let mut active = self.lock();
+        let Some(modes) = active.as_mut().filter(|modes| modes.contains(&mode) != on) else {
             return Ok(());
         };
         modes.retain(|&other| other != mode);
@@ -169,19 +172,19 @@ impl Terminal {
         mode.switch(on, out)
     }
 
-    /// Undoes all that was done. May be called by any thread, at any time, more than once. Typed input that nobody has
-    /// read is dropped, so that the rest of a paste does not become commands of the shell.
+    /// Undoes all changes. Any thread may call it, at any time, more than once. Unread input is discarded, so that
+    /// the rest of a paste does not become commands of the shell.
     pub(super) fn leave(&self) {
-        let held = self.lock_soon().and_then(|mut held| held.take());
-        let Some(modes) = held else { return };
+        let active = self.lock_soon().and_then(|mut active| active.take());
+        let Some(modes) = active else { return };
         let mut bytes = Vec::new();
-        // memory takes what is written
+        // Writing to memory cannot fail.
         let _ = queue!(bytes, EndSynchronizedUpdate, SetAttribute(Attribute::Reset));
         for mode in modes.iter().rev() {
             let _ = mode.switch(false, &mut bytes);
         }
         if !self.write_within(&mut bytes, PATIENCE) {
-            // A stalled terminal: what it has not taken so far was a frame that no longer matters.
+            // The terminal is stalled: the rest of the frame that it has not accepted no longer matters.
             let _ = tcflush(&self.output, QueueSelector::OFlush);
             self.write_within(&mut bytes, PATIENCE);
         }
@@ -191,24 +194,24 @@ impl Terminal {
 
     /// Whether there is something to undo.
     pub(super) fn is_held(&self) -> bool {
-        self.lock_soon().is_some_and(|held| held.is_some())
+        self.lock_soon().is_some_and(|active| active.is_some())
     }
 
-    /// Sends what the terminal takes without waiting. After [`Self::leave`] nothing is sent.
+    /// Sends what the terminal accepts without blocking. After [`Self::leave`] nothing is sent.
     pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
-        let held = self.lock();
-        if held.is_none() {
+        let active = self.lock();
+        if active.is_none() {
             return Ok(bytes.len());
         }
         Ok(rustix::io::write(&self.output, bytes)?)
     }
 
-    /// Reads what was typed; call it when there is something.
+    /// Reads input; call it when there is some.
     pub(super) fn read(&self, buffer: &mut [u8]) -> io::Result<usize> {
         Ok(rustix::io::read(self.input, buffer)?)
     }
 
-    /// Whether there is something to read.
+    /// Whether there is input.
     pub(super) fn has_input(&self) -> io::Result<bool> {
         let mut fds = [PollFd::new(&self.input, PollFlags::IN)];
         match poll(&mut fds, Some(&timespec(Duration::ZERO))) {
@@ -217,7 +220,7 @@ impl Terminal {
         }
     }
 
-    /// Columns and rows.
+    /// Returns the size in columns and rows.
     pub(super) fn size() -> Size {
         let (columns, rows) = match window_size() {
             Ok(size) if size.columns > 0 && size.rows > 0 => (size.columns, size.rows),
@@ -226,7 +229,7 @@ impl Terminal {
         Size::new(columns.min(LARGEST.0), rows.min(LARGEST.1))
     }
 
-    /// Waits until something is typed, `wake` can be read, the terminal takes output again (if that is asked for), or
+    /// Waits until there is input, `wake` is readable, the terminal accepts output again (if that is requested), or
     /// the time is over.
     pub(super) fn wait(
         &self,
@@ -252,7 +255,7 @@ impl Terminal {
         })
     }
 
-    /// Writes until all is written, dropping from `bytes` what is; says whether that came to its end in time.
+    /// Writes all of `bytes`, removing what has been written. Returns whether that was completed in time.
     fn write_within(&self, bytes: &mut Vec<u8>, time: Duration) -> bool {
         let end = Instant::now() + time;
         while !bytes.is_empty() {
@@ -268,7 +271,7 @@ impl Terminal {
                     }
                 }
                 Err(rustix::io::Errno::INTR) => {}
-                // There is nobody left to show anything to.
+                // The terminal is gone, so there is nothing left to write to.
                 Err(_) => return true,
             }
         }
@@ -276,16 +279,16 @@ impl Terminal {
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<Vec<Mode>>> {
-        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+        self.active.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The lock, unless its holder is stuck in a write that blocks: then nothing can be restored.
+    /// Takes the lock, unless its holder is stuck in a blocking write: then nothing can be restored.
     fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Vec<Mode>>>> {
         let end = Instant::now() + PATIENCE;
         loop {
-            match self.held.try_lock() {
-                Ok(held) => return Some(held),
-                Err(TryLockError::Poisoned(held)) => return Some(held.into_inner()),
+            match self.active.try_lock() {
+                Ok(active) => return Some(active),
+                Err(TryLockError::Poisoned(active)) => return Some(active.into_inner()),
                 Err(TryLockError::WouldBlock) if Instant::now() >= end => return None,
                 Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(1)),
             }

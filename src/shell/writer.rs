@@ -1,7 +1,7 @@
-//! The writer: one file that a key asked for, made and written on the side, so that no key waits for the disk.
+//! The writer: creates one file requested by a key, in the background, so that no key waits for the disk.
 //!
-//! In: what is to be done. Out: a sentence on what became of it, once. One at a time, and none is given up for the next.
-//! Never here: what is written.
+//! In: the work to do. Out: a sentence about its outcome, once. Only one file is written at a time, and a write is
+//! never cancelled for the next. Never here: what is written.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::job::{Job, Outcome};
 use crate::worker::Side;
 
-/// What became of it, as a sentence for the user.
+/// The outcome, as a sentence for the user.
 pub(super) type Told = Result<String, String>;
 
 /// The file being written, if there is one.
@@ -19,15 +19,15 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// A writer with nothing to do.
+    /// Creates an idle writer.
     pub(super) fn new() -> Self {
         Self { side: Side::new("writer") }
     }
 
-    /// Begins to write.
+    /// Starts to write a file.
     ///
     /// # Errors
-    /// Where a file is being written.
+    /// Returns an error if a file is already being written.
     pub(super) fn begin(
         &mut self,
         work: impl FnOnce() -> Told + Send + 'static,
@@ -35,7 +35,7 @@ impl Writer {
         if self.side.is_busy() {
             return Err("A file is still being written; ask again when it is there.".to_owned());
         }
-        // a file is written once, though a job could be run again
+        // A file is written once, although a job could be run again.
         let work = Mutex::new(Some(work));
         let job = Job::new("The writing of the file", move |_| {
             let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -45,20 +45,20 @@ impl Writer {
         Ok(())
     }
 
-    /// What became of it, once it has ended.
+    /// Returns the outcome as soon as there is one.
     pub(super) fn take(&mut self) -> Option<Told> {
-        self.side.take().and_then(|(_, outcome)| told(outcome))
+        self.side.take().and_then(|(_, outcome)| report(outcome))
     }
 
-    /// The same, waited for so long; `None` where there was none, or it takes longer.
+    /// Waits at most this long for the outcome. Returns `None` if there is no write, or if it takes longer.
     pub(super) fn wait(&mut self, time: Duration) -> Option<Told> {
-        self.side.wait(time).and_then(told)
+        self.side.wait(time).and_then(report)
     }
 }
 
-fn told(outcome: Outcome<Told>) -> Option<Told> {
+fn report(outcome: Outcome<Told>) -> Option<Told> {
     match outcome {
-        Outcome::Done(told) => Some(told),
+        Outcome::Done(report) => Some(report),
         Outcome::Failed(sentence) => Some(Err(format!("{sentence}."))),
         Outcome::Cancelled => None,
     }

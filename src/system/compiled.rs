@@ -439,8 +439,8 @@ impl System {
     ) -> MotionError {
         let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
         let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
-        let held = self.constraints() > 0;
-        let kind = if held {
+        let is_constrained = self.constraints() > 0;
+        let kind = if is_constrained {
             MotionErrorKind::SingularConstraints(None)
         } else {
             MotionErrorKind::SingularMass
@@ -458,13 +458,13 @@ impl System {
         let n = self.degrees();
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         let first = if self.form() == Form::Momentum { 2 * n } else { n };
-        let told = |solution: &Vec<DoubleDouble>| {
+        let described = |solution: &Vec<DoubleDouble>| {
             let rate = |&i: &usize| {
                 format!("{} = {}", self.channels()[first + i].name, solution[n + i].high)
             };
             unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
         };
-        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(told).collect());
+        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(described).collect());
         MotionError { time, kind, place: Vec::new() }
     }
 

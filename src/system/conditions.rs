@@ -187,18 +187,18 @@ impl Conditions {
     }
 
     /// The multipliers of least norm of all `active` constraints that are equivalent to those of
-    /// the `held` ones: λ = B (BᵀB)⁻¹ G ν, as in `kkt`.
+    /// the `enforced` ones: λ = B (BᵀB)⁻¹ G ν, as in `kkt`.
     pub(super) fn least(
         &self,
         active: &[bool],
-        held: &[bool],
-        held_only: Vec<DoubleDouble>,
+        enforced: &[bool],
+        multipliers: Vec<DoubleDouble>,
     ) -> Vec<DoubleDouble> {
-        if active == held {
-            return held_only;
+        if active == enforced {
+            return multipliers;
         }
         let rows = |which: &[bool]| (0..self.count).filter(|&k| which[k]).collect::<Vec<_>>();
-        let (all, independent) = (rows(active), rows(held));
+        let (all, independent) = (rows(active), rows(enforced));
         let product = |a: usize, b: usize| {
             let terms = (0..self.degrees).map(|i| self.entry(a, i) * self.entry(b, i));
             terms.fold(DoubleDouble::ZERO, |sum, x| sum + x)
@@ -209,11 +209,11 @@ impl Conditions {
         let b: Vec<Vec<DoubleDouble>> =
             all.iter().map(|&k| independent.iter().map(|&j| product(k, j)).collect()).collect();
         let force =
-            |&j: &usize| sum(&mut independent.iter().map(|&k| product(j, k) * held_only[k]));
+            |&j: &usize| sum(&mut independent.iter().map(|&k| product(j, k) * multipliers[k]));
         let mut weights: Vec<DoubleDouble> = independent.iter().map(force).collect();
         let mut factored = Factored::new(independent.len());
         if !factored.factor(|i, j| sum(&mut b.iter().map(|row| row[i] * row[j]))) {
-            return held_only;
+            return multipliers;
         }
         factored.solve(&mut weights);
         let mut least = vec![DoubleDouble::ZERO; self.count];
@@ -259,38 +259,38 @@ impl Conditions {
         Some(chosen)
     }
 
-    /// The smallest component that a row of the `held` constraints has orthogonal to those before
+    /// The smallest component that a row of the `enforced` constraints has orthogonal to those before
     /// it, relative to the largest row of the `active` ones.
-    pub(super) fn strength(&self, active: &[bool], held: &[bool]) -> f64 {
+    pub(super) fn strength(&self, active: &[bool], enforced: &[bool]) -> f64 {
         let units = self.units(active);
         let rows = |which: &[bool]| -> Vec<Vec<f64>> {
             (0..self.count).filter(|&k| which[k]).map(|k| self.row(k, &units)).collect()
         };
         let largest = rows(active).iter().map(|row| norm(row)).fold(0.0, f64::max);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
-        let own = rows(held).into_iter().map(|row| {
+        let own = rows(enforced).into_iter().map(|row| {
             let size = norm(&row);
             basis.add(row).unwrap_or(0.0) * (size / largest)
         });
         own.fold(1.0, f64::min)
     }
 
-    /// How independent the `held` constraints are: the least sine of the angle between a row and
+    /// How independent the `enforced` constraints are: the least sine of the angle between a row and
     /// the span of those before it; zero if a row vanishes.
-    pub(super) fn independence(&self, held: &[bool]) -> f64 {
-        let units = self.units(held);
+    pub(super) fn independence(&self, enforced: &[bool]) -> f64 {
+        let units = self.units(enforced);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
-        let rows = (0..self.count).filter(|&k| held[k]).map(|k| self.row(k, &units));
+        let rows = (0..self.count).filter(|&k| enforced[k]).map(|k| self.row(k, &units));
         rows.map(|row| basis.add(row).unwrap_or(0.0)).fold(1.0, f64::min)
     }
 
-    /// The space spanned by the rows of the `held` constraints, with its orientation, or `None` if
+    /// The space spanned by the rows of the `enforced` constraints, with its orientation, or `None` if
     /// the rows are dependent. Uses the given units of the coordinates, or else units that make the
     /// entries comparable.
-    pub(super) fn span(&self, held: &[bool], units: Option<&[f64]>) -> Option<Span> {
-        let units = units.map_or_else(|| self.units(held), <[f64]>::to_vec);
+    pub(super) fn span(&self, enforced: &[bool], units: Option<&[f64]>) -> Option<Span> {
+        let units = units.map_or_else(|| self.units(enforced), <[f64]>::to_vec);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
-        for k in (0..self.count).filter(|&k| held[k]) {
+        for k in (0..self.count).filter(|&k| enforced[k]) {
             basis.add(self.row(k, &units)).filter(|&left| left > SPANS)?;
         }
         Some(Span { rows: basis.rows, volume: basis.volume, units })

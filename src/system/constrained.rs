@@ -34,14 +34,14 @@ pub(super) struct ActiveSet {
     /// The constraints that have not been released.
     active: Vec<bool>,
     /// The active constraints whose multipliers are solved for. The others depend on these.
-    held: Vec<bool>,
+    enforced: Vec<bool>,
 }
 
 impl ActiveSet {
     /// The switches of the programs: enforced and active, for each constraint.
     pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = DoubleDouble> {
         let number = |on: bool| if on { DoubleDouble::ONE } else { DoubleDouble::ZERO };
-        (0..count).flat_map(move |k| [number(self.held[k]), number(self.active[k])])
+        (0..count).flat_map(move |k| [number(self.enforced[k]), number(self.active[k])])
     }
 }
 
@@ -60,8 +60,8 @@ impl Constrained {
             return Ok(None);
         }
         let programs = Programs::of(builder)?;
-        let held = independent_at_start(model, builder, &programs, inertia)?;
-        let redundant = held.contains(&false);
+        let enforced = independent_at_start(model, builder, &programs, inertia)?;
+        let redundant = enforced.contains(&false);
         let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
         let switched = redundant || released;
         let kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, switched, redundant);
@@ -76,7 +76,7 @@ impl Constrained {
             switched,
         };
         let active = vec![true; rows.len()];
-        Ok(Some((constrained, ActiveSet { active, held })))
+        Ok(Some((constrained, ActiveSet { active, enforced })))
     }
 }
 
@@ -135,14 +135,14 @@ impl Directions {
 #[derive(Clone, Debug)]
 pub struct ConstraintProjector {
     system: System,
-    kept: Projection,
+    projection: Projection,
     numbers: Vec<DoubleDouble>,
 }
 
 impl ConstraintProjector {
     /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
-        self.kept.set_parameters(&self.system.inputs(parameters));
+        self.projection.set_parameters(&self.system.inputs(parameters));
     }
 
     fn load(&mut self, state: &State) {
@@ -158,17 +158,17 @@ impl ConstraintProjector {
     /// Returns an error if no state nearby satisfies them, or if their directions are dependent.
     pub fn project(&mut self, state: &mut State) -> Result<(), MotionError> {
         self.load(state);
-        let outcome = self.kept.project(state.exact_time(), &mut self.numbers);
+        let outcome = self.projection.project(state.exact_time(), &mut self.numbers);
         if let Err(why) = outcome {
             let singular = self.is_nearly_singular(state, None);
             let why = if singular { ProjectionError::Singular } else { why };
             return Err(self.system.lost(why, state));
         }
         // a constraint that was redundant at the start may have come to contradict the others
-        let ActiveSet { active, held } = self.system.holding();
-        let conditions = self.kept.conditions();
+        let ActiveSet { active, enforced } = self.system.holding();
+        let conditions = self.projection.conditions();
         let velocities = &self.numbers[self.system.degrees()..];
-        for k in (0..active.len()).filter(|&k| active[k] && !held[k]) {
+        for k in (0..active.len()).filter(|&k| active[k] && !enforced[k]) {
             let off = conditions.position(k).relative();
             let off = off.max(conditions.velocity(k, velocities).relative());
             if off.is_nan() || off > consistent_initial::GIVEN_WITHIN {
@@ -188,19 +188,20 @@ impl ConstraintProjector {
         let beside = beside.and_then(|beside| self.directions(beside, None));
         let Some(here) = self.directions(state, beside.as_ref()) else { return true };
         let shrunk = |beside: Directions| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
-        let held = self.system.holding().held.clone();
-        self.kept.conditions().independence(&held) < NEARLY_SINGULAR || beside.is_some_and(shrunk)
+        let enforced = self.system.holding().enforced.clone();
+        self.projection.conditions().independence(&enforced) < NEARLY_SINGULAR
+            || beside.is_some_and(shrunk)
     }
 
     /// The directions of the constraints at a state, in the units of `like` if it is given. Returns
     /// `None` at a singular configuration.
     pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
         self.load(state);
-        let held = self.system.holding().held.clone();
-        let conditions = self.kept.conditions();
+        let enforced = self.system.holding().enforced.clone();
+        let conditions = self.projection.conditions();
         conditions.look(state.exact_time(), &self.numbers);
         let units = like.map(|like| like.0.units());
-        conditions.span(&held, units).map(Directions)
+        conditions.span(&enforced, units).map(Directions)
     }
 
     /// The residuals of each constraint at a state (q, q̇), relative to the size of its terms: of
@@ -210,7 +211,7 @@ impl ConstraintProjector {
         self.load(state);
         let n = self.system.degrees();
         let active = self.system.holding().active.clone();
-        let conditions = self.kept.conditions();
+        let conditions = self.projection.conditions();
         conditions.look(state.exact_time(), &self.numbers);
         let residual = |k: usize| {
             if active[k] {
@@ -234,9 +235,9 @@ impl System {
     /// Their multipliers are those of least norm.
     pub fn redundant(&self) -> Vec<&str> {
         let Some(constrained) = self.constrained() else { return Vec::new() };
-        let ActiveSet { active, held } = self.holding();
+        let ActiveSet { active, enforced } = self.holding();
         let names = constrained.names.iter().enumerate();
-        names.filter(|&(k, _)| active[k] && !held[k]).map(|(_, name)| name.as_str()).collect()
+        names.filter(|&(k, _)| active[k] && !enforced[k]).map(|(_, name)| name.as_str()).collect()
     }
 
     /// Whether a constraint has been released.
@@ -250,39 +251,39 @@ impl System {
         let mut active = self.holding().active.clone();
         let Some(place) = active.get_mut(constraint) else { return self.clone() };
         *place = false;
-        self.holding_only(active, state, parameters)
+        self.enforcing(active, state, parameters)
     }
 
     /// The same system with all its constraints.
     #[must_use]
     pub fn hold_all(&self, state: &State, parameters: &[f64]) -> System {
-        self.holding_only(vec![true; self.constraints()], state, parameters)
+        self.enforcing(vec![true; self.constraints()], state, parameters)
     }
 
-    fn holding_only(&self, active: Vec<bool>, state: &State, parameters: &[f64]) -> System {
+    fn enforcing(&self, active: Vec<bool>, state: &State, parameters: &[f64]) -> System {
         let Some(conditions) = self.conditions(parameters, state) else { return self.clone() };
-        let held = conditions.independent(&active);
-        self.with_holding(ActiveSet { active, held })
+        let enforced = conditions.independent(&active);
+        self.with_holding(ActiveSet { active, enforced })
     }
 
     /// The same system with another choice of enforced constraints, if the current ones have become
     /// dependent and others have not. Returns `None` if no choice is better.
     #[must_use]
     pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
-        let ActiveSet { active, held } = self.holding();
-        if active == held {
+        let ActiveSet { active, enforced } = self.holding();
+        if active == enforced {
             return None;
         }
         let conditions = self.conditions(parameters, state)?;
-        let now = conditions.strength(active, held);
+        let now = conditions.strength(active, enforced);
         if now > DEPENDENT {
             return None;
         }
-        let count = held.iter().filter(|&&held| held).count();
+        let count = enforced.iter().filter(|&&enforced| enforced).count();
         let better = conditions.most_independent(active, count)?;
         let gained = conditions.strength(active, &better) > GAINED * now;
         let active = active.clone();
-        gained.then(|| self.with_holding(ActiveSet { active, held: better }))
+        gained.then(|| self.with_holding(ActiveSet { active, enforced: better }))
     }
 
     fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
@@ -298,9 +299,9 @@ impl System {
     pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
         let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
         let momenta = Evaluator::new(self.legendre_program());
-        let kept = Projection::new(conditions, momenta, &self.holding().held);
+        let projection = Projection::new(conditions, momenta, &self.holding().enforced);
         let numbers = vec![DoubleDouble::ZERO; self.moving()];
-        let mut projector = ConstraintProjector { system: self.clone(), kept, numbers };
+        let mut projector = ConstraintProjector { system: self.clone(), projection, numbers };
         projector.set_parameters(parameters);
         Some(projector)
     }
@@ -323,12 +324,15 @@ impl System {
             return Ok((state.clone(), vec![]));
         };
         projector.load(state);
-        let outcome =
-            projector.kept.impulse_outcome(state.exact_time(), &mut projector.numbers, target);
+        let outcome = projector.projection.impulse_outcome(
+            state.exact_time(),
+            &mut projector.numbers,
+            target,
+        );
         let reactions =
             outcome.map_err(|why| self.unsolved(why, state.time, &projector.numbers))?;
-        let ActiveSet { active, held } = self.holding();
-        let reactions = projector.kept.conditions().least(active, held, reactions);
+        let ActiveSet { active, enforced } = self.holding();
+        let reactions = projector.projection.conditions().least(active, enforced, reactions);
         let mut after = state.clone();
         after.form = Form::Velocity;
         for (i, &x) in projector.numbers.iter().enumerate() {
@@ -356,7 +360,7 @@ impl System {
                 return Err(missed(k, part));
             }
         }
-        if conditions.independence(&self.holding().held) == 0.0 {
+        if conditions.independence(&self.holding().enforced) == 0.0 {
             return Err(self.lost(ProjectionError::Singular, &state));
         }
         let mut momenta = Evaluator::new(self.legendre_program());

@@ -2,8 +2,9 @@
 //! impulses, and their effect on a state.
 //!
 //! In: a model's impulses and events. Out: values of `when`, times, states after an impulse. Never
-//! here: how zeros are found, and what follows from them. Source of the impulses: *The Principles
-//! of Dynamics*, § 1.3.3.
+//! here: how zeros are found, and what follows from them.
+//!
+//! Source of the impulses: *The Principles of Dynamics*, § 1.3.3.
 
 use std::sync::Arc;
 
@@ -29,7 +30,7 @@ pub struct Discontinuities {
     /// The functions of the events, of (q, native rates, action, work).
     when: Arc<Program>,
     /// Quantities that show how fast these functions change, of the same inputs.
-    pace: Arc<Program>,
+    variation: Arc<Program>,
     /// Q̂ of every impulse, of the same inputs.
     change: Arc<Program>,
     /// The times of every impulse, followed by its interval (zero for none), as functions of the
@@ -137,7 +138,7 @@ impl Discontinuities {
                 })
                 .collect(),
             when: observables::program(builder, &functions)?,
-            pace: expansion::program(builder, &functions)?,
+            variation: expansion::program(builder, &functions)?,
             change: observables::program(builder, &changes)?,
             schedule,
             quadratic: builder.is_quadratic(),
@@ -183,7 +184,7 @@ impl EventFunctions {
         let expansion = self.expansion.insert(expansion.unwrap_or_else(|| {
             let discontinuities = system.discontinuities();
             let (program, functions) =
-                (Arc::clone(&discontinuities.pace), discontinuities.events.len());
+                (Arc::clone(&discontinuities.variation), discontinuities.events.len());
             let mut new = Expansion::new(system, program, functions, order);
             new.set_parameters(&system.inputs(parameters));
             new
@@ -277,7 +278,7 @@ impl System {
             exact: Evaluator::new(Arc::clone(program)),
             resolution: Resolution::new(
                 self,
-                Arc::clone(&self.discontinuities().pace),
+                Arc::clone(&self.discontinuities().variation),
                 self.discontinuities().events.len(),
             ),
             expansion: None,

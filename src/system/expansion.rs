@@ -157,11 +157,11 @@ impl Expansion {
         let mut reach = f64::INFINITY;
         for i in 0..self.outputs {
             series.iter_mut().enumerate().for_each(|(k, c)| *c = self.jet.output(i, k));
-            let own = if i < self.functions { told(&series, cut_off) } else { moving(&series) };
+            let own = if i < self.functions { validity(&series, cut_off) } else { moving(&series) };
             // a NaN must not be lost
             reach = if own < reach || own.is_nan() { own } else { reach };
         }
-        self.switches().map(|c| told(c, cut_off)).fold(reach, f64::min)
+        self.switches().map(|c| validity(c, cut_off)).fold(reach, f64::min)
     }
 }
 
@@ -174,7 +174,7 @@ pub(super) fn side(c: &[f64]) -> Side {
 }
 
 /// How far a truncated series represents its function, in its own unit.
-fn told(c: &[f64], cut_off: f64) -> f64 {
+fn validity(c: &[f64], cut_off: f64) -> f64 {
     let mut length = f64::INFINITY;
     for k in c.len() - LAST..c.len() {
         if c[k] == 0.0 {
@@ -215,15 +215,15 @@ mod tests {
                 let sign = [0.0, 1.0, 0.0, -1.0][k % 4];
                 sign * math::powi(speed, k as i32) / factorial(k)
             });
-            let turn = told(&sine, CUT_OFF) * speed;
+            let turn = validity(&sine, CUT_OFF) * speed;
             assert!((2.5..4.5).contains(&turn), "{turn}");
             let pole: [f64; ORDER + 1] = std::array::from_fn(|k| math::powi(speed, k as i32));
-            let part = told(&pole, CUT_OFF) * speed;
+            let part = validity(&pole, CUT_OFF) * speed;
             assert!((0.4..0.7).contains(&part), "{part}");
         }
         let mut line = [0.0; ORDER + 1];
         (line[0], line[1]) = (-5.0, 1.0);
-        assert_eq!(told(&line, CUT_OFF), f64::INFINITY);
+        assert_eq!(validity(&line, CUT_OFF), f64::INFINITY);
     }
 
     #[test]

@@ -117,7 +117,7 @@ impl<R: Real> SeriesBuilder<R> {
         }
         self.extend(k, clock)?;
         if !self.kept.is_empty() {
-            self.keep(k, clock)?;
+            self.solve_weights(k, clock)?;
             self.extend(k, clock)?;
         }
         Ok(())
@@ -149,7 +149,7 @@ impl<R: Real> SeriesBuilder<R> {
 
     /// Finds the coefficients of order `k` of the weights that make those of order `k + 1` of the
     /// kept switches vanish. The latter depend linearly on the former.
-    fn keep(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
+    fn solve_weights(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
         if k == 0 {

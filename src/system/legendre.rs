@@ -151,7 +151,8 @@ impl Legendre {
         if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only]) =
             (&found, &unknown[..])
         {
-            found = self.between_signs(time, state, targets, *only);
+            // what is wrong at the guess explains more than a search that found nothing
+            found = self.between_signs(time, state, targets, *only).or(found);
         }
         found?;
         state[n..2 * n].copy_from_slice(&self.state[n..]);

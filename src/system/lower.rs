@@ -184,9 +184,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// Returns the finished program.
-    ///
-    /// Returns the symbol instead if one is not bound.
+    /// Returns the finished program, or a symbol that is not bound.
     pub(super) fn finish(mut self, outputs: Vec<Register>) -> Result<Arc<Program>, Symbol> {
         if let Some(symbol) = self.unknown {
             return Err(symbol);

@@ -62,7 +62,7 @@ impl Observer {
     pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let precise = self.system.watch().precise.outputs();
         let (first, others) = out.split_at_mut(precise);
-        self.look(state, first)?;
+        self.observe_leading(state, first)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
             *rounded = x.high;
         }
@@ -79,10 +79,10 @@ impl Observer {
 
     /// The same for the columns only: `out` must be as long as they are.
     pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
-        self.look(state, out)
+        self.observe_leading(state, out)
     }
 
-    fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
+    fn observe_leading(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let n = self.system.degrees();
         self.take_in(state)?;
         let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);

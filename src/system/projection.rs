@@ -28,7 +28,7 @@ pub(super) struct Projection {
     /// The momenta, then M, as functions of (q, q̇).
     momenta: Evaluator<DoubleDouble>,
     degrees: usize,
-    held: Vec<bool>,
+    enforced: Vec<bool>,
 }
 
 /// Why a state could not be projected onto its constraints.
@@ -46,9 +46,14 @@ impl Projection {
     pub(super) fn new(
         conditions: Conditions,
         momenta: Evaluator<DoubleDouble>,
-        held: &[bool],
+        enforced: &[bool],
     ) -> Projection {
-        Projection { degrees: conditions.degrees(), conditions, momenta, held: held.to_vec() }
+        Projection {
+            degrees: conditions.degrees(),
+            conditions,
+            momenta,
+            enforced: enforced.to_vec(),
+        }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -62,7 +67,7 @@ impl Projection {
 
     /// The indices of the enforced constraints.
     fn rows(&self) -> Vec<usize> {
-        (0..self.held.len()).filter(|&k| self.held[k]).collect()
+        (0..self.enforced.len()).filter(|&k| self.enforced[k]).collect()
     }
 
     /// Moves a state (q, q̇) by the least amount, measured by the mass matrix, until positions and
@@ -74,9 +79,9 @@ impl Projection {
         state: &mut [DoubleDouble],
     ) -> Result<(), ProjectionError> {
         let n = self.degrees;
-        self.correct(time, state, |kept, k, _| kept.conditions.position(k), 0)?;
-        let velocity = |kept: &Projection, k: usize, state: &[DoubleDouble]| {
-            kept.conditions.velocity(k, &state[n..2 * n])
+        self.correct(time, state, |projection, k, _| projection.conditions.position(k), 0)?;
+        let velocity = |projection: &Projection, k: usize, state: &[DoubleDouble]| {
+            projection.conditions.velocity(k, &state[n..2 * n])
         };
         self.correct(time, state, velocity, n)
     }
@@ -195,7 +200,7 @@ impl Projection {
             }
             if size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last) {
                 state[n..2 * n].copy_from_slice(&numbers[n..]);
-                let mut all = vec![DoubleDouble::ZERO; self.held.len()];
+                let mut all = vec![DoubleDouble::ZERO; self.enforced.len()];
                 rows.iter().zip(reactions).for_each(|(&k, x)| all[k] = x);
                 return Ok(all);
             }

@@ -155,8 +155,8 @@ impl Canvas<'_> {
     }
 
     /// Registers an area with a single mouse target.
-    pub(super) fn spot(&mut self, area: Rect, spot: HitTarget) {
-        self.region(area, Region::Plain(spot));
+    pub(super) fn target(&mut self, area: Rect, target: HitTarget) {
+        self.region(area, Region::Plain(target));
     }
 
     /// Styles a whole row and leaves its text unchanged.

@@ -18,14 +18,14 @@ pub(super) fn draw(
     frame: &Frame,
     (viewport, marks): (Viewport, &Marks<'_>),
 ) {
-    let Some([across, upwards]) = viewport.cursor else { return };
+    let Some([right, up]) = viewport.cursor else { return };
     if frame.area.is_empty() {
         return;
     }
     let place = |fraction: f64, count: u16| ((fraction * f64::from(count)) as u16).min(count - 1);
     let at = Position::new(
-        frame.area.x + place(across, frame.area.width),
-        frame.area.y + place(1.0 - upwards, frame.area.height),
+        frame.area.x + place(right, frame.area.width),
+        frame.area.y + place(1.0 - up, frame.area.height),
     );
     let glyphs = canvas.look.glyphs;
     let style = canvas.style(Role::Focus);

@@ -42,7 +42,7 @@ impl Frames {
 
     /// Whether the terminal shows the last drawn picture, as far as is known.
     pub fn is_current(&self) -> bool {
-        self.shown.is_some() && !self.terminal.backend().owes()
+        self.shown.is_some() && !self.terminal.backend().has_pending()
     }
 
     /// The last drawn picture, or `None` if the terminal's contents are unknown.
@@ -67,8 +67,8 @@ impl Frames {
         self.next_within(size, usize::MAX, draw)
     }
 
-    /// Does the same as [`Self::next`] in about `most` bytes. If more are needed, the frame changes as many cells as it has
-    /// room for, and the next frame continues from there.
+    /// Does the same as [`Self::next`] in about `most` bytes. If more are needed, the frame changes as many cells as
+    /// fit, and the next frame continues from there.
     ///
     /// # Errors
     /// Returns the encoder's errors. It writes into memory and has none.

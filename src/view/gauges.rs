@@ -24,7 +24,7 @@ const DRIFT: u16 = 8;
 const VALUE: u16 = 9;
 
 /// The greatest width of a history.
-const STRIP: u16 = 24;
+const HISTORY: u16 = 24;
 
 /// The least width at which the columns get headings.
 const HEADED: u16 = 34;
@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         let here = selected == Some(first + place);
         let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
         for line in 0..height {
-            canvas.spot(row(area, place * height + line), HitTarget::Gauge(first + place));
+            canvas.target(row(area, place * height + line), HitTarget::Gauge(first + place));
         }
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
@@ -171,12 +171,12 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
     drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
-    let sparkline = columns(area, area.width.saturating_sub(room.min(STRIP)), STRIP);
+    let sparkline = columns(area, area.width.saturating_sub(room.min(HISTORY)), HISTORY);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
     let history = History {
         values: &values,
         scale: Scale::log(FLOOR, CEILING),
-        style: canvas.style(blame(gauge)),
+        style: canvas.style(drift_role(gauge)),
         glyphs: canvas.look.glyphs,
     };
     history.render(sparkline, canvas.buffer);
@@ -234,11 +234,11 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    canvas.right(area, blame(gauge), &number::drift(gauge.drift));
+    canvas.right(area, drift_role(gauge), &number::drift(gauge.drift));
 }
 
 /// The role of a drift: a change with a physical cause is not an error of the method.
-fn blame(gauge: &Gauge) -> Role {
+fn drift_role(gauge: &Gauge) -> Role {
     let physical = matches!(gauge.verdict, Verdict::Broken(_));
     if physical { Role::Dim } else { word(&gauge.verdict).1 }
 }

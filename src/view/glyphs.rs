@@ -124,8 +124,8 @@ fn single(text: &str) -> Cow<'_, str> {
     }
     let mut out = String::with_capacity(text.len());
     let mut before = ' ';
-    let mut messages = text.chars().peekable();
-    while let Some(letter) = messages.next() {
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
         // A dotted letter inside a word belongs to ordinary text.
         let alone = |next: Option<&char>| {
             !before.is_alphabetic() && next.is_none_or(|next| !next.is_alphabetic())
@@ -133,7 +133,7 @@ fn single(text: &str) -> Cow<'_, str> {
         let prime = match (letter, undotted(letter)) {
             ('\u{307}', _) => Some('′'),
             ('\u{308}', _) => Some('″'),
-            (_, Some((plain, prime))) if alone(messages.peek()) => {
+            (_, Some((plain, prime))) if alone(letters.peek()) => {
                 out.push(plain);
                 Some(prime)
             }
@@ -145,7 +145,7 @@ fn single(text: &str) -> Cow<'_, str> {
         before = letter;
         if let Some(prime) = prime {
             // The prime comes after a subscript: θ₁′, not θ′₁.
-            while let Some(low) = messages.next_if(|c| subscript(*c).is_some()) {
+            while let Some(low) = letters.next_if(|c| subscript(*c).is_some()) {
                 out.push(low);
             }
             out.push(prime);

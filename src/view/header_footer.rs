@@ -53,7 +53,7 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         // Each tab is a key and a name.
         for (pair, (_, _, page)) in tabs.chunks(2).zip(PAGES) {
             let long = pair.iter().map(|(text, _)| text.width()).sum::<usize>() as u16;
-            canvas.spot(columns(area, from, long), HitTarget::Page(page));
+            canvas.target(columns(area, from, long), HitTarget::Page(page));
             from += long;
         }
     }
@@ -190,7 +190,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     };
     let role = if ended.is_some() { Role::Warn } else { Role::Text };
     // The plain page has no room for a notification above the footer.
-    let (meaning, role) = match told(app).filter(|_| reads(app)) {
+    let (meaning, role) = match current_notification(app).filter(|_| reads(app)) {
         Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
     };
@@ -212,7 +212,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     for hint in hints {
         let place = columns(area, start, area.width);
         let used = canvas.spans(place, &hint.spans);
-        canvas.spot(columns(place, 0, used), HitTarget::Hint(hint.action));
+        canvas.target(columns(place, 0, used), HitTarget::Hint(hint.action));
         start += used + 3;
     }
 }
@@ -224,7 +224,7 @@ fn reads(app: &App) -> bool {
 }
 
 /// The current notification, or the error that lasts until the file is correct.
-fn told(app: &App) -> Option<(String, Role)> {
+fn current_notification(app: &App) -> Option<(String, Role)> {
     // The editor has its own place for notifications.
     if app.open_buffer().is_some() {
         return None;
@@ -241,7 +241,7 @@ const NOTICE: usize = 3;
 
 /// Draws the notification over the lower frame of the page, so that the key hints below stay visible.
 pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
-    let Some((text, role)) = told(app).filter(|_| !reads(app)) else { return };
+    let Some((text, role)) = current_notification(app).filter(|_| !reads(app)) else { return };
     let room = usize::from(body.width.saturating_sub(6));
     let lines = words_in(&canvas.text(&text), room, NOTICE);
     let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);

@@ -66,7 +66,7 @@ fn resolved(region: Region, area: Rect, at: Position) -> Option<HitTarget> {
     let place = [middle(at.x, area.x, area.width), 1.0 - middle(at.y, area.y, area.height)];
     Some(match region {
         Region::Blank => return None,
-        Region::Plain(spot) => spot,
+        Region::Plain(target) => target,
         Region::Bar(target, scale) => {
             let along = f64::from(at.x) - f64::from(area.x);
             let share = along / f64::from(area.width.saturating_sub(1).max(1));

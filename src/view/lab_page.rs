@@ -86,7 +86,7 @@ fn tab_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pa
         if let (0, Some(pane)) = (index % 2, panes.get(index / 2)) {
             let place =
                 columns(row(frame, 0), from, long.min(frame.width.saturating_sub(from + 2)));
-            canvas.spot(place, HitTarget::Pane(*pane));
+            canvas.target(place, HitTarget::Pane(*pane));
         }
         from += long;
     }
@@ -110,7 +110,7 @@ fn list(
 ) {
     let focused = lab.focus == pane;
     let inner = canvas.pane(area, title, focused);
-    canvas.spot(area, HitTarget::Pane(pane));
+    canvas.target(area, HitTarget::Pane(pane));
     let values = |kind, selected| Values { lab, kind, selected, focused, field };
     match pane {
         Pane::Parameters => {
@@ -139,7 +139,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
         title.insert(0, canvas.span(role, "! "));
     }
     let inner = canvas.pane(area, &title, focused);
-    canvas.spot(area, HitTarget::Pane(Pane::Plot(index)));
+    canvas.target(area, HitTarget::Pane(Pane::Plot(index)));
     match picture::draw(canvas, inner, &q, plot) {
         Some(frame) => canvas.region(frame.area, Region::Plot(index, frame)),
         None if plot.kind.is_scene() => canvas.region(inner, Region::Space(index)),

@@ -87,7 +87,7 @@ fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
     let (above, below) = split_rows(area, area.height - below);
     let (left, right) = split_columns(below, below.width / 2);
-    let mut slots = across(above, &chosen(lab, 2));
+    let mut slots = side_by_side(above, &chosen(lab, 2));
     slots.push((Slot::Values(values(lab)), left));
     slots.push((Slot::Pane(Pane::Gauges), right));
     slots
@@ -98,13 +98,13 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let below = usize::from((area.width / PLOT.0).max(1));
     let count = lab.plots.len();
     if count <= 2 || area.height < 2 * PLOT.1 {
-        return across(area, &chosen(lab, 2));
+        return side_by_side(area, &chosen(lab, 2));
     }
     let shown = chosen(lab, 2 + below);
     let (upper, lower) = split_rows(area, area.height * 3 / 5);
     let (first, rest) = shown.split_at(2);
-    let mut slots = across(upper, first);
-    slots.extend(across(lower, rest));
+    let mut slots = side_by_side(upper, first);
+    slots.extend(side_by_side(lower, rest));
     slots
 }
 
@@ -112,8 +112,8 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
-    // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes two, and
-    // the reason of the selected gauge some more.
+    // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
+    // two, and the reason of the selected gauge some more.
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
@@ -181,7 +181,7 @@ fn values(lab: &Lab) -> Pane {
 }
 
 /// Places panes side by side in equal widths.
-fn across(area: Rect, panes: &[Pane]) -> Vec<(Slot, Rect)> {
+fn side_by_side(area: Rect, panes: &[Pane]) -> Vec<(Slot, Rect)> {
     let count = panes.len().max(1) as u16;
     let edge = |i: u16| area.x + (u32::from(area.width) * u32::from(i) / u32::from(count)) as u16;
     let place = |(i, pane): (usize, &Pane)| {

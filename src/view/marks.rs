@@ -29,8 +29,8 @@ impl<'a> Marks<'a> {
         Self { points: Vec::new() }
     }
 
-    /// Finds the points of a plot at which something happened. `place` reads a point from a row of the trail (time, then the
-    /// channels). For an impulse, the point is the one just after it.
+    /// Finds the points of a plot at which something happened. `place` reads a point from a row of the trail (time, then
+    /// the channels). For an impulse, the point is the one just after it.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
         let mut points = Vec::new();
         let mut rows = q.snapshot.trail.rows().rev().peekable();

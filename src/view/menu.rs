@@ -33,7 +33,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     canvas.clear(place);
     let title = [canvas.span(Role::Title, &menu.title)];
     let inner = canvas.pane(place, &title, true);
-    canvas.spot(place, HitTarget::Menu);
+    canvas.target(place, HitTarget::Menu);
     let inner = columns(inner, 1, inner.width.saturating_sub(2));
     let (field, rest) = split_rows(inner, search);
     if let Some(input) = &menu.filter {
@@ -57,7 +57,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             " "
         };
         canvas.left(columns(area, 0, 1), Role::Accent, mark);
-        canvas.spot(area, HitTarget::Line(place));
+        canvas.target(area, HitTarget::Line(place));
         line(canvas, area, (&menu.items[*index], fit), &columns_of);
         if place == menu.selected {
             canvas.tint(area, Role::Selected);

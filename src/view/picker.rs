@@ -69,7 +69,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         title.push(canvas.span(Role::Dim, format!("  {count}")));
     }
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, HitTarget::Systems);
+    canvas.target(area, HitTarget::Systems);
     search(
         canvas,
         columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
@@ -100,7 +100,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
             Line::System(place, entry, fit) => {
-                canvas.spot(area, HitTarget::System(*place));
+                canvas.target(area, HitTarget::System(*place));
                 let selected = *place == picker.selected;
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
@@ -162,13 +162,13 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     }
     let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
     let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.look)?, lab))) else {
-        let told = match app.loading() {
+        let message = match app.loading() {
             Some(name) if name == entry.name => "Being loaded; Esc stops it.".to_owned(),
             Some(name) => format!("{name} is being loaded; Esc stops it."),
             None => "…".to_owned(),
         };
-        let told = canvas.text(&told);
-        for (index, line) in words(&told, text.width.into()).iter().enumerate() {
+        let message = canvas.text(&message);
+        for (index, line) in words(&message, text.width.into()).iter().enumerate() {
             if index < text.height.into() {
                 canvas.left(row(text, index), Role::Dim, line);
             }

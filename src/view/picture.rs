@@ -48,8 +48,8 @@ pub(super) fn title(
         let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
         pieces.push(vec![canvas.span(Role::Dim, format!("  ×{zoom}"))]);
     }
-    if let Some(told) = q.lab.under_way(plot).and_then(crate::app::UnderWay::told) {
-        pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {told}"))]);
+    if let Some(status) = q.lab.under_way(plot).and_then(crate::app::UnderWay::told) {
+        pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {status}"))]);
     }
     groups(pieces, room)
 }
@@ -258,7 +258,7 @@ fn levels(
         let mut drawn = blank.clone();
         trace(&mut drawn, &landscape.separatrices, &plain);
         for level in &landscape.levels {
-            // Curves that share most of their cells cannot be told apart.
+            // Curves that share most of their cells cannot be distinguished.
             let mut alone = blank.clone();
             trace(&mut alone, level, &plain);
             if alone.shared(&drawn) <= crowded {

@@ -17,38 +17,38 @@ const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
 /// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
-    let mut say = |text: String| page.line(&q.look.glyphs.text(&text));
+    let mut write = |text: String| page.line(&q.look.glyphs.text(&text));
     let (lab, snapshot) = (q.lab, q.snapshot);
     let info = &lab.loaded.model.info;
-    say(format!("{}.", info.title));
+    write(format!("{}.", info.title));
     if !info.summary.is_empty() {
-        say(info.summary.clone());
+        write(info.summary.clone());
     }
-    say(status_words(q));
+    write(status_words(q));
     let focus = lab.name_of(lab.focus);
     let chosen = lab.selected().and_then(|target| lab.value_info(target));
     let selected = chosen.map_or_else(String::new, |f| format!(", {} selected", name(q, &f)));
-    say(format!("Focus: {focus}{selected}."));
+    write(format!("Focus: {focus}{selected}."));
     for (title, kind) in [
         ("Parameters", ValueId::Parameter as fn(usize) -> ValueId),
         ("Initial values", ValueId::Initial),
     ] {
         let count = lab.count(kind);
-        say(format!("{title}, {count}:"));
+        write(format!("{title}, {count}:"));
         for index in 0..count {
-            say(value(q, kind(index)));
+            write(value(q, kind(index)));
         }
     }
-    say("State:".to_owned());
+    write("State:".to_owned());
     let channels = lab.loaded.system.channels();
     for (index, channel) in channels.iter().enumerate() {
         if channel.name.is_empty() || channels[..index].iter().any(|c| c.name == channel.name) {
             continue;
         }
         let is = readable(q.value(index), 8, q.look.glyphs);
-        say(format!("{} is {is}{}", q.name(index), after(&channel.unit)));
+        write(format!("{} is {is}{}", q.name(index), after(&channel.unit)));
     }
-    say(format!("Gauges, {}:", snapshot.gauges.len()));
+    write(format!("Gauges, {}:", snapshot.gauges.len()));
     for gauge in snapshot.gauges.iter() {
         let shown = q.look.glyphs.pick(&gauge.shown, &gauge.name);
         let called =
@@ -57,7 +57,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             "…" => "open",
             word => word,
         };
-        say(format!(
+        write(format!(
             "{shown}{called} is {}; drift {} since t = {}; {verdict}: {}. Why it is watched: {}.",
             readable(gauge.value, 8, q.look.glyphs),
             drift(gauge.drift),
@@ -66,31 +66,35 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             gauge.reason
         ));
     }
-    notifications(snapshot, q, &mut say);
-    say("Pictures:".to_owned());
+    notifications(snapshot, q, &mut write);
+    write("Pictures:".to_owned());
     for pane in lab.panes().filter(|pane| matches!(pane, Pane::Plot(_))) {
-        say(lab.name_of(pane));
+        write(lab.name_of(pane));
     }
-    say("Keys:".to_owned());
+    write("Keys:".to_owned());
     for row in PLACES.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place)) {
         let keys: Vec<String> = row.key_names().into_iter().map(spoken).collect();
-        say(format!("{}: {}", keys.join(" or "), row.help));
+        write(format!("{}: {}", keys.join(" or "), row.help));
     }
     page
 }
 
 /// Lists occurrences and notifications, newest first.
-fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, say: &mut impl FnMut(String)) {
+fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, write: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
-        say("Told, the newest first:".to_owned());
-        notices.into_iter().for_each(&mut *say);
+        write("Told, the newest first:".to_owned());
+        notices.into_iter().for_each(&mut *write);
     }
     let happened = snapshot.occurrences.count();
     if happened > 0 {
-        say(format!("Happened, {happened}; the newest first:"));
+        write(format!("Happened, {happened}; the newest first:"));
         for occurrence in snapshot.occurrences.iter().rev().take(MOST) {
-            say(format!("{} at t = {}", occurrence.name, brief(occurrence.time, 6, q.look.glyphs)));
+            write(format!(
+                "{} at t = {}",
+                occurrence.name,
+                brief(occurrence.time, 6, q.look.glyphs)
+            ));
         }
     }
 }

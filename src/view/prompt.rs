@@ -65,8 +65,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
 
 fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<Span>> {
     let mut page = Page { canvas, width, lines: Vec::new() };
-    if let Some(told) = prompt.under_way.as_ref().and_then(|(_, job)| job.told()) {
-        page.words(Role::Dim, &told);
+    if let Some(status) = prompt.under_way.as_ref().and_then(|(_, job)| job.told()) {
+        page.words(Role::Dim, &status);
         return page.lines;
     }
     match (&prompt.mistake, &prompt.answered) {

@@ -8,7 +8,7 @@ use crate::app::{HitTarget, ValueId};
 /// What a part of the screen is for the mouse; it is registered during drawing.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Region {
-    /// It hides what is below it.
+    /// It hides the regions below it.
     Blank,
     /// The whole region is one target.
     Plain(HitTarget),

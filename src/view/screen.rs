@@ -91,7 +91,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
     let look = canvas.look;
     if page == Page::Plain {
-        canvas.spot(area, HitTarget::Text);
+        canvas.target(area, HitTarget::Text);
         let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
         let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
         let document = read.map(|q| plain::document(&q)).unwrap_or_default();
@@ -111,7 +111,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
 fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
-    canvas.spot(area, HitTarget::Text);
+    canvas.target(area, HitTarget::Text);
     page.draw(canvas, inner, scroll)
 }
 

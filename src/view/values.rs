@@ -96,7 +96,7 @@ impl Values<'_> {
         let Some(facts) = self.lab.value_info(target) else { return };
         let value = self.lab.value(target);
         let glyphs = canvas.look.glyphs;
-        canvas.spot(area, HitTarget::Value(target));
+        canvas.target(area, HitTarget::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
         canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);

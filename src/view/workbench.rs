@@ -103,17 +103,17 @@ fn write(
             canvas.left(mark, Role::Dim, canvas.look.glyphs.pick("…", ">"));
             break;
         }
-        let spot = Caret { row: index, column };
+        let caret = Caret { row: index, column };
         let role = if comment.is_some_and(|start| column >= start) { Role::Dim } else { plain };
         let mut style = canvas.style(role);
-        if let Some(flaw) = flaws.iter().find(|flaw| covers(flaw, spot)) {
+        if let Some(flaw) = flaws.iter().find(|flaw| covers(flaw, caret)) {
             let role = if flaw.warning { Role::Warn } else { Role::Bad };
             style = canvas.style(role).add_modifier(Modifier::UNDERLINED);
         }
-        if selection.is_some_and(|(from, to)| from <= spot && spot < to) {
+        if selection.is_some_and(|(from, to)| from <= caret && caret < to) {
             style = canvas.style(Role::Selected);
         }
-        if spot == cursor && sheet.asking.is_none() {
+        if caret == cursor && sheet.asking.is_none() {
             style = style.add_modifier(Modifier::REVERSED);
         }
         put(canvas, Position::new(at.x + used, at.y), &shown, style);
@@ -131,8 +131,8 @@ fn put(canvas: &mut Canvas<'_>, at: Position, shown: &str, style: Style) {
     }
 }
 
-/// How a character is shown: as itself if it occupies cells of its own, in ASCII by its spelling (`<theta>`), otherwise by
-/// its number (`<U+6F22>`). Thus every character can be identified.
+/// How a character is shown: as itself if it occupies cells, in ASCII by its spelling (`<theta>`), otherwise by its
+/// number (`<U+6F22>`). Thus every character can be identified.
 fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str> {
     let itself = c.width().is_some_and(|width| width > 0);
     let text: &'r str = c.encode_utf8(room);
@@ -163,8 +163,8 @@ fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -
 }
 
 /// Whether a diagnostic underlines this position; an empty one covers one character.
-fn covers(flaw: &BufferDiagnostic, spot: Caret) -> bool {
-    spot == flaw.from || flaw.from <= spot && spot < flaw.to
+fn covers(flaw: &BufferDiagnostic, caret: Caret) -> bool {
+    caret == flaw.from || flaw.from <= caret && caret < flaw.to
 }
 
 /// The column at which a line's comment begins; quoted text is skipped.
@@ -206,7 +206,7 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
         SheetState::Wrong => (Role::Bad, format!("{count} mistakes; the last right text goes on.")),
     };
     let used = match notice {
-        Some(notice) => tell(canvas, area, notice),
+        Some(notice) => draw_notification(canvas, area, notice),
         None => usize::from(canvas.left(row(area, 0), role, &text) > 0),
     };
     let area = Rect { y: area.y + used as u16, height: area.height - used as u16, ..area };
@@ -218,7 +218,7 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
     let message = words(&canvas.text(&text), width);
     let help = help.map_or_else(Vec::new, |help| words(&canvas.text(&help), width));
     let role = if flaw.warning { Role::Warn } else { Role::Text };
-    // The help keeps its row if both are long.
+    // If both are long, one row is reserved for the help.
     let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
     let shown = message.iter().take(room).map(|line| (role, line));
     let helped = help.iter().map(|line| (Role::Accent, line));
@@ -230,7 +230,7 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
 }
 
 /// Draws a notification and returns the number of rows it takes.
-fn tell(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification) -> usize {
+fn draw_notification(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification) -> usize {
     let role = if notice.error { Role::Bad } else { Role::Good };
     let lines = words(&canvas.text(&notice.text), area.width.into());
     let used = lines.len().min(area.height.into());
@@ -262,7 +262,7 @@ fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&
     canvas.tint(columns(place, cursor, 1), Role::Selected);
     let below = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
     if let Some(notice) = notice {
-        tell(canvas, below, notice);
+        draw_notification(canvas, below, notice);
         return;
     }
     for (index, line) in words(help, area.width.into()).iter().enumerate() {

@@ -21,8 +21,8 @@ pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
 
 /// The text with its first letter capitalised.
 pub(super) fn capitalised(text: &str) -> String {
-    let mut messages = text.chars();
-    messages.next().map_or_else(String::new, |first| first.to_uppercase().chain(messages).collect())
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses if that suffices, else inside them,

@@ -95,9 +95,9 @@ impl Worker {
         Some(newest)
     }
 
-    fn send(&self, letter: Message) {
-        // the message is of no use to a thread that has ended
-        let _ = self.mailbox.send(letter);
+    fn send(&self, message: Message) {
+        // sending fails only if the thread has ended, and then nothing can be done
+        let _ = self.mailbox.send(message);
     }
 }
 

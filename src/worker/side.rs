@@ -50,8 +50,8 @@ impl<T: Send + 'static> Side<T> {
         };
         let thread = thread::Builder::new().name(self.name.to_owned()).stack_size(STACK);
         if let Err(error) = thread.spawn(work) {
-            let told = format!("there is no thread for it: {error}");
-            let _ = self.sender.send((ticket, Outcome::Failed(told)));
+            let reason = format!("there is no thread for it: {error}");
+            let _ = self.sender.send((ticket, Outcome::Failed(reason)));
         }
     }
 

@@ -31,7 +31,7 @@ struct Stopped;
 
 /// Runs until it receives [`Message::Stop`].
 pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) {
-    let mut bench = WorkerLoop {
+    let mut worker = WorkerLoop {
         messages,
         slot,
         subject: None,
@@ -40,7 +40,7 @@ pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) 
         slice: Slice::new(),
         published: Instant::now(),
     };
-    while bench.turn().is_ok() {}
+    while worker.iterate().is_ok() {}
 }
 
 /// The worker's state.
@@ -57,11 +57,11 @@ struct WorkerLoop<'a> {
 
 impl WorkerLoop<'_> {
     /// One iteration: messages, a slice of work, a snapshot, and sleep if there is time.
-    fn turn(&mut self) -> Result<(), Stopped> {
-        self.read_letters()?;
+    fn iterate(&mut self) -> Result<(), Stopped> {
+        self.read_messages()?;
         let Some(subject) = self.running() else {
-            let letter = self.messages.recv().map_err(|_| Stopped)?;
-            return self.handle(letter);
+            let message = self.messages.recv().map_err(|_| Stopped)?;
+            return self.handle(message);
         };
         let time = subject.time();
         let began = Instant::now();
@@ -89,17 +89,17 @@ impl WorkerLoop<'_> {
     /// Sleeps for this long, or until a message comes.
     fn wait(&mut self, time: Duration) -> Result<(), Stopped> {
         match self.messages.recv_timeout(time) {
-            Ok(letter) => self.handle(letter),
+            Ok(message) => self.handle(message),
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => Err(Stopped),
         }
     }
 
     /// Empties the mailbox.
-    fn read_letters(&mut self) -> Result<(), Stopped> {
+    fn read_messages(&mut self) -> Result<(), Stopped> {
         loop {
             match self.messages.try_recv() {
-                Ok(letter) => self.handle(letter)?,
+                Ok(message) => self.handle(message)?,
                 Err(TryRecvError::Empty) => return Ok(()),
                 Err(TryRecvError::Disconnected) => return Err(Stopped),
             }
@@ -108,9 +108,9 @@ impl WorkerLoop<'_> {
 
     /// Handles a message and publishes the result. Simulated time continues without interruption,
     /// unless the message changed it.
-    fn handle(&mut self, letter: Message) -> Result<(), Stopped> {
-        let before = self.clockwork();
-        match letter {
+    fn handle(&mut self, message: Message) -> Result<(), Stopped> {
+        let before = self.pace_inputs();
+        match message {
             Message::Stop => return Err(Stopped),
             Message::Load(epoch, subject) => {
                 self.epoch = epoch;
@@ -120,7 +120,7 @@ impl WorkerLoop<'_> {
                 self.guarded(|subject| subject.execute(command));
             }
         }
-        let after = self.clockwork();
+        let after = self.pace_inputs();
         if let Some((_, time, speed)) = after
             && after != before
         {
@@ -131,7 +131,7 @@ impl WorkerLoop<'_> {
     }
 
     /// The inputs of the pace: whether time runs, the current time, and the speed.
-    fn clockwork(&self) -> Option<(bool, f64, f64)> {
+    fn pace_inputs(&self) -> Option<(bool, f64, f64)> {
         let subject = self.subject.as_deref()?;
         Some((subject.status() == Status::Running, subject.time(), subject.speed()))
     }

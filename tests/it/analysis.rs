@@ -1,4 +1,4 @@
-//! What `analysis` says of histories whose nature is known.
+//! Tests of `analysis` on histories of a known kind.
 
 mod brackets;
 mod inquiry;

@@ -1,4 +1,4 @@
-//! The application by its keys: a state, keys, the state and the effects after them.
+//! The application driven by keys: a state, keys, and the resulting state and effects.
 
 mod editor;
 mod keys;

@@ -1,9 +1,9 @@
-//! Small models built in a line, for tests of what stands below the file format.
+//! Small models built in a line, for tests of the layers below the file format.
 
 use phaselab::expr::{Expr, Symbol, SyntaxError};
 use phaselab::model::{Allowed, Constraint, Coordinate, Mechanics, Model, Parameter, Scale, Scope};
 
-/// Names of coordinates and parameters, no law yet.
+/// A model with coordinates and parameters, and no law yet.
 pub(crate) fn names(coordinates: &[&str], parameters: &[&str]) -> Model {
     let mut model = Model::new("test");
     for name in parameters {
@@ -56,19 +56,19 @@ pub(crate) fn hamiltonian(coordinates: &[&str], parameters: &[&str], h: &str) ->
     model
 }
 
-/// An expression in a model's names, if it is one.
+/// Parses an expression in a model's names.
 pub(crate) fn try_read(model: &mut Model, text: &str) -> Result<Expr, Vec<SyntaxError>> {
     let mut scope = Scope::new(model, Allowed::Observable, "a test");
     let e = scope.read(&mut model.pool, text);
     e.ok_or(scope.mistakes)
 }
 
-/// An expression in a model's names.
+/// Parses a valid expression in a model's names.
 pub(crate) fn read(model: &mut Model, text: &str) -> Expr {
     try_read(model, text).unwrap_or_else(|mistakes| panic!("{text}: {mistakes:?}"))
 }
 
-/// A reproducible value in (0.2, 1.2) for each symbol, another one for each seed.
+/// A reproducible value in (0.2, 1.2) for each symbol; it depends on the seed.
 pub(crate) fn sample(seed: u64) -> impl Fn(Symbol) -> f64 {
     move |s| {
         let mut x =

@@ -1,4 +1,4 @@
-//! The command line, run as a program: what it writes where, and how it exits.
+//! The command line, run as a program: its output and its exit codes.
 
 mod bracket;
 mod check;
@@ -20,14 +20,14 @@ use std::path::Path;
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// What a command did.
+/// The result of a command.
 pub(crate) struct Done {
     code: i32,
     stdout: String,
     stderr: String,
 }
 
-/// The program with an environment that is the same everywhere: English, UTF-8, an empty home.
+/// The program with a fixed environment: English, UTF-8, an empty home.
 pub(crate) fn program(home: &Path) -> Command {
     let mut command = Command::cargo_bin("phaselab").expect("cargo builds the program for tests");
     command
@@ -54,7 +54,7 @@ fn phaselab(arguments: &[&str]) -> Done {
     done(program(home.path()).args(arguments))
 }
 
-/// Runs the program in a folder that holds `system.toml`.
+/// Runs the program in a folder that contains `system.toml`.
 pub(crate) fn with_file(text: &str, arguments: &[&str]) -> Done {
     let home = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(home.path().join("system.toml"), text).expect("a file can be written there");
@@ -62,7 +62,7 @@ pub(crate) fn with_file(text: &str, arguments: &[&str]) -> Done {
 }
 
 impl Done {
-    /// What a command that succeeded wrote.
+    /// The output of a command that must succeed.
     pub(crate) fn success(self) -> String {
         assert_eq!((self.code, self.stderr.as_str()), (0, ""), "{}", self.stdout);
         self.stdout
@@ -73,12 +73,12 @@ impl Done {
         serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why} in {text}"))
     }
 
-    /// All that a command wrote, wherever.
+    /// Everything that a command wrote, to either stream.
     pub(crate) fn text(self) -> String {
         self.stdout + &self.stderr
     }
 
-    /// Holds that a command succeeded and said this.
+    /// Asserts that a command succeeded and wrote these words.
     pub(crate) fn says(self, words: &str) {
         assert_eq!(self.code, 0, "{}", self.stderr);
         assert!(
@@ -89,7 +89,7 @@ impl Done {
         );
     }
 
-    /// Holds that a command failed with a code, wrote nothing, and said all of this.
+    /// Asserts that a command failed with a code, wrote nothing to stdout, and reported all of this.
     pub(crate) fn fails(self, code: i32, said: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
         for words in said {
@@ -98,7 +98,7 @@ impl Done {
     }
 }
 
-/// A pendulum of length 1 where g = 1, thrown from the bottom.
+/// A pendulum of length 1 with g = 1, started from the bottom with a velocity.
 const PENDULUM: &str = r#"
 title = "A pendulum"
 

@@ -1,7 +1,7 @@
-//! The configuration: what it may say, what is said of mistakes in it, and which wish wins.
+//! The configuration: its contents, the reports on its mistakes, and the precedence of settings.
 //!
-//! Each file of `tests/bad-config` has beside it the exact report it must give; with `UPDATE_EXPECT=1` the reports are
-//! written anew, to be read and judged.
+//! Each file of `tests/bad-config` has its exact expected report beside it; `UPDATE_EXPECT=1` rewrites the reports.
+//! Review them afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ fn each_mistake_gives_its_report() {
     assert!(wrong.is_empty(), "reports that differ:\n\n{}", wrong.join("\n"));
 }
 
-/// The default says of every option what it is without a configuration, and says it only once.
+/// The default configuration lists the default of every option exactly once.
 #[test]
 fn the_printed_default_equals_the_defaults() {
     let text = config::default_text();
@@ -77,7 +77,7 @@ fn a_wrong_configuration_leaves_the_lab_closed() {
     let lab = done(program(home.path()).arg("pendulum"));
     let place = format!("{}/.config/phaselab/config.toml:2:1", home.path().display());
     lab.fails(65, &[&place, "fsp = 30", "^^^", "did you mean `fps`?", "1 mistake in"]);
-    // a command without a screen asks for none of it
+    // a command without a screen does not read it
     let listed = done(program(home.path()).args(["methods"])).success();
     assert!(listed.contains("taylor"));
 }
@@ -86,7 +86,7 @@ fn a_wrong_configuration_leaves_the_lab_closed() {
 fn a_right_configuration_does_not_stand_in_the_way() {
     let home = home(&config::default_text());
     done(program(home.path()).args(["config", "check"])).fails(0, &[]);
-    // beyond the configuration: there is no terminal here
+    // the configuration is correct, but there is no terminal here
     done(program(home.path()).arg("pendulum")).fails(2, &["terminal"]);
     done(program(home.path()).env("PHASELAB_FPS", "1000").arg("pendulum"))
         .fails(2, &["PHASELAB_FPS", "from 1 to 240"]);

@@ -1,4 +1,4 @@
-//! Constraints with multipliers: derived, solved, kept.
+//! Constraints with multipliers: derived, solved, satisfied.
 
 use std::sync::Arc;
 
@@ -80,7 +80,7 @@ fn a_rod_keeps_the_total_momentum_and_not_each() {
     assert!(names.iter().any(|name| name.starts_with("rotation")), "{names:?}");
 }
 
-/// Sets the start of a model: coordinates, and velocities where they are given.
+/// Sets the initial values of a model: coordinates, and velocities if given.
 fn start(model: &mut Model, values: &[(&str, Option<&str>)]) {
     for (i, (position, rate)) in values.iter().enumerate() {
         let initial = read(model, position);
@@ -115,7 +115,7 @@ fn value(experiment: &Experiment, name: &str) -> f64 {
     experiment.values()[place.unwrap_or_else(|| panic!("no channel {name}"))]
 }
 
-/// A pendulum in x, y (down is −y), held by a rod.
+/// A pendulum in x, y (down is −y), constrained by a rod.
 fn pendulum() -> Model {
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*y");
     constrain(&mut model, &[("rod", "x^2 + y^2 - 1")]);
@@ -215,7 +215,7 @@ expression = "other_z' - other_y*other_x'"
 
 #[test]
 fn the_wrong_mechanics_is_that_of_the_shorter_lagrangian() {
-    // put into L, the constraint leaves ½((1 + y²) x'² + y'²) − ¼x²
+    // substituted into L, the constraint leaves ½((1 + y²) x'² + y'²) − ¼x²
     let short = r#"
 title = "the shorter Lagrangian"
 [coordinates]
@@ -233,7 +233,7 @@ L = "1/2*((1 + y^2)*x'^2 + y'^2) - 1/4*x^2"
         assert!((value(&both, "twin y") - value(&vakonomic, "y")).abs() < 2e-14, "y at {time}");
         assert!(value(&both, "twin z'").abs() < 1e-14, "the twin keeps the constraint, too");
     }
-    // and it is wrong: the right motion has y'' = 0
+    // and it is wrong: the correct motion has y'' = 0
     assert!((value(&both, "y") - (0.5 + 0.7 * 12.0)).abs() < 1e-14);
     assert!((value(&both, "y") - value(&both, "twin y")).abs() > 0.1);
 }
@@ -282,7 +282,7 @@ fn what_is_said_twice_is_reported_and_shared_evenly() {
 
 #[test]
 fn a_mass_matrix_that_is_singular_alone_is_solved_with_its_constraint() {
-    // s has no mass of its own: it is tied to x
+    // s has no mass: the constraint ties it to x
     let mut model = lagrangian(&["x", "s"], &["k"], "1/2*x'^2 - 1/2*k*s^2");
     constrain(&mut model, &[("tie", "x - s")]);
     start(&mut model, &[("1", Some("0")), ("1", None)]);
@@ -307,7 +307,7 @@ fn velocities_left_out_follow_from_the_constraints() {
     assert_eq!(initial(&model, &[InitialOverride::Velocity(0, 5.0)]), Ok(vec![0.0, 0.0, 5.0, 5.0]));
     // p_x = m x'
     assert_eq!(initial(&model, &[InitialOverride::Momentum(0, 4.0)]), Ok(vec![0.0, 0.0, 4.0, 4.0]));
-    // p_x = m x' and θ' are given, and apart
+    // p_x = m x' and θ' are given, and inconsistent
     let model_of = |rates: [Option<&str>; 2]| {
         let mut model = lagrangian(&["x", "theta"], &["m", "g", "r", "phi"], HOOP);
         constrain(&mut model, &[("no slip", "r*theta' - x'")]);
@@ -316,7 +316,7 @@ fn velocities_left_out_follow_from_the_constraints() {
     };
     let both = initial(&model_of([None, Some("1")]), &[InitialOverride::Momentum(0, 4.0)]);
     assert_eq!(both, Err(MotionErrorKind::Contradiction));
-    // both given, and apart
+    // both are given, and inconsistent
     let apart = initial(&model, &[InitialOverride::Velocity(1, 2.0)]).unwrap_err();
     assert!(
         matches!(&apart, MotionErrorKind::ConstraintMissed(name, _) if name == "no slip"),
@@ -332,7 +332,7 @@ fn velocities_left_out_follow_from_the_constraints() {
 
 #[test]
 fn a_velocity_that_happens_to_be_free_at_the_start_is_not_guessed() {
-    // at (1, 0) the rod fixes x' and says nothing of y'; z is no part of any constraint and rests
+    // at (1, 0) the rod fixes x' and leaves y' free; z is in no constraint and remains at rest
     let mut model = lagrangian(&["x", "y", "z"], &[], "1/2*(x'^2 + y'^2 + z'^2)");
     constrain(&mut model, &[("rod", "x^2 + y^2 - 1")]);
     start(&mut model, &[("1", None), ("0", None), ("0", None)]);
@@ -357,7 +357,7 @@ fn a_start_off_the_constraint_is_refused_and_one_by_rounding_is_put_right() {
 
 #[test]
 fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
-    // where they touch they say the same, and just beside it they leave no room at all
+    // where they touch they are equivalent, and just beside that point they have no common solution
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*x");
     constrain(&mut model, &[("line", "y"), ("parabola", "y - x^2")]);
     start(&mut model, &[("0", Some("1")), ("0", None)]);

@@ -1,6 +1,6 @@
-//! The tables of the documents are those of the code.
+//! The tables in the documents agree with those of the code.
 //!
-//! `UPDATE_EXPECT=1 cargo test readme` writes them anew.
+//! `UPDATE_EXPECT=1 cargo test readme` rewrites them.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -107,7 +107,7 @@ fn the_tables_are_those_of_the_code() {
     check("demos.md", "claims", &claims());
 }
 
-/// The blocks of TOML in a document that are whole files: those with a title, without the indent of a list.
+/// The TOML blocks in a document that are complete files (those with a title), without the indent of a list.
 fn examples(document: &str) -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
     let text = std::fs::read_to_string(&path).expect("a document");
@@ -142,7 +142,7 @@ fn the_examples_of_the_documents_have_no_mistakes() {
     }
 }
 
-/// The reference of the file format, whole.
+/// The complete reference of the file format.
 #[test]
 fn the_reference_of_the_format_is_that_of_the_code() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/preset-keys.md");

@@ -9,7 +9,7 @@
 
 use phaselab::num::{DoubleDouble, Real};
 
-/// Function, argument as written, value as the sum of two.
+/// The function, its argument as written, and its value as the sum of two numbers.
 const VALUES: &[(&str, f64, (f64, f64))] = &[
     ("exp", 0.1, (1.1051709180756477, -8.763017013024472e-17)),
     ("exp", -3.7, (0.02472352647033939, -3.725242127087014e-19)),

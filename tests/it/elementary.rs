@@ -1,16 +1,16 @@
-//! The elementary functions against true values at hard points: `tests/elementary.txt`, made by mpmath at 2400 bits.
+//! The elementary functions at difficult points, compared with `tests/elementary.txt` (mpmath, 2400 bits).
 
 use std::collections::BTreeMap;
 
 use phaselab::num::math;
 
-/// The greatest error allowed, in units of the last place of the true value.
+/// The greatest error allowed, in units in the last place of the true value.
 const CLAIMED: f64 = 2.0;
 
-/// Fewer points than this of a function say little.
+/// The least number of points for each function.
 const FEWEST: usize = 140;
 
-/// Where a double stands among all of them.
+/// The rank of a double among all doubles.
 fn rank(x: f64) -> i64 {
     let bits = x.abs().to_bits() as i64;
     if x.is_sign_negative() { -bits } else { bits }
@@ -65,6 +65,6 @@ fn elementary_functions_keep_to_two_units_of_the_last_place() {
     assert_eq!(worst.len(), 19, "{worst:?}");
     let wrong = |(count, error, ..): &(usize, f64, f64, f64)| *count < FEWEST || *error > CLAIMED;
     assert!(!worst.values().any(wrong), "points, greatest error, where: {worst:#?}");
-    // an error of a whole place is seen
+    // the test can detect an error of a whole unit
     assert!(worst.values().any(|(_, error, ..)| *error > 0.5), "{worst:?}");
 }

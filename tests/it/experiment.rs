@@ -1,4 +1,4 @@
-//! Experiments: what commands do, what gauges say, what is recorded. No thread, no clock.
+//! Experiments: commands, gauges and records. There is no thread and no clock.
 
 mod cancel;
 mod checkpoint;
@@ -21,7 +21,7 @@ use crate::hand::loaded;
 /// More steps than any test needs.
 pub(crate) const PLENTY: u64 = 10_000_000;
 
-/// An experiment of a file's text, set up as `change` says.
+/// Builds an experiment from a file's text, with a setup changed by `change`.
 pub(crate) fn build(text: &str, change: impl FnOnce(&mut Setup)) -> Experiment {
     let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = mechanics::derive(&model).expect("it derives");
@@ -32,26 +32,26 @@ pub(crate) fn build(text: &str, change: impl FnOnce(&mut Setup)) -> Experiment {
         .expect("its method fits")
 }
 
-/// An experiment of a shipped preset.
+/// Builds an experiment from a shipped preset.
 pub(crate) fn shipped(name: &str) -> Experiment {
     let Loaded { model, equations, system, .. } = loaded(name, 1);
     let setup = Setup::of(&model);
     Experiment::new(&model, &equations, &system, setup).expect("its method fits")
 }
 
-/// Carries an experiment to a time.
+/// Advances an experiment to a time.
 pub(crate) fn run(experiment: &mut Experiment, time: f64) {
     assert_eq!(experiment.advance(time, PLENTY), Progress::Arrived);
     assert_eq!(experiment.time(), time);
 }
 
-/// The value of a channel now.
+/// The current value of a channel.
 pub(crate) fn value(experiment: &Experiment, name: &str) -> f64 {
     let place = experiment.system().channels().iter().position(|c| c.name == name);
     experiment.values()[place.unwrap_or_else(|| panic!("no channel {name}"))]
 }
 
-/// The gauge of a name.
+/// The gauge with this name.
 pub(crate) fn gauge(snapshot: &Snapshot, name: &str) -> Gauge {
     let gauge = snapshot.gauges.iter().find(|gauge| gauge.name == name);
     gauge.unwrap_or_else(|| panic!("no gauge {name}")).clone()

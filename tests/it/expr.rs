@@ -1,4 +1,4 @@
-//! The algebra: laws that hold for every expression, and the forms a reader expects.
+//! The algebra: identities of every expression, and the expected canonical forms.
 
 use phaselab::expr::{Expr, FUNCTIONS, FunctionId, Pool, Zero};
 use phaselab::num::Number;
@@ -145,7 +145,7 @@ fn the_table_of_functions_is_in_order_and_has_no_twins() {
     }
 }
 
-/// Every derivative in the table against a central difference of its value.
+/// Compares every derivative in the table with a central difference.
 #[test]
 fn derivatives_of_the_table_agree_with_differences() {
     for row in &FUNCTIONS {
@@ -172,7 +172,7 @@ fn derivatives_of_the_table_agree_with_differences() {
     }
 }
 
-/// Source text of random expressions in q, u, a, b.
+/// The source text of random expressions in q, u, a, b.
 pub(crate) fn sources() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
         Just("q".to_owned()),
@@ -200,7 +200,7 @@ pub(crate) fn sources() -> impl Strategy<Value = String> {
     })
 }
 
-/// Two values that agree to rounding, or are both beyond comparing.
+/// Whether two values agree to rounding, or are both beyond comparison.
 pub(crate) fn close(a: f64, b: f64, size: f64) -> bool {
     !a.is_finite() || !b.is_finite() || !size.is_finite() || (a - b).abs() <= 1e-9 * (1.0 + size)
 }

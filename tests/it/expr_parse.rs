@@ -1,10 +1,9 @@
-//! The grammar of expressions: what groups with what, exact numbers, and the message each slip
-//! gives.
+//! The grammar of expressions: grouping, exact numbers, and the message for each mistake.
 
 use phaselab::expr::{Expr, Pool, Resolve, Span, Syntax, SyntaxError, parse};
 use phaselab::num::Number;
 
-/// Every name is a variable and every complaint a failure.
+/// A scope in which every name is a variable and every error a failure.
 struct AnyName;
 
 impl Resolve for AnyName {
@@ -21,7 +20,7 @@ impl Resolve for AnyName {
     }
 }
 
-/// What a text is as an expression, in a pool shared by those it is compared with.
+/// Parses a text in a pool shared with the expressions it is compared with.
 fn lower(pool: &mut Pool, text: &str) -> Expr {
     match parse(text) {
         Ok(syntax) => syntax.lower(pool, &mut AnyName),
@@ -95,7 +94,7 @@ fn numbers_are_exact_where_they_fit() {
     check("123456789012345678901234567890", Number::Real(1.234_567_890_123_456_8e29));
 }
 
-/// The one mistake of a text: `start..end message; help`.
+/// The single mistake of a text: `start..end message; help`.
 fn slip(text: &str) -> String {
     let error = parse(text).expect_err(text);
     assert!(text.get(error.span.start..error.span.end).is_some(), "{text}: {:?}", error.span);
@@ -215,7 +214,7 @@ fn collect<'t>(syntax: &Syntax, text: &'t str, pieces: &mut Vec<&'t str>) {
     }
 }
 
-/// Depth costs stack and is bounded; length costs none.
+/// Nesting depth uses stack and is limited; length does not.
 #[test]
 fn long_expressions_need_no_deep_stack() {
     let mut pool = Pool::new();

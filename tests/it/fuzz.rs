@@ -1,9 +1,9 @@
-//! What strangers send: presets, expressions, bytes of a terminal, casts, sessions, configurations and scripts, changed at
-//! random. No input makes the program panic or hang; mistakes have their places; what is read and written is read the same.
+//! Untrusted input: presets, expressions, terminal bytes, casts, sessions, configurations and scripts, randomly mutated.
+//! No input makes the program panic or hang; mistakes have positions; what is read and written is read back equal.
 //!
-//! `tests/corpus/<target>` holds the inputs that are changed, each of which is looked at as it is first: what once failed
-//! stands there too. In every run the changes are the same. `PHASELAB_FUZZ_SECONDS=600 cargo test fuzz` looks at each
-//! target for so long; `PHASELAB_FUZZ_SEED` gives other changes.
+//! `tests/corpus/<target>` contains the seed inputs, each of which is first checked unchanged; they include inputs that
+//! once failed. The mutations are the same in every run. `PHASELAB_FUZZ_SECONDS=600 cargo test fuzz` tests each target
+//! for that long; `PHASELAB_FUZZ_SEED` selects other mutations.
 
 mod cast;
 mod configuration;
@@ -26,7 +26,7 @@ use target::TARGETS;
 
 const SEED: u64 = 1;
 
-/// A number in the environment.
+/// Reads a number from the environment.
 fn number<T: FromStr<Err: Debug>>(variable: &str) -> Option<T> {
     let word = std::env::var(variable).ok()?;
     Some(word.parse().unwrap_or_else(|why| panic!("{variable}={word}: {why:?}")))
@@ -79,7 +79,7 @@ fn scripts() {
     check("scripts");
 }
 
-/// A hunt finds what is wrong and makes it short: else all of the above would say nothing.
+/// The fuzzer finds a failure and shrinks it; otherwise the tests above would prove nothing.
 #[test]
 fn a_failure_is_found_and_made_short() {
     let fails = |bytes: &[u8]| bytes.windows(2).any(|pair| pair == b"}{");

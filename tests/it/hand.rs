@@ -1,5 +1,4 @@
-//! Made by hand for the tests of `app` and `view`: loaded systems, snapshots that no integrator had a part in, keys
-//! written as words.
+//! Test data for `app` and `view`: loaded systems, snapshots made without an integrator, and keys written as words.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
@@ -20,7 +19,7 @@ pub(crate) fn catalog() -> &'static Catalog {
     CATALOG.get_or_init(|| Catalog::with_folder(None))
 }
 
-/// A shipped preset, lowered: once in a process, however many tests ask for it.
+/// A shipped preset, lowered; it is cached for the whole process.
 pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
     type Shelf = Mutex<HashMap<String, Arc<OnceLock<Loaded>>>>;
     static SHELF: LazyLock<Shelf> = LazyLock::new(Shelf::default);
@@ -32,7 +31,7 @@ pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
     Loaded { epoch, ..loaded.clone() }
 }
 
-/// The text of a file, lowered; epoch 1.
+/// Lowers the text of a file, with epoch 1.
 pub(crate) fn lowered(text: &str) -> Loaded {
     lower("test", 1, Document::new("test", text))
 }
@@ -51,8 +50,8 @@ pub(crate) fn pendulum() -> Loaded {
     loaded("pendulum", 1)
 }
 
-/// What one could see at a time if every coordinate swung like a cosine of its own about its initial value; where
-/// constraints would not let it, the start all the time.
+/// A snapshot in which every coordinate oscillates like a cosine about its initial value; if constraints do not permit
+/// this, the initial state at any time.
 pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
     let system = &loaded.system;
     let parameters = loaded.model.parameter_values();
@@ -101,7 +100,7 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
     }
 }
 
-/// A gauge of a value.
+/// A gauge with this value and verdict.
 pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Gauge {
     Gauge {
         name: name.to_owned(),
@@ -122,13 +121,13 @@ pub(crate) fn gauge(name: &str, shown: &str, value: f64, verdict: Verdict) -> Ga
     }
 }
 
-/// The application as it is once the pendulum is open in the lab and was seen at t = 2.
+/// The application with the pendulum in the lab and a snapshot at t = 2.
 pub(crate) fn in_lab() -> App {
     static LAB: LazyLock<App> = LazyLock::new(|| lab("pendulum", 2.0));
     LAB.clone()
 }
 
-/// The application as it is once a shipped preset is open in the lab and was seen at that time.
+/// The application with a shipped preset in the lab and a snapshot at `time`.
 pub(crate) fn lab(name: &str, time: f64) -> App {
     let loaded = loaded(name, 1);
     let seen = snapshot(&loaded, time);
@@ -154,7 +153,7 @@ pub(crate) fn at_picker() -> App {
     PICKER.clone()
 }
 
-/// Presses keys written as words: `Down Enter q Ctrl-c`. `Wait` lets a second pass. Returns what was asked for.
+/// Presses keys written as words: `Down Enter q Ctrl-c`. `Wait` lets a second pass. Returns the requested effects.
 pub(crate) fn press(app: &mut App, keys: &str) -> Vec<Effect> {
     let mut effects = Vec::new();
     for word in keys.split_whitespace() {
@@ -166,7 +165,7 @@ pub(crate) fn press(app: &mut App, keys: &str) -> Vec<Effect> {
     effects
 }
 
-/// The key of a word.
+/// Parses a key.
 pub(crate) fn key(word: &str) -> KeyEvent {
     key::named(word).unwrap_or_else(|_| panic!("no key is called {word}"))
 }

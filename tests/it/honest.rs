@@ -1,11 +1,11 @@
-//! No test passes without having looked at something: each holds an assertion or calls what holds one, none returns
-//! early, and none is left out.
+//! No test passes without checking something: each contains an assertion or calls a function that does, none returns
+//! early, and none is ignored.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// What ends a test that fails.
+/// What makes a test fail.
 const SURE: [&str; 6] =
     ["assert", "panic!(", "unreachable!(", "expect_err(", "unwrap_err(", "prop_assert"];
 
@@ -36,7 +36,7 @@ fn named(line: &str) -> Option<&str> {
     name.split(['(', '<']).next()
 }
 
-/// The functions of a file that was formatted: each ends at the brace that stands as far in as its beginning.
+/// The functions of a formatted file: each ends at the brace with the indentation of its first line.
 fn functions(text: &str) -> Vec<Function> {
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();
@@ -61,7 +61,7 @@ fn calls(body: &str, names: &BTreeSet<String>) -> bool {
     words.any(|word| word.split('(').any(|name| names.contains(name)) && word.contains('('))
 }
 
-/// The names of tests that can only pass.
+/// The names of tests that cannot fail.
 fn idle(functions: &[Function]) -> Vec<&str> {
     let holds = |f: &Function| SURE.iter().any(|word| f.body.contains(word));
     let mut checking = BTreeSet::new();

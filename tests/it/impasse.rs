@@ -1,4 +1,4 @@
-//! Places where a method stops, or used to: passed, or reported with what passes them.
+//! Points at which a method stops, or used to stop: it passes them, or reports a method that does.
 
 use phaselab::experiment::{Experiment, Progress, Status};
 
@@ -16,7 +16,7 @@ fn by(method: &str, step: Option<f64>, text: &str) -> Experiment {
     })
 }
 
-/// The message of the fault on the way to a time.
+/// The message of the failure on the way to a time.
 fn fault(mut experiment: Experiment, time: f64) -> String {
     assert_ne!(experiment.advance(time, PLENTY), Progress::Arrived);
     match experiment.status() {
@@ -49,7 +49,7 @@ fn dry_friction_in_the_plane_with_a_force_that_depends_on_time() {
     let mut body = file(DRIVEN);
     run(&mut body, 0.7);
     assert_eq!([value(&body, "x"), value(&body, "x'")], [0.0, 0.0]);
-    // it sets out where 1.2 sin t = 0.8
+    // it begins to move where 1.2 sin t = 0.8
     let begin = (0.8_f64 / 1.2).asin();
     let slides = |t: f64| {
         let after = t - begin;
@@ -89,13 +89,13 @@ fn dry_friction_in_the_plane_of_a_hamiltonian() {
     assert_eq!([value(&body, "p_x"), value(&body, "p_y")], [0.0, 0.0]);
 }
 
-/// What a run of a file says, and how.
+/// The messages of a run of a file.
 fn said(text: &str, arguments: &[&str]) -> String {
     let text = format!("title = 'a test'\n{text}");
     with_file(&text, &[&["run", "system.toml"], arguments].concat()).text()
 }
 
-/// A method that stops says which one goes on.
+/// A method that stops names one that can continue.
 #[test]
 fn a_fault_names_the_method_that_passes() {
     let message = said(IN_MOMENTA, &["--method", "dop853", "--until", "12"]);
@@ -104,7 +104,7 @@ fn a_fault_names_the_method_that_passes() {
                 L = \"1/2*x'^2 - sqrt(abs(x))\"";
     let message = said(root, &["--method", "dop853", "--until", "6"]);
     assert!(message.contains("; --method taylor passes it"), "{message}");
-    // nothing leads through a collision, nor over it
+    // no method passes a collision
     let message = said(&root.replace("- sqrt(abs(x))", "+ 1/x^2"), &["--until", "5"]);
     assert!(message.contains("# faulted") && !message.contains("passes"), "{message}");
 }
@@ -142,7 +142,7 @@ fn a_fixed_step_does_not_jump_to_another_branch() {
     }
 }
 
-/// The constraint whose multiplier is solved for may become useless where another one is not.
+/// The constraint whose multiplier is solved for may become degenerate while another one does not.
 #[test]
 fn redundant_constraints_are_chosen_anew_on_the_way() {
     let hoop = r#"
@@ -165,7 +165,7 @@ expression = "x^2 + y^2 - 1"
     assert!(error < 1e-13, "{error:e}");
 }
 
-/// A momentum belongs to a velocity far from rest.
+/// A momentum may correspond to a velocity far from rest.
 #[test]
 fn a_single_momentum_is_solved_for_however_far_its_velocity() {
     for (kinetic, momentum, velocity) in [

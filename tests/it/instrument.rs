@@ -1,4 +1,4 @@
-//! The table of instruments: every row drawn, named, kept, offered and reported of; and jobs on the side of the lab.
+//! The table of instruments: every row is drawn, named, saved, offered and described; and background jobs of the lab.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use phaselab::preset;
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::screen::{rich, rows};
 
-/// The first plot of a kind that the pendulum opens with, which has all of them.
+/// The first plot of a kind on the pendulum's initial screen, which has all kinds.
 fn plot(app: &App, name: &str) -> (usize, Plot) {
     let plots = app.lab.as_ref().unwrap().plots.iter().enumerate();
     let of_kind = plots.filter(|(_, plot)| plot.kind.name() == name);
@@ -56,7 +56,7 @@ fn every_kind_is_drawn_told_of_and_kept() {
         let body = &drawn[2..22];
         let marks = body.concat().chars().filter(|c| !c.is_whitespace()).count();
         assert!(marks > 100, "{kind:?} {drawn:#?}");
-        // its title stands in the frame, and its words on the page of plain reading
+        // its title is in the frame, and its description on the plain-text page
         let present = lab.present().unwrap();
         let heading = kind.heading(&shown, &present).expect("a heading");
         assert!(drawn[1].contains(&heading.title), "{kind:?} {drawn:#?}");
@@ -85,12 +85,12 @@ fn every_kind_is_kept_in_a_session() {
         read.plots.iter().map(|plot| plot.place(pendulum.physics())).collect();
     let before = &app.lab.as_ref().unwrap().plots;
     assert_eq!(plots, before.iter().cloned().map(Some).collect::<Vec<_>>());
-    // a session of another program may name what is not there
+    // a session of another version may name an unknown kind
     let strange = SavedPlot { kind: "spiral".to_owned(), ..read.plots[0].clone() };
     assert_eq!(strange.place(pendulum.physics()), None);
 }
 
-/// What a session of the first version of the form holds of a picture.
+/// The picture settings in the first version of the session format.
 #[test]
 fn sessions_are_read_as_they_were_written_before() {
     let check = |text: &str, name: &str| {
@@ -121,7 +121,7 @@ fn every_kind_can_be_chosen() {
             assert!(!offer.label.is_empty() && !offer.about.is_empty(), "{offer:?}");
             let columns = offer.columns.clone();
             let plot = Plot::new(kind, (columns, offer.view), &pendulum.model);
-            // each further axis has a heading under which it is asked for
+            // each further axis has a heading in the menu
             for axis in &kind.chosen()[plot.columns.len()..] {
                 assert!(!axis.heading.is_empty(), "{axis:?}");
             }
@@ -143,7 +143,7 @@ fn a_misspelt_kind_gets_the_nearest_of_the_table() {
     }
 }
 
-/// A lab whose jobs are handed out, and what was asked for until the pendulum was seen.
+/// A lab whose jobs run elsewhere, and the jobs requested until the first snapshot of the pendulum.
 fn aside() -> (App, Vec<Computation>) {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
     app.aside = true;
@@ -180,9 +180,9 @@ fn no_frame_waits_for_level_curves_and_the_old_ones_stay() {
     assert_eq!(app.update(ran(&asked[0])), []);
     let first = answer(&app).expect("the curves are there");
     assert_ne!(screen(&app, 120, 40), before);
-    // the same screen as where they are computed at once
+    // the same screen as with immediate computation
     assert_eq!(screen(&app, 120, 40)[1..38], screen(&in_lab(), 120, 40)[1..38]);
-    // another parameter: the old curves stay until the new ones are there, and are asked for once
+    // another parameter: the old curves remain until the new ones arrive, which are requested once
     let mut seen = snapshot(&pendulum(), 2.1);
     let mut parameters = seen.parameters.to_vec();
     parameters[0] *= 1.5;
@@ -198,7 +198,7 @@ fn no_frame_waits_for_level_curves_and_the_old_ones_stay() {
 fn an_answer_that_nobody_waits_for_is_dropped() {
     let (mut app, asked) = aside();
     let late = ran(&asked[0]);
-    // another system is there meanwhile, which has a plane of its own
+    // meanwhile another system is loaded, with its own phase plane
     let other = loaded("pendulum", 2);
     app.update(Event::Loaded(Ok(other.clone())));
     app.update(late.clone());

@@ -1,15 +1,15 @@
-//! The house keeps its floors: which room uses which, read from every file of `src`, and held against the table in
+//! The layers of the source: the uses between rooms in every file of `src`, compared with the table in
 //! `ARCHITECTURE.md`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each room may use.
+/// The rooms that each room may use.
 type Table = BTreeMap<String, BTreeSet<String>>;
 
-/// The table of `ARCHITECTURE.md`. A room by its name; `… x` is x and what x may use; `x and below` is x and all rooms
-/// under it; `all` are all under it; what stands behind `never` is not to be used.
+/// The table of `ARCHITECTURE.md`. A room is given by its name; `… x` is x and what x may use; `x and below` is x and all
+/// rooms under it; `all` is all rooms under it; what follows `never` must not be used.
 fn table() -> Table {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md");
     table_of(&fs::read_to_string(path).expect("ARCHITECTURE.md"))
@@ -50,7 +50,7 @@ fn table_of(text: &str) -> Table {
     table
 }
 
-/// What only some rooms let in from outside: what it is, how code names it, the rooms.
+/// External items that only some rooms may use: the item, its names in code, the rooms.
 const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
     ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
     ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
@@ -62,10 +62,10 @@ const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
     ),
 ];
 
-/// The rooms that speak of keys and the mouse in crossterm's words.
+/// The rooms that use crossterm's types for keys and the mouse.
 const SPEAK_OF_KEYS: [&str; 4] = ["app", "view", "record", "shell"];
 
-/// Those words; everything else of crossterm does something with a terminal.
+/// Those types; everything else of crossterm operates on a terminal.
 const OF_KEYS: [&str; 9] = [
     "Event",
     "KeyCode",
@@ -78,14 +78,14 @@ const OF_KEYS: [&str; 9] = [
     "MouseEventKind",
 ];
 
-/// The files that write crossterm's commands into memory, and never further.
+/// The files that write crossterm's commands into memory only.
 const WRITE_FRAMES: [&str; 2] = ["view/frame/encoder.rs", "view/frame/pen.rs"];
 
-/// A source file and the room it stands in.
+/// A source file and its room.
 struct File {
     path: PathBuf,
     room: String,
-    /// How many `super` lead out of the room.
+    /// The number of `super` that leads out of the room.
     depth: usize,
     /// Its code, without comments.
     code: String,
@@ -115,7 +115,7 @@ fn files() -> Vec<File> {
     files
 }
 
-/// The rooms that code names: after `crate::`, inside `crate::{…}`, and after more `super::` than the room is deep.
+/// The rooms named in code: after `crate::`, inside `crate::{…}`, and after more `super::` than the room is deep.
 fn rooms_named(code: &str, depth: usize) -> Vec<String> {
     let mut named = Vec::new();
     let way_out = "super::".repeat(depth);
@@ -135,7 +135,7 @@ fn rooms_named(code: &str, depth: usize) -> Vec<String> {
     named
 }
 
-/// The first words of the items of a `use` list, up to its closing brace.
+/// The first path segments of the items of a `use` list, up to its closing brace.
 fn heads(list: &str) -> Vec<String> {
     let mut heads = Vec::new();
     let (mut depth, mut start) = (0, true);
@@ -160,7 +160,7 @@ fn word(text: &str) -> Option<String> {
     (!word.is_empty()).then_some(word)
 }
 
-/// What is wrong with a use of one room by another.
+/// The violation in a use of one room by another.
 fn refusal(table: &Table, from: &str, to: &str) -> Option<String> {
     let allowed = table.get(from)?;
     if from == to || !table.contains_key(to) || allowed.contains(to) {
@@ -240,13 +240,13 @@ fn the_world_outside_stays_where_it_is_let_in() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// What code says of crossterm beyond the words for keys and the mouse.
+/// The uses of crossterm other than the types for keys and the mouse.
 fn beyond_keys(code: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("crossterm::") {
         let own = code[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && c != ':');
         if !own {
-            // tui-input's handler of events, for one
+            // for example tui-input's event handler
             continue;
         }
         let rest = &code[at + "crossterm::".len()..];
@@ -318,15 +318,15 @@ fn the_reader_of_uses_sees_them() {
     check("use super::theme::Theme;\nuse super::super::app::App;", 2, &["app"]);
 }
 
-/// The elementary functions of `f64` that `std` leaves to the platform: `expr::math` has its own.
+/// The elementary functions of `f64` that `std` leaves to the platform: `num::math` has its own.
 const ELEMENTARY: [&str; 26] = [
     "sin", "cos", "sin_cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
     "asinh", "acosh", "atanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log10", "log2",
     "powf", "powi", "cbrt", "hypot",
 ];
 
-/// Where methods of these names belong to other numbers than `f64`: rules over every `Real`, double-doubles, exact
-/// numbers. There only `clippy.toml` can tell.
+/// Files whose methods of these names belong to other numbers than `f64`: code generic over `Real`, double-doubles, exact
+/// numbers. Only `clippy.toml` can check them.
 const OTHER_NUMBERS: [&str; 8] = [
     "expr/ball/",
     "expr/ball.rs",
@@ -338,7 +338,7 @@ const OTHER_NUMBERS: [&str; 8] = [
     "num/extended_range.rs",
 ];
 
-/// The calls of `std`'s elementary functions in code, as `name`: methods of anything but the expressions' pool, and paths.
+/// The calls of `std`'s elementary functions in code, as `name`: methods, except those of the expression pool, and paths.
 fn elementary_calls(code: &str) -> Vec<&'static str> {
     let mut found = Vec::new();
     for name in ELEMENTARY {

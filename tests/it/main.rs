@@ -40,8 +40,7 @@ mod worker;
 
 use proptest::test_runner::Config;
 
-/// So many random cases of a property, where `PROPTEST_CASES` says nothing else; else as much more or less as that is of
-/// the usual 256.
+/// The number of random cases of a property, scaled by `PROPTEST_CASES` relative to its default of 256 if that is set.
 fn cases(count: u32) -> Config {
     let config = Config::default();
     Config { cases: count * config.cases.max(32) / 256, failure_persistence: None, ..config }

@@ -1,4 +1,4 @@
-//! Derivations: what follows from L or H, against equations written by hand, at random states.
+//! Derivations from L or H, compared with equations derived by hand at random states.
 
 mod bracket;
 mod conserved;
@@ -77,7 +77,7 @@ fn heavy_symmetric_top() {
 
 #[test]
 fn double_pendulum() {
-    // twice: with the difference of the angles written, and from Cartesian velocities
+    // twice: with the difference of the angles, and from Cartesian velocities
     let potential = "(m1+m2)*g*l1*cos(a) + m2*g*l2*cos(b)";
     let kinetic = [
         "1/2*(m1+m2)*l1^2*a'^2 + 1/2*m2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a-b)",
@@ -107,7 +107,7 @@ fn double_pendulum() {
 
 #[test]
 fn explicit_time_and_velocity_terms() {
-    // a pendulum whose pivot goes up and down: SICM § 1.6.2
+    // a pendulum with an oscillating pivot: SICM § 1.6.2
     let model = lagrangian(
         &["theta"],
         &["m", "g", "l", "a", "w"],
@@ -160,7 +160,7 @@ fn cyclic_coordinates_are_seen_through_cartesian_definitions() {
     let e = check(model, &["r*phi'^2 - k/(m*r^2)", "-2*r'*phi'/r"]);
     assert_eq!(e.cyclic, [1]);
     assert_eq!(e.conserved[0].reason, Reason::Cyclic("φ".to_owned()));
-    // and what is nearly so is not
+    // an approximate identity is not simplified
     let model = lagrangian(&["x"], &["k"], "1/2*x'^2 - k*(sin(x)^2 + cos(x)^2 + 1e-9*x)");
     let e = mechanics::derive(&model).expect("derivable");
     assert!(e.cyclic.is_empty());
@@ -193,7 +193,7 @@ fn common_translations_and_rotations_are_found() {
     assert_eq!(names(&oblate), ["energy"]);
 }
 
-/// H of a model as text, and whether going back gives L again.
+/// Checks the text of a model's H, and that transforming back gives L again.
 fn check_there_and_back(model: &Model, h: &str) {
     let mut e = mechanics::derive(model).expect("derivable");
     let found = *e.hamiltonian.as_ref().expect("H in closed form");

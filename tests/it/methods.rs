@@ -1,4 +1,4 @@
-//! The table of methods: what each promises, measured.
+//! The table of methods: measurements of the properties it states.
 
 mod branches;
 mod faults;
@@ -15,7 +15,7 @@ use phaselab::system::{Form, State, System};
 
 use crate::build::{hamiltonian, lagrangian, read};
 
-/// A system with the point it is started from.
+/// A system and its initial state.
 struct Case {
     system: System,
     start: State,
@@ -23,7 +23,7 @@ struct Case {
 }
 
 fn case(mut model: Model, form: Form, numbers: &[f64]) -> Case {
-    // watching the action makes every state carry it
+    // watching the action adds it to every state
     let action = read(&mut model, "action");
     let equations = mechanics::derive(&model).expect("derivable");
     let extra = Channel { written: "action".to_owned(), expression: action };
@@ -74,7 +74,7 @@ fn fixed() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.stepping == Stepping::Fixed)
 }
 
-/// The largest difference of any number.
+/// The greatest difference of any number.
 fn distance(a: &State, b: &State) -> f64 {
     a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -83,13 +83,13 @@ fn pendulum() -> Case {
     case(hamiltonian(&["q"], &[], "p_q^2/2 - cos(q)"), Form::Momentum, &[1.2, 0.5])
 }
 
-/// Driven: V depends on time, so the work is carried too.
+/// A driven system: V depends on time, so the work is part of the state.
 fn driven() -> Case {
     let h = "p_q^2/2 - cos(q) + q*cos(3*t/2)/2";
     case(hamiltonian(&["q"], &[], h), Form::Momentum, &[1.2, 0.5])
 }
 
-/// Neither separable nor at rest in time.
+/// A system that is neither separable nor autonomous.
 fn entangled() -> Case {
     let h = "(1 + q^2)*(1 + p_q^2)/2 + q*sin(t)/4";
     case(hamiltonian(&["q"], &[], h), Form::Momentum, &[0.6, 0.3])
@@ -118,7 +118,7 @@ fn henon_heiles() -> Case {
     case(hamiltonian(&["x", "y"], &[], h), Form::Momentum, &start)
 }
 
-/// Kepler's problem of eccentricity e, semi-axis 1, from the pericentre.
+/// Kepler's problem with eccentricity e and semi-major axis 1, from the pericentre.
 fn kepler(e: f64) -> Case {
     let h = "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)";
     let start = [1.0 - e, 0.0, 0.0, ((1.0 + e) / (1.0 - e)).sqrt()];

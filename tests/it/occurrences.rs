@@ -1,4 +1,4 @@
-//! Impulses and events: when they fall, what they do, and that none is overlooked or invented.
+//! Impulses and events: their times and effects, and that none is missed or invented.
 
 use phaselab::experiment::{Command, Experiment, Progress, Status};
 use phaselab::integrate::OccurrenceKind;
@@ -17,7 +17,7 @@ fn file(text: &str) -> Experiment {
     build(text, |_| ())
 }
 
-/// Names and times of what happened.
+/// Names and times of the occurrences.
 fn passed(experiment: &Experiment) -> Vec<(String, f64)> {
     experiment.occurrences().iter().map(|h| (h.name.clone(), h.time)).collect()
 }
@@ -84,7 +84,7 @@ change = { p_theta = \"-2*theta'\" }
     run(&mut after_impulse, 1.999_999_999_999);
     let (theta, rate) = (value(&after_impulse, "theta"), value(&after_impulse, "theta'"));
     run(&mut after_impulse, 2.0);
-    // in the order of the file, each sees what the one before it left
+    // they are applied in the order of the file, each to the state that the previous one left
     assert!((value(&after_impulse, "theta") - theta).abs() < 1e-11);
     assert!((value(&after_impulse, "theta'") + (rate + 0.7)).abs() < 1e-11);
     let names: Vec<_> = passed(&after_impulse).into_iter().map(|(name, _)| name).collect();
@@ -117,8 +117,8 @@ start = 0.05
 
 #[test]
 fn an_impulse_under_a_constraint_has_its_reaction() {
-    // a dumbbell of two unit masses struck at one end, along the rod and across it: along it both
-    // move together, so half of the impulse is taken on by the rod; across it only the struck one does
+    // an impulse on one end of a dumbbell of two unit masses, along the rod and across it: along it both
+    // move together, so half of the impulse is taken up by the rod; across it only one of them moves
     let text = "
 title = 'dumbbell'
 [coordinates]
@@ -152,7 +152,7 @@ change = { p_x1 = '3', p_y1 = '1' }
     assert!((jump[0] - 1.5).abs() < 1e-15 && (jump[2] - 1.5).abs() < 1e-15, "{jump:?}");
 }
 
-/// From rest at x = 1 with g = 2.
+/// A ball dropped from rest at x = 1 with g = 2.
 const BALL: &str = "
 title = 'ball'
 [coordinates]
@@ -182,7 +182,7 @@ fn a_ball_bounces_at_the_times_of_its_parabolas() {
         time += 2.0 * 0.8_f64.powi(n as i32 + 1);
     }
     assert_eq!(times(&ball, "bounce").len(), 7);
-    // Σ ends at t = 1 + 2 e/(1 − e) = 9, and no motion leads beyond
+    // Σ ends at t = 1 + 2 e/(1 − e) = 9, and the motion cannot continue beyond
     let progress = ball.advance(10.0, PLENTY);
     assert_eq!(progress, Progress::Stuck);
     let Status::Failed(fault) = ball.status() else { panic!("it went on") };
@@ -215,13 +215,13 @@ action = 'release:sphere'
     let lift_off = times(&particle, "lift-off");
     assert_eq!(lift_off.len(), 1);
     assert_eq!(value(&particle, "lambda_sphere"), 0.0);
-    // back at that moment, by the parabola
+    // it returns at that time, by the parabola
     let back = 3.0 - lift_off[0];
     let z = value(&particle, "z") - value(&particle, "z'") * back - 0.5 * back * back;
     let cosine = 2.0 / 3.0 * 0.3_f64.cos();
     assert!((z - cosine).abs() < 1e-14, "{z} is not {cosine}");
     assert!((value(&particle, "energy") - 0.3_f64.cos()).abs() < 1e-15);
-    // begun again, it is on the sphere again
+    // after a reset it is on the sphere again
     particle.execute(Command::Reset);
     run(&mut particle, 0.5);
     assert!(value(&particle, "lambda_sphere") > 0.0);
@@ -331,7 +331,7 @@ fn of_free(when: &str, until: f64, method: &str, step: Option<f64>) -> Vec<f64> 
 
 #[test]
 fn a_function_that_swings_thousands_of_times_within_a_step_loses_and_doubles_nothing() {
-    // the motion is a polynomial: one step leads to the end
+    // the motion is a polynomial: one step reaches the end
     let pi = std::f64::consts::PI;
     for (method, step) in [("taylor", None), ("dop853", None), ("leapfrog", Some(500.0))] {
         for when in ["sin(10*t)", "sin(10*x)"] {
@@ -339,7 +339,7 @@ fn a_function_that_swings_thousands_of_times_within_a_step_loses_and_doubles_not
             assert_eq!(found.len(), 15_915, "{method}: {when}");
             for (n, time) in found.iter().enumerate() {
                 let right = pi * (n + 1) as f64 / 10.0;
-                // two digits of the clock there; dop853 adds its steps up
+                // the time has two digits fewer there; dop853 sums its steps
                 let within = if method == "taylor" { 2e-12 } else { 1e-11 };
                 assert!((time - right).abs() < within, "{method}: {when}: {time} for {right}");
             }
@@ -349,17 +349,17 @@ fn a_function_that_swings_thousands_of_times_within_a_step_loses_and_doubles_not
 
 #[test]
 fn what_is_narrow_or_small_within_a_long_step_is_found() {
-    // a bell of width 1e-2 after five hundred of nothing
+    // a bell of width 1e-2 after five hundred units of nothing
     let half = 2.0_f64.ln().sqrt() / 100.0;
     let bell = of_free("exp(-1e4*(t - 500)^2) - 0.5", 1000.0, "taylor", None);
     assert_eq!(bell.len(), 2, "{bell:?}");
     assert!((bell[0] - 500.0 + half).abs() < 1e-12 && (bell[1] - 500.0 - half).abs() < 1e-12);
-    // the same as a rational function, and as a step of tanh
+    // a rational function with the same property, and a step of tanh
     let rational = of_free("1/(1 + 1e8*(x - 500)^2) - 0.5", 1000.0, "taylor", None);
     assert_eq!(rational.len(), 2, "{rational:?}");
     let step = of_free("tanh(1e3*(t - 321)) + tanh(1e3*(654 - t)) - 1", 1000.0, "taylor", None);
     assert_eq!(step.len(), 2, "{step:?}");
-    // a ripple that shows only beside zero: g' = 1 + 10 cos(10⁴ t) changes sign twice a ripple
+    // a ripple visible only near zero: g' = 1 + 10 cos(10⁴ t) changes sign twice per ripple
     let ripple = of_free("t - 5 + 0.001*sin(1e4*t)", 10.0, "taylor", None);
     let g = |t: f64| t - 5.0 + 0.001 * (1e4 * t).sin();
     let fine = (0..=400_000).map(|k| g(4.998 + 1e-8 * f64::from(k)).signum());
@@ -367,7 +367,7 @@ fn what_is_narrow_or_small_within_a_long_step_is_found() {
     let crossings = fine.filter(|&s| std::mem::replace(&mut last, s) != s).count();
     assert!(crossings > 3);
     assert_eq!(ripple.len(), crossings);
-    // what has no slope at all but where it jumps
+    // a function whose slope is zero except at its jumps
     assert_eq!(of_free("sign(sin(10*t + 1)) - 0.5", 100.0, "taylor", None).len(), 318);
     assert_eq!(of_free("abs(sin(10*x)) - 0.5", 100.0, "taylor", None).len(), 637);
     assert_eq!(of_free("max(sin(10*x), cos(10*x), 0.9) - 0.95", 100.0, "taylor", None).len(), 637);
@@ -375,7 +375,7 @@ fn what_is_narrow_or_small_within_a_long_step_is_found() {
 
 #[test]
 fn every_pair_of_a_fast_swing_is_found() {
-    // each top of the sine lies above the level for nine thousandths of a turn
+    // each top of the sine is above the level for nine thousandths of a turn
     let found = of_free("sin(1e3*t) - 0.99999", 5.0, "taylor", None);
     assert_eq!(found.len(), 2 * 796);
     let half = 0.99999_f64.acos();
@@ -467,7 +467,7 @@ fn what_happens_is_reported_once_and_forgotten_at_a_reset() {
     assert_eq!(ball.snapshot().notices.len(), 1, "and reported again of the new motion");
 }
 
-/// A pendulum in x, y with a rod, begun below.
+/// A pendulum in x, y with a rod, started at the bottom.
 const ROD: &str = "
 title = 'rod'
 [coordinates]

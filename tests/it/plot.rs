@@ -1,4 +1,4 @@
-//! The plot kit: raster, axes, ticks, themes, level curves and the camera, on ratatui buffers.
+//! Plots on ratatui buffers: raster, axes, ticks, themes, level curves and the camera.
 
 mod axes;
 mod camera;
@@ -16,7 +16,7 @@ use phaselab::view::plot::{Frame, Raster, Scale};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-/// A frame from 0 to 1 both ways.
+/// A frame from 0 to 1 on both axes.
 fn unit(area: Rect) -> Frame {
     Frame::new(Scale::linear(0.0, 1.0), Scale::linear(0.0, 1.0), area)
 }
@@ -28,7 +28,7 @@ fn dots(raster: &Raster) -> Vec<[i32; 2]> {
     all.filter(|dot| raster.is_set(*dot)).collect()
 }
 
-/// The text of a buffer, row by row, without blanks at the ends.
+/// The text of a buffer, row by row, without trailing blanks.
 fn rows(buffer: &Buffer) -> Vec<String> {
     let row = |y: u16| (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect::<String>();
     (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()

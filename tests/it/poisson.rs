@@ -1,5 +1,5 @@
-//! Systems given by the brackets of their variables: their motion against closed forms and other
-//! laws, what they keep, and what is refused.
+//! Systems defined by the brackets of their variables: their motion compared with closed forms and other
+//! laws, their invariants, and refusals.
 
 mod command;
 mod motion;
@@ -63,7 +63,7 @@ name = "spin"
 expression = "L3"
 "#;
 
-/// Foxes and rabbits.
+/// Predator and prey.
 const LOTKA_VOLTERRA: &str = r#"
 title = "Lotka and Volterra"
 

@@ -1,4 +1,4 @@
-//! Preset files: what they may say, every mistake with its exact report, and the catalog.
+//! Preset files: their contents, the exact report on every mistake, and the catalog.
 
 mod bad;
 mod catalog;
@@ -7,7 +7,7 @@ mod hostile;
 mod scope;
 mod tables;
 
-/// A small system that is right, in the parts of its file.
+/// A small correct system, in the parts of its file.
 const GOOD: &str = r#"title = "Oscillator"
 
 [coordinates]

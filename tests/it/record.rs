@@ -1,4 +1,4 @@
-//! Recordings: played on the virtual clock, written as casts, replayed by terminals that know nothing of them.
+//! Recordings: played on the virtual clock, written as casts, and replayed by independent terminals.
 
 mod demos;
 mod performance;
@@ -14,14 +14,14 @@ use phaselab::record::{Recording, Script, play};
 
 use crate::hand::catalog;
 
-/// The script of a text.
+/// Parses a script.
 pub(crate) fn script(text: &str) -> Script {
     let document = Document::new("test.demo", text);
     Script::read(&document)
         .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
 }
 
-/// A script of a preset, played.
+/// Plays a script of a preset.
 pub(crate) fn played(preset: &str, text: &str) -> Recording {
     let document = Document::new("test.demo", text);
     let system = catalog().find(preset).expect("a preset");
@@ -29,7 +29,7 @@ pub(crate) fn played(preset: &str, text: &str) -> Recording {
         .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
 }
 
-/// A preset's own demo, played.
+/// Plays a preset's own demo.
 pub(crate) fn shipped(preset: &str) -> Recording {
     played(preset, &demo(preset).expect("a demo").text)
 }

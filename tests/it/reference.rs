@@ -1,12 +1,12 @@
-//! States known to 30 digits, held against the whole way from a file to an experiment.
+//! States known to 30 digits, compared with the whole path from a file to an experiment.
 //!
-//! Each `tests/reference/NAME.toml` is a system; `NAME.expected.toml` beside it holds what is known
-//! at given times, the typical size of each (`scale`), and by how much the motion magnifies
-//! a relative error of its beginning (`condition`). Known are q, q̇ and p, the multipliers
-//! (`lambda`, in the order of the constraints), and of a Poisson system its variables (`x`);
-//! with `[comparison]` the wrong mechanics (`other_q`, `other_v`); with `[attitude]` its matrix (`A`);
-//! `body` is what pieces make together; `bracket` are values at the start;
-//! `events` are all that happens up to the last row, `status` how it ends.
+//! Each `tests/reference/NAME.toml` is a system; `NAME.expected.toml` beside it contains the known values
+//! at given times, the typical size of each (`scale`), and the factor by which the motion magnifies
+//! a relative error of its start (`condition`). The values are q, q̇ and p, the multipliers
+//! (`lambda`, in the order of the constraints), and for a Poisson system its variables (`x`);
+//! with `[comparison]` those of the wrong mechanics (`other_q`, `other_v`); with `[attitude]` its matrix (`A`).
+//! `body` is the rigid body composed of the pieces; `bracket` has values at the start;
+//! `events` are all occurrences up to the last row, and `status` is how the motion ends.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ use phaselab::system::{ChannelKind, System};
 
 use serde::Deserialize;
 
-/// What is known of a motion.
+/// The known values of a motion.
 #[derive(Deserialize)]
 struct Expected {
     condition: f64,
@@ -36,7 +36,7 @@ struct Expected {
     body: Option<Body>,
 }
 
-/// A body put together from pieces, about its centre of mass.
+/// A body composed of pieces, about its centre of mass.
 #[derive(Deserialize)]
 struct Body {
     mass: String,
@@ -45,7 +45,7 @@ struct Body {
     principal_moments: Vec<String>,
 }
 
-/// Poisson's bracket of two expressions, its value at the start.
+/// The Poisson bracket of two expressions, and its value at the start.
 #[derive(Deserialize)]
 struct Bracket {
     f: String,
@@ -53,7 +53,7 @@ struct Bracket {
     value: String,
 }
 
-/// A row: what is known of each kind at a time.
+/// A row: the known values of each kind at a time.
 #[derive(Deserialize)]
 struct Known {
     at: f64,
@@ -61,7 +61,7 @@ struct Known {
     values: BTreeMap<OccurrenceKind, Vec<String>>,
 }
 
-/// Something that happens, and what an impulse does to momenta and asks of constraints.
+/// An occurrence; for an impulse, its jumps of the momenta and the reactions of the constraints.
 #[derive(Deserialize)]
 struct Happened {
     name: String,
@@ -88,7 +88,7 @@ enum OccurrenceKind {
 }
 
 impl OccurrenceKind {
-    /// The channel that shows the value of this place in the list.
+    /// The channel of the value at this position in the list.
     fn channel(self, place: usize, degrees: usize) -> ChannelKind {
         let place = if self == OccurrenceKind::OtherV { place + degrees } else { place };
         match self {
@@ -102,7 +102,7 @@ impl OccurrenceKind {
     }
 }
 
-/// The worst of a system: its error in units of the rounding of the sizes, and where.
+/// The worst error of a system, in units of the rounding of the sizes, and its origin.
 struct Worst {
     name: String,
     error: f64,
@@ -111,7 +111,7 @@ struct Worst {
 }
 
 impl Worst {
-    /// Holds a value against its digits, measured by `size`.
+    /// Compares a value with its digits, relative to `size`.
     fn look(
         &mut self,
         value: f64,
@@ -121,7 +121,7 @@ impl Worst {
     ) -> Result<(), String> {
         let truth: f64 = digits.parse().map_err(|_| format!("{digits} is not a number"))?;
         let error = (value - truth).abs() / (size * f64::EPSILON);
-        // written so that an error that is not a number is the worst of all
+        // the negation makes NaN the worst error of all
         if error.is_nan() || error > self.error {
             self.error = if error.is_nan() { f64::INFINITY } else { error };
             self.place = place();
@@ -130,13 +130,13 @@ impl Worst {
     }
 }
 
-/// The error allowed, in units in the last place of the size: rounding a result, and a little of
-/// what rounding the beginning would make.
+/// The error allowed, in units in the last place of the size: the rounding of a result, and a small multiple
+/// of the effect of rounding the start.
 fn allowed(condition: f64) -> f64 {
     2.0 + 0.1 * condition
 }
 
-/// The systems, by name.
+/// The files of the systems, sorted by name.
 fn systems() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference");
     let files = std::fs::read_dir(folder).expect("the folder of references");
@@ -158,8 +158,8 @@ fn experiment(file: &Path) -> Result<Experiment, String> {
     Experiment::new(&model, &equations, &system, setup).map_err(|why| why.to_string())
 }
 
-/// Holds what happened against what is known; times are measured by themselves, jumps by the sizes
-/// of what jumps, reactions by the largest of them.
+/// Compares what happened with what is known; times have their own scale, jumps are relative to the sizes
+/// of the quantities that jump, and reactions to the largest of them.
 fn occurrences(
     experiment: &mut Experiment,
     expected: &Expected,
@@ -213,7 +213,7 @@ fn occurrences(
     Ok(())
 }
 
-/// The present value of a channel, and its name.
+/// The current value of a channel, and its name.
 fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), String> {
     let mut channels = experiment.system().channels().iter().zip(experiment.values());
     let found = channels.find(|(channel, _)| channel.kind == kind);
@@ -221,7 +221,7 @@ fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), Strin
     Ok((value, &channel.name))
 }
 
-/// The coordinates and velocities of the wrong mechanics, where the file asks for it.
+/// The coordinates and velocities of the wrong mechanics, if the file asks for them.
 fn others(model: &Model, pool: &mut Pool) -> Vec<Channel> {
     if model.comparison.is_none() {
         return Vec::new();
@@ -310,7 +310,7 @@ fn every_body_has_its_inertia() {
         let answer: serde_json::Value = serde_json::from_slice(&output.stdout).expect("an object");
         let found = &answer["body"];
         let number = |digits: &String| digits.parse::<f64>().expect("a number");
-        // each by the size of its own kind: the mass, the farthest place, the largest moment
+        // each relative to the size of its own kind: the mass, the farthest position, the largest moment
         let hold = |what: &str, found: &serde_json::Value, digits: &[String], size: f64| {
             let found = found.as_array().expect("a list");
             assert_eq!(found.len(), digits.len(), "{what} of {file:?}");

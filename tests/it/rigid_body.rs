@@ -1,4 +1,4 @@
-//! Bodies put together from pieces: tensors against integrals over the solids, principal moments,
+//! Rigid bodies composed of pieces: tensors compared with integrals over the solids, principal moments,
 //! names that follow the parameters, attitudes.
 
 use std::f64::consts::TAU;
@@ -18,14 +18,14 @@ use phaselab::system::System;
 use crate::build::{lagrangian, names, read};
 use crate::poisson::BODY;
 
-/// Gauss and Legendre's three nodes on (0, 1), exact to the fifth degree.
+/// The three nodes of Gauss–Legendre quadrature on (0, 1), exact to the fifth degree.
 const NODES: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 4.0 / 9.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// Points with masses that sum to one, which have the second moments of a solid.
+/// Points with masses that sum to one and have the second moments of a solid.
 fn points(solid: &str, [a, b, c]: [f64; 3]) -> Vec<(Vector3<f64>, f64)> {
     let round = || (0..8).map(|k| (f64::from(k) + 0.3) * TAU / 8.0);
     let mut all = Vec::new();
@@ -56,7 +56,7 @@ fn points(solid: &str, [a, b, c]: [f64; 3]) -> Vec<(Vector3<f64>, f64)> {
             }
         }
         _ => {
-            // (radius, share) across, (height, taper) along
+            // (radius, share) in the cross-section, (height, taper) along the axis
             let full: Vec<(f64, f64)> = NODES.iter().map(|&(s, w)| (a * s, 2.0 * w * s)).collect();
             let radii = match solid {
                 "cylinder" | "cone" | "disc" => full,
@@ -110,7 +110,7 @@ fn body_names(pool: &mut Pool) -> BodyNames {
     BodyNames { inertia: [xx, yy, zz, xy, xz, yz], principal, mass, centre }
 }
 
-/// A piece: solid, sizes, mass, place, turn.
+/// A piece: solid, sizes, mass, position, rotation.
 type Written<'a> = (&'a str, [&'a str; 3], &'a str, [&'a str; 3], Turned<'a>);
 
 #[derive(Clone, Copy)]
@@ -153,7 +153,7 @@ fn number(text: &str) -> f64 {
     model.pool.evaluate(e, &|_| f64::NAN)
 }
 
-/// The rotation that a turn is, built by another library.
+/// The rotation of a piece, built by another library.
 fn rotation(turn: Turned<'_>) -> Rotation3<f64> {
     match turn {
         Turned::Not => Rotation3::identity(),
@@ -170,7 +170,7 @@ fn rotation(turn: Turned<'_>) -> Rotation3<f64> {
     }
 }
 
-/// Holds a body's names against sums over points.
+/// Compares a body's derived values with sums over points.
 fn check(pieces: &[Written<'_>]) -> Vec<f64> {
     let found = values(&with_body(names(&["x"], &[]), pieces));
     let mut all: Vec<(Vector3<f64>, f64)> = Vec::new();
@@ -229,7 +229,7 @@ fn a_body_of_many_pieces_is_their_sum_by_parallel_axes() {
         // a hole
         ("sphere", ["0.2", "0", "0"], "-0.1", ["0", "0", "1"], Turned::Not),
     ]);
-    // two points: I = 2 m d² across, nothing along
+    // two points: I = 2 m d² about a perpendicular axis, nothing about their own
     let found = values(&with_body(
         names(&["x"], &[]),
         &[
@@ -319,7 +319,7 @@ fn its_names_follow_the_parameters_into_the_motion() {
     let place = system.channels().iter().position(|c| c.name == "a").unwrap();
     for [m, a, h, k] in [[1.0_f64, 1.0, 1.0, 1.0], [2.0, 0.5, 3.0, 0.7]] {
         let parameters = [m, a, h, k];
-        // by hand: centre at (2a/3, 0, h/6)
+        // derived on paper: centre at (2a/3, 0, h/6)
         let [x, z] = [2.0 * a / 3.0, h / 6.0];
         let [dz, dx] = [h / 2.0 - z, a - x];
         let across = m * (a * a / 4.0 + h * h / 12.0);
@@ -453,7 +453,7 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
     let why = mechanics::bracket(&model, &mut equations, f, g).expect_err("not of phase space");
     assert!(why.to_string().contains("carried along"), "{why}");
 
-    // and in numbers, to the end of five turns of the racket
+    // and numerically, up to the end of five turns of the racket
     let mut channels = Vec::new();
     for e in [norm].into_iter().chain(model.observables.iter().map(|o| o.expression)) {
         channels.push(Channel { written: String::new(), expression: e });
@@ -484,7 +484,7 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
 
 #[test]
 fn the_attitude_of_a_top_is_that_of_its_angles() {
-    // ω of given Euler angles, integrated, gives back BCD
+    // ω from given Euler angles, integrated, gives BCD again
     let mut model = names(&["theta", "phi", "psi"], &[]);
     let l = read(&mut model, "(theta'^2 + phi'^2 + psi'^2)/2");
     if let phaselab::model::Mechanics::Lagrangian { lagrangian, .. } = &mut model.mechanics {

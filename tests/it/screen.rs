@@ -1,4 +1,4 @@
-//! The screen, from snapshots made by hand: text and styles, any size, any terminal.
+//! The screen, from constructed snapshots: text and styles, any size, any terminal.
 
 mod cells;
 mod golden;
@@ -17,7 +17,7 @@ use phaselab::view::{RenderStyle, draw};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-/// A terminal of 24-bit colour that has all characters.
+/// A terminal with 24-bit colour and all characters.
 pub(crate) fn rich() -> RenderStyle {
     RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
 }
@@ -40,7 +40,7 @@ pub(crate) fn rows(buffer: &Buffer) -> Vec<String> {
     (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()
 }
 
-/// The first place of a text on the screen: column and row.
+/// The first position of a text on the screen: column and row.
 fn find(buffer: &Buffer, text: &str) -> Option<(u16, u16)> {
     (0..buffer.area.height).find_map(|y| {
         let row: String = (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect();

@@ -1,11 +1,11 @@
-//! Beginnings and singular places of constraints: valid starts start, wrong ones are refused, and a
-//! place where motions branch is named.
+//! Initial states and singular points of constraints: valid starts are accepted, inconsistent ones are refused, and
+//! a point at which motions branch is reported.
 
 use phaselab::experiment::{Experiment, Setup, Status};
 
 use crate::experiment::{build, run, value};
 
-/// A pin straight above or beside a block: `expression` holds x and the angle w.
+/// A pin straight above or beside a block: `expression` contains x and the angle w.
 fn pin(x: &str, w: &str, expression: &str) -> String {
     format!(
         "title = 'pin'\n[coordinates]\nx = {{ initial = '{x}' }}\n\
@@ -80,7 +80,7 @@ fn a_start_off_by_more_than_rounding_is_refused_in_any_units() {
 
 #[test]
 fn the_solution_of_a_pin_at_pi_is_that_of_one_angle() {
-    // (1 + cos² w) w'' = sin w cos w w'², so (1 + cos² w) w'² stays
+    // (1 + cos² w) w'' = sin w cos w w'², so (1 + cos² w) w'² is constant
     let mut pinned = build(&pin("0", "pi", "x + sin(w)"), |_| ());
     run(&mut pinned, 7.0);
     let (x, w, rate) = (value(&pinned, "x"), value(&pinned, "w"), value(&pinned, "w'"));
@@ -88,7 +88,7 @@ fn the_solution_of_a_pin_at_pi_is_that_of_one_angle() {
     assert!(((1.0 + w.cos().powi(2)) * rate * rate - 0.5).abs() < 1e-14);
 }
 
-/// Four bars as a parallelogram, which lie in one line at a = 0.
+/// A four-bar linkage as a parallelogram, which is collinear at a = 0.
 fn parallelogram(law: &str) -> String {
     format!(
         "title = 'parallelogram'\n[coordinates]\na = {{ initial = 1, velocity = -1 }}\n\
@@ -180,7 +180,7 @@ fn a_clock_without_digits_is_a_fault_and_no_endless_loop() {
     let mut late = build(text, |_| ());
     late.advance(1e19 + 1e7, 10_000);
     assert!(fault(&late).is_some(), "{:?} at {}", late.status(), late.time());
-    // times of equal steps are counted beyond the clock's digits: bounded, if nothing else
+    // equal steps can be counted beyond the digits of the time: at the least, the run is bounded
     for method in ["rk4", "leapfrog"] {
         let mut late = build(text, by(method));
         late.advance(1e19 + 1e7, 1000);

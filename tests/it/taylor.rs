@@ -1,5 +1,5 @@
-//! The Taylor method against closed forms and published numbers, on kinks, and where nothing or
-//! everything happens.
+//! The Taylor method compared with closed forms and published numbers, on kinks, in trivial motions and
+//! at singularities.
 
 mod accuracy;
 mod branches;
@@ -23,7 +23,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// From the file's initial values at time 0, at the tolerance of the table.
+    /// Starts at the file's initial values at time 0, with the tolerance of the table.
     pub(crate) fn new(text: &str) -> Run {
         Run::with(text, None)
     }
@@ -52,7 +52,7 @@ impl Run {
         self.try_to(time).unwrap_or_else(|fault| panic!("{fault}")).values.clone()
     }
 
-    /// The columns at the present state.
+    /// The columns of the current state.
     pub(crate) fn columns(&self) -> Vec<f64> {
         let mut out = vec![0.0; self.system.columns()];
         let mut observer = self.system.observer(&self.parameters);

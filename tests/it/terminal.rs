@@ -1,4 +1,4 @@
-//! The program on a pseudo-terminal: what it leaves behind on every way out, and what it takes in and sends.
+//! The program on a pseudo-terminal: the state in which it leaves the terminal on every exit, its input and output.
 
 mod endings;
 mod hostile;

@@ -1,4 +1,4 @@
-//! Thresholds by what they decide: a case just inside and one just outside.
+//! Thresholds, tested by their decisions: a case just inside and one just outside.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use phaselab::diagnostic::Document;
 use phaselab::mechanics::derive;
 use phaselab::system::System;
 
-/// The constraints that are redundant, of two in the plane whose directions differ by so little.
+/// The number of redundant constraints, of two in the plane whose directions differ by this angle.
 fn redundant(angle: &str) -> usize {
     let mut text = "title = \"Two rails\"\n[coordinates]\n".to_owned();
     for name in ["x", "y"] {

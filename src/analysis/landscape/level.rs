@@ -1,29 +1,29 @@
 //! Level curves of a function given on a grid, by marching squares.
 //!
-//! In: values at grid points, NaN where there are none, and levels. Out: polylines in data coordinates. Never here:
-//! where the values come from.
+//! In: values at grid points, NaN where undefined, and levels. Out: polylines in data coordinates.
+//! Never here: where the values come from.
 //!
-//! Source: W. Lorensen and H. Cline, "Marching cubes" (1987), in two dimensions; a saddle is decided by the mean of its
-//! four corners.
+//! Source: W. Lorensen and H. Cline, "Marching cubes" (1987), in two dimensions; a saddle is
+//! resolved by the mean of its four corners.
 
 use std::collections::HashMap;
 
 /// Values on a rectangular grid, row by row from the lowest `y`, each row from the lowest `x`.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<'a> {
-    /// Points across, and values of the first and the last column.
+    /// The number of columns, and the coordinates of the first and the last one.
     pub x: (usize, [f64; 2]),
-    /// Points up, and values of the first and the last row.
+    /// The number of rows, and the coordinates of the first and the last one.
     pub y: (usize, [f64; 2]),
-    /// The values; short rows are missing values.
+    /// The values; the missing values of short rows are undefined.
     pub values: &'a [f64],
 }
 
-/// A side of a grid cell: the point it starts at, and whether it goes up rather than across.
+/// A side of a grid cell: the point it starts at, and whether it is vertical.
 type Side = (usize, usize, bool);
 
 impl Grid<'_> {
-    /// The curves on which the values are `level`, closed ones ending where they begin.
+    /// Returns the curves on which the values are `level`. Closed ones end where they begin.
     pub fn curves(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         join(&self.segments(level))
             .into_iter()
@@ -31,7 +31,7 @@ impl Grid<'_> {
             .collect()
     }
 
-    /// The pieces of the curve inside each grid cell, as pairs of crossed sides.
+    /// The segments of the curve inside each grid cell, as pairs of crossed sides.
     fn segments(&self, level: f64) -> Vec<(Side, Side)> {
         let mut segments = Vec::new();
         for row in 1..self.y.0 {
@@ -70,13 +70,13 @@ impl Grid<'_> {
         self.values.get(j * self.x.0 + i).copied().unwrap_or(f64::NAN)
     }
 
-    /// Where the level crosses a side, by linear interpolation.
-    fn crossing(&self, (i, j, up): Side, level: f64) -> [f64; 2] {
+    /// The point where the level crosses a side, by linear interpolation.
+    fn crossing(&self, (i, j, vertical): Side, level: f64) -> [f64; 2] {
         let a = self.value((i, j));
-        let b = self.value(if up { (i, j + 1) } else { (i + 1, j) });
-        // Halved against overflow; the two ends differ, or the side would not be crossed.
+        let b = self.value(if vertical { (i, j + 1) } else { (i + 1, j) });
+        // Halved to avoid overflow; the two ends differ, or the side would not be crossed.
         let t = ((level / 2.0 - a / 2.0) / (b / 2.0 - a / 2.0)).clamp(0.0, 1.0);
-        let (s, t) = if up { (0.0, t) } else { (t, 0.0) };
+        let (s, t) = if vertical { (0.0, t) } else { (t, 0.0) };
         let place = |(count, [from, to]): (usize, [f64; 2]), at: f64| {
             let share = at / (count - 1) as f64;
             from * (1.0 - share) + to * share
@@ -85,7 +85,7 @@ impl Grid<'_> {
     }
 }
 
-/// Strings segments together; open curves first, from one end to the other, then the closed ones.
+/// Joins segments into curves: open ones first, from one end to the other, then the closed ones.
 fn join(segments: &[(Side, Side)]) -> Vec<Vec<Side>> {
     let mut at: HashMap<Side, Vec<usize>> = HashMap::new();
     for (index, (a, b)) in segments.iter().enumerate() {

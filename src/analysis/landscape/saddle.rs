@@ -1,20 +1,20 @@
 //! Saddles of the energy: found on a grid, refined by Newton's method.
 //!
-//! In: the energy over a region of the phase plane. Out: where it has saddles, and its value there.
-//! Never here: which of them matter.
+//! In: the energy over a region of the phase plane. Out: the saddles, and their energies. Never
+//! here: which of them matter.
 
 use super::{Energy, spread};
 
-/// A point where the energy rises one way and falls the other.
+/// A point where the energy has a minimum in one direction and a maximum in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Saddle {
-    /// Coordinate and rate.
+    /// The coordinate and the rate.
     pub(super) at: [f64; 2],
     /// The energy there.
     pub(super) energy: f64,
 }
 
-/// The saddles inside a region, looked for on `count` × `count` points.
+/// The saddles inside a region, searched for on `count` × `count` points.
 pub(super) fn saddles(energy: &mut Energy, region: [[f64; 2]; 2], count: usize) -> Vec<Saddle> {
     let axes = region.map(|range| spread(range, count));
     let values = energy.grid(&axes[0], &axes[1]);
@@ -36,7 +36,8 @@ pub(super) fn saddles(energy: &mut Energy, region: [[f64; 2]; 2], count: usize) 
     found
 }
 
-/// Whether the eight neighbours, in turn, lie above and below a grid point at least twice each.
+/// Whether the eight neighbours of a grid point, in cyclic order, change at least twice each from
+/// above to below it and back.
 fn is_saddle(values: &[f64], count: usize, i: usize, j: usize) -> bool {
     const RING: [(isize, isize); 8] =
         [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
@@ -48,7 +49,8 @@ fn is_saddle(values: &[f64], count: usize, i: usize, j: usize) -> bool {
     around.iter().all(|v| v.is_finite()) && changes >= 4
 }
 
-/// Newton's method on a quadratic through nine points that draw together; `None` where it leads away or to no saddle.
+/// Newton's method on a quadratic through nine points that converge. Returns `None` if it leads
+/// away or to no saddle.
 fn refine(energy: &mut Energy, start: [f64; 2], cell: [f64; 2]) -> Option<Saddle> {
     let mut at = start;
     let mut reach = cell.map(|c| 0.5 * c);
@@ -72,7 +74,7 @@ fn refine(energy: &mut Energy, start: [f64; 2], cell: [f64; 2]) -> Option<Saddle
             if (at[k] - start[k]).abs() > 2.0 * cell[k] {
                 return None;
             }
-            // Differences not far above rounding are as small as they should get.
+            // Differences not far above rounding must not shrink any more.
             let curved = [xx, yy][k].abs() > 1e-7 * v[4].abs();
             let least = if curved { 1e-3 * cell[k] } else { reach[k] };
             reach[k] = (0.5 * reach[k]).max(least);

@@ -1,5 +1,5 @@
-//! What follows from a law of motion as one JSON object. The keys are the contract with other
-//! programs; every expression is in the syntax of preset files.
+//! The consequences of a law of motion as one JSON object. The keys are a stable interface for
+//! other programs; every expression is in the syntax of preset files.
 
 use serde_json::{Map, Value, json};
 
@@ -109,7 +109,7 @@ impl Page<'_> {
         lines.iter().map(|line| (self.left(line.left), self.text(line.right))).collect()
     }
 
-    /// What stands left of a sign of equality: `x''`, `p_x'`.
+    /// The left-hand side of an equation: `x''`, `p_x'`.
     fn left(&self, left: Left) -> String {
         let name = |symbol| &self.report.equations.pool.symbol_info(symbol).name;
         match left {
@@ -121,8 +121,8 @@ impl Page<'_> {
         }
     }
 
-    /// Each constraint, Σ coefficient · x' + rate = 0, with its multiplier: its name, and its value
-    /// where it is known in closed form. The force on x is λ times the coefficient of x.
+    /// Each constraint, Σ coefficient · x' + rate = 0, with its multiplier: the name, and the value
+    /// if it is known in closed form. The force on x is λ times the coefficient of x.
     fn constraints(&self) -> Vec<Value> {
         let all = self.report.constraints.iter().map(|known| {
             let named = self.report.model.coordinates.iter().zip(&known.row.row);
@@ -141,7 +141,7 @@ impl Page<'_> {
         all.collect()
     }
 
-    /// Each impulse with what it adds to momenta (or variables), and when.
+    /// Each impulse with its time and what it adds to momenta (or variables).
     fn impulses(&self) -> Vec<Value> {
         let all = self.report.impulses.iter().map(|impulse| {
             json!({

@@ -25,7 +25,7 @@ pub(super) fn write(report: &Report<'_>) -> String {
     }
     page.lines(report.impulses.iter().flat_map(|impulse| &impulse.changes));
     for event in &report.model.events {
-        // no equation of motion: the sign of this is looked at
+        // not an equation of motion: only the sign of this expression matters
         let name = event.name.replace(|c: char| !c.is_alphanumeric(), " ");
         let when = pool.latex(event.when);
         page.lines.push(format!("&\\text{{event {name}: sign change of }} {when}"));
@@ -40,7 +40,7 @@ pub(super) fn write(report: &Report<'_>) -> String {
     format!("% {title}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", page.lines.join(" \\\\\n"))
 }
 
-/// The lines so far.
+/// The text so far.
 struct Page<'a> {
     report: &'a Report<'a>,
     lines: Vec<String>,
@@ -57,7 +57,7 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// M q̈ = f; q̇ and ṗ are solved for as they stand.
+    /// M q̈ = f, with q̇ and ṗ as given.
     fn unsolved(&mut self) {
         let Some((mass, force)) = self.report.unsolved() else { return };
         let pool = &self.report.equations.pool;

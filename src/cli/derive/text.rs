@@ -1,4 +1,4 @@
-//! The report on a law of motion as mathematics to be read.
+//! The report on a law of motion as readable mathematics.
 
 use std::fmt::Write;
 
@@ -62,7 +62,8 @@ impl Page<'_> {
         rows.extend(body.inertia.iter().enumerate().map(|(i, row)| (mark(i), numbers(row))));
         for (i, (moment, axis)) in body.moments.iter().zip(&body.axes).enumerate() {
             let name = self.symbol(moments[i]);
-            // twelve digits of a direction are enough to read, and hide what rounding left of a zero
+            // twelve digits of a direction are enough to read, and hide the rounding error of a
+            // zero
             let axis: Vec<f64> = axis.iter().map(|x| (x * 1e12).round() / 1e12 + 0.0).collect();
             rows.push((name, format!("{moment} about {}", numbers(&axis))));
         }
@@ -110,7 +111,7 @@ impl Page<'_> {
         }
     }
 
-    /// λ in closed form, and the force it makes on each coordinate.
+    /// λ in closed form, and its force on each coordinate.
     fn multipliers(&mut self) {
         let report = self.report;
         if report.constraints.is_empty() {
@@ -133,7 +134,8 @@ impl Page<'_> {
         );
     }
 
-    /// The Lagrangian that has the constraints put into it, and what it is not.
+    /// The Lagrangian with the constraints substituted, with the note that it gives the wrong
+    /// motion.
     fn vakonomic(&mut self) {
         let model = self.report.model;
         let vakonomic = &self.report.equations.supplements.vakonomic;
@@ -226,7 +228,7 @@ impl Page<'_> {
         self.heading("Conserved");
         for kept in &report.conserved {
             let reason = self.words(&kept.reason.to_string());
-            // what stands above needs no second formula
+            // a formula shown above needs no repetition
             let what = match kept.constant {
                 Constant::Momentum(p) => self.symbol(p),
                 Constant::Energy => "E".to_owned(),
@@ -290,7 +292,7 @@ impl Page<'_> {
         }
     }
 
-    /// A title and lines `name = value`, the signs of equality below each other.
+    /// A title and lines `name = value`, with the equals signs aligned.
     fn section(&mut self, title: &str, rows: &[(String, String)]) {
         self.heading(title);
         let width = rows.iter().map(|(name, _)| name.width()).max().unwrap_or(0);
@@ -330,7 +332,7 @@ impl Page<'_> {
             Left::Symbol(symbol) => self.symbol(symbol),
             Left::Rate(p) => match self.script {
                 Script::Ascii => format!("{}'", self.symbol(p)),
-                // the dot stands over the letter p
+                // the dot belongs over the letter p
                 Script::Unicode => self.symbol(p).replacen('p', "ṗ", 1),
             },
             Left::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
@@ -340,7 +342,7 @@ impl Page<'_> {
     }
 
     fn line(&mut self, line: &str) {
-        // writing to a string cannot fail
+        // writing to a String cannot fail
         let _ = writeln!(self.text, "{line}");
     }
 
@@ -352,7 +354,7 @@ impl Page<'_> {
         self.script.symbol(&self.report.equations.pool, symbol)
     }
 
-    /// Words as the reader's terminal can show them.
+    /// Text as the reader's terminal can show it.
     fn words(&self, text: &str) -> String {
         self.script.words(text)
     }

@@ -1,11 +1,11 @@
-//! What a method cannot do well, said before a run or after it.
+//! Warnings about the limits of a method, before a run or after it.
 
 use crate::cli::stderr;
 use crate::experiment::Experiment;
 use crate::integrate::{METHODS, Method};
 use crate::system::System;
 
-/// Before the run: a method that passes over the kinks of the motion.
+/// Warns before the run about a method that ignores the kinks of the motion.
 pub(super) fn before(system: &System, method: &Method) {
     if system.has_kinks() && !method.locates_kinks {
         let others: Vec<&str> =
@@ -18,7 +18,7 @@ pub(super) fn before(system: &System, method: &Method) {
     }
 }
 
-/// After it: a fixed step beyond what is stable.
+/// Warns after the run about a fixed step beyond the stability limit.
 pub(super) fn after(experiment: &Experiment) {
     if let Some(sentence) = experiment.unstable() {
         stderr::tell(&sentence);

@@ -1,7 +1,8 @@
-//! Whether the clock can tell the steps of a run apart up to its end, found before the first row.
+//! Checks before the first row that the resolution of the time is sufficient for the steps of a run
+//! up to its end.
 //!
-//! In: an experiment at its start, the end. Out: a refusal, where a run would never end. Never
-//! here: rows.
+//! In: an experiment at its start, the end. Out: a refusal, if a run would never end. Never here:
+//! rows.
 
 use super::times::Times;
 use crate::cli::failure::CommandError;
@@ -9,13 +10,13 @@ use crate::experiment::{Experiment, Status};
 use crate::integrate::{Method, Propagator, Reached, Stepping, spacing};
 use crate::system::System;
 
-/// So many steps are tried where the first one is too short, in two halves.
+/// The number of trial steps, in two halves, if the first step is too short.
 const TRIAL: u64 = 1000;
 
 /// Steps that grow by this factor from the first half to the second may become long enough.
 const GROWING: f64 = 2.0;
 
-/// Refuses a run whose steps, or whose impulses, the clock cannot tell apart at its end.
+/// Refuses a run whose steps or impulses are below the resolution of the time at its end.
 pub(super) fn check(
     system: &System,
     method: &'static Method,
@@ -42,7 +43,7 @@ pub(super) fn check(
     if let (Stepping::Fixed, Some(step)) = (method.stepping, setup.settings.step) {
         return if step < finest { refuse("steps of", step) } else { Ok(()) };
     }
-    // what is wrong with the start is reported when the run begins
+    // an invalid start is reported when the run begins
     if matches!(experiment.status(), Status::Failed(_)) {
         return Ok(());
     }

@@ -1,6 +1,6 @@
-//! A run as it is written: row by row to its end, or to whatever ends it before.
+//! A run as it is written: row by row to its end, or until something ends it early.
 //!
-//! In: an experiment, times. Out: rows, and what is known at the end. Never here: what was asked for.
+//! In: an experiment, times. Out: rows, and the report at the end. Never here: what was requested.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -19,24 +19,24 @@ use super::{cautions, invariants};
 use crate::experiment::{self, Experiment, Progress};
 use crate::printable;
 
-/// The most steps between two looks at the clock and at signals, and how long they are to take at most: where steps take
-/// long there are fewer.
+/// The most steps between two checks for the time and for signals, and the longest time between two checks: if steps
+/// are slow, fewer are taken.
 pub(super) const STEPS_PER_LOOK: u64 = 4096;
 const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 
-/// A run about to be written.
+/// A run that is about to be written.
 pub(super) struct Run<'i> {
     pub(super) experiment: Experiment,
     pub(super) times: Times,
     pub(super) columns: usize,
     pub(super) interrupt: &'i Interrupt,
-    /// How many steps are taken before the next look at the clock and at signals.
+    /// The number of steps before the next check for the time and for signals.
     pub(super) steps: u64,
-    /// Whether a motion that is not the one of its law is a failure.
+    /// Whether a motion that violates its conservation laws is a failure.
     pub(super) strict: bool,
 }
 
-/// How a run ended before its time.
+/// Why a run ended early.
 enum End {
     Fault(experiment::Failure),
     Event,
@@ -44,7 +44,7 @@ enum End {
     Write(std::io::Error),
 }
 
-/// The rows so far, of which whoever ends the run takes hold.
+/// The rows so far, which are taken by whatever ends the run.
 #[derive(Clone)]
 struct Table(Arc<Mutex<Option<Rows<Output>>>>);
 
@@ -53,9 +53,9 @@ impl Table {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends them where a step does not come to its end: what is known of the end is that it was stopped.
+    /// Ends the rows if a step does not finish; the report says that the run was stopped.
     fn end_within_a_step(&self, interrupt: &Interrupt) {
-        // whoever holds them is writing, and cannot be helped
+        // rows that are locked are being written and must be left alone
         let Some(rows) = self.0.try_lock().ok().and_then(|mut rows| rows.take()) else { return };
         let message =
             "stopped by a signal within a step; what should be constant was not looked at";
@@ -69,14 +69,14 @@ impl Table {
             if out.is_file() {
                 interrupt.saves();
             }
-            // nobody is left to be reported of a failure
+            // a failure can no longer be reported
             let _ = out.finish();
         }
     }
 }
 
 impl Run<'_> {
-    /// Writes all rows, and what is known at the end.
+    /// Writes all rows and the report at the end.
     pub(super) fn write(
         mut self,
         format: Format,
@@ -94,8 +94,8 @@ impl Run<'_> {
             return Err(failed(error));
         }
         let closing = self.closing(end.as_ref());
-        // where they are gone somebody else has ended them, and is about to end the process
-        let Some(rows) = table.rows().take() else { return self.gone() };
+        // rows that are gone were ended by the signal thread, which is about to end the process
+        let Some(rows) = table.rows().take() else { return self.already_ended() };
         let out = rows.end(&closing).map_err(|error| failed(&error))?;
         if out.is_file() {
             self.interrupt.saves();
@@ -126,8 +126,8 @@ impl Run<'_> {
         }
     }
 
-    /// A signal has ended the run meanwhile.
-    fn gone(&self) -> Result<(), CommandError> {
+    /// Reports that a signal has ended the run.
+    fn already_ended(&self) -> Result<(), CommandError> {
         self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
     }
 
@@ -161,12 +161,12 @@ impl Run<'_> {
                 (self.steps * 2).min(STEPS_PER_LOOK)
             };
             bar.show(self.experiment.time());
-            // a step that a signal has cancelled is no fault of the motion
+            // a step that a signal has cancelled is not a fault of the motion
             self.interrupted()?;
             if let experiment::Status::Failed(fault) = self.experiment.status() {
                 return Err(End::Fault(fault));
             }
-            // the moment itself still has its row
+            // the final instant still has its row
             if progress == Progress::Ended && self.experiment.time() != time {
                 return Err(End::Event);
             }
@@ -204,7 +204,7 @@ mod tests {
     use super::super::super::output::Form;
     use super::*;
 
-    /// What a file holds of a table whose run is stuck within a step.
+    /// The end of a table whose run is stuck within a step.
     fn ended(format: Format) -> String {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out");

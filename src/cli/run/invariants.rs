@@ -1,4 +1,4 @@
-//! What the gauges say at the end of a run.
+//! The report of the gauges at the end of a run.
 
 use crate::analysis::Verdict;
 use crate::cli::report::Invariant;
@@ -6,7 +6,7 @@ use crate::experiment::{Gauge, MethodFact};
 use crate::integrate::{METHODS, Stepping};
 use crate::num::short;
 
-/// One invariant a gauge.
+/// Converts each gauge to an invariant.
 pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
     let invariant = |gauge: &Gauge| Invariant {
         name: gauge.name.clone(),
@@ -19,16 +19,16 @@ pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
     gauges.iter().map(invariant).collect()
 }
 
-/// That something conserved has left its value, and what may help, in one line.
+/// A conserved quantity that has drifted, with advice, on one line.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Departure {
     pub(super) line: String,
-    /// Whether it is conserved by the law of motion, so that the motion is not the one of that law.
+    /// Whether it is conserved by the law of motion, so that the computed motion violates the law.
     pub(super) proved: bool,
 }
 
 impl Departure {
-    /// The one that matters most, if there is any.
+    /// The most important departure, if there is any.
     pub(super) fn of(gauges: &[Gauge], method: &MethodFact) -> Option<Departure> {
         if let Some(worst) = Gauge::departed(gauges) {
             let others = gauges.iter().filter(|g| g.proved && g.left.is_some()).count() - 1;
@@ -37,18 +37,18 @@ impl Departure {
                 1 => ", and so does another invariant".to_owned(),
                 n => format!(", and so do {n} others"),
             };
-            let line = format!("{}{others}; {}", told(worst, ""), advice(method));
+            let line = format!("{}{others}; {}", description(worst, ""), advice(method));
             return Some(Departure { line, proved: true });
         }
         let contradicted = gauges.iter().filter(|g| g.left.is_some());
         let worst = contradicted.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))?;
-        let line = told(worst, &format!(" ({})", worst.reason));
+        let line = description(worst, &format!(" ({})", worst.reason));
         Some(Departure { line, proved: false })
     }
 }
 
-/// What became of it.
-fn told(gauge: &Gauge, about: &str) -> String {
+/// A description of the drift.
+fn description(gauge: &Gauge, about: &str) -> String {
     let (name, drift) = (&gauge.name, size(gauge.max_drift));
     let since = gauge.left.map_or_else(String::new, |time| format!(" since t = {}", short(time)));
     let name = format!("`{name}`{about}");
@@ -62,7 +62,7 @@ fn told(gauge: &Gauge, about: &str) -> String {
     }
 }
 
-/// What to try.
+/// Advice for a smaller drift.
 fn advice(method: &MethodFact) -> String {
     let row = METHODS.iter().find(|row| row.name == method.name);
     match (row.map(|row| row.stepping), method.tolerance) {
@@ -79,7 +79,7 @@ fn advice(method: &MethodFact) -> String {
     }
 }
 
-/// A relative size in two digits.
+/// A relative size with two digits.
 fn size(x: f64) -> String {
     match x {
         0.01..1000.0 => format!("{x:.2}"),

@@ -1,4 +1,4 @@
-//! How far a run is, where somebody watches.
+//! The progress of a run, shown on a terminal.
 
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
@@ -7,13 +7,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::printable;
 
-/// A run shorter than this shows no bar.
+/// A shorter run shows no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// The least time between two changes of the bar.
+/// The least time between two updates of the bar.
 const BETWEEN: Duration = Duration::from_millis(100);
 
-/// The bar is divided so finely.
+/// The number of parts of the bar.
 const PARTS: f64 = 1000.0;
 
 /// A bar on standard error, shown only on a terminal and only if the run is long.
@@ -31,7 +31,7 @@ impl Bar {
         Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
     }
 
-    /// The run is at this time.
+    /// Shows the current time of the run.
     pub(super) fn show(&mut self, time: f64) {
         if !self.watched || Instant::now() < self.due {
             return;

@@ -1,4 +1,4 @@
-//! When a run begins and ends, and when it gives a row.
+//! The start and end of a run, and the times of its rows.
 
 use crate::cli::decimal::{divisions, multiples};
 use crate::cli::failure::CommandError;
@@ -6,13 +6,13 @@ use crate::integrate::spacing;
 use crate::model::RunSettings;
 use crate::printable;
 
-/// How long a run is where nobody says.
+/// The default length of a run.
 const LENGTH: f64 = 10.0;
 
-/// How many intervals lie between its rows where nobody says.
+/// The default number of intervals between rows.
 const INTERVALS: u32 = 200;
 
-/// The shortest time between two rows: below it the powers of a step underflow.
+/// The shortest time between two rows; below it the powers of a step underflow.
 const SHORTEST: f64 = 1e-280;
 
 /// The times of a run.
@@ -31,7 +31,7 @@ enum Which {
 }
 
 impl Times {
-    /// The times asked for; what is left open the file says, or custom.
+    /// The requested times, completed from the file or the defaults.
     pub(super) fn plan(
         run: &RunSettings,
         until: Option<f64>,
@@ -40,7 +40,7 @@ impl Times {
     ) -> Result<Times, CommandError> {
         let start = run.start;
         let wrong = |message: String| Err(CommandError::WrongUse(message));
-        let told = printable::number;
+        let shown = printable::number;
         let end = match (until, at.and_then(<[f64]>::last)) {
             (Some(until), _) => until,
             (None, Some(&last)) => last,
@@ -50,23 +50,23 @@ impl Times {
         if let Some((before, after)) = pairs.find(|(before, after)| after <= before) {
             return wrong(format!(
                 "--at: times increase, but {} follows {}",
-                told(*after),
-                told(*before)
+                shown(*after),
+                shown(*before)
             ));
         }
         for &time in at.unwrap_or_default().iter().chain(&[end]) {
             if time < start {
                 return wrong(format!(
                     "the motion begins at {}; {} is before it",
-                    told(start),
-                    told(time)
+                    shown(start),
+                    shown(time)
                 ));
             }
             if time > end {
                 return wrong(format!(
                     "--at: {} is after the end, --until {}",
-                    told(time),
-                    told(end)
+                    shown(time),
+                    shown(end)
                 ));
             }
         }
@@ -84,7 +84,7 @@ impl Times {
             (Some(gap), _) if gap <= 0.0 => {
                 return wrong(format!(
                     "--every {}: the time between two rows is above zero",
-                    told(gap)
+                    shown(gap)
                 ));
             }
             (Some(gap), _) => Which::Every(gap),
@@ -96,14 +96,14 @@ impl Times {
         Ok(times)
     }
 
-    /// Whether the clock can tell the rows apart, wherever they lie.
+    /// Checks that the rows are separated by more than the resolution of the time.
     fn check(&self) -> Result<(), CommandError> {
         let Times { start, end, .. } = *self;
         let gap = match &self.rows {
             _ if end == start => return Ok(()),
             Which::Even => (end - start) / f64::from(INTERVALS),
             Which::Every(gap) => *gap,
-            // they increase as they were given
+            // they were already checked to increase
             Which::At(_) => end - start,
         };
         let finest = spacing(start.abs().max(end.abs()));
@@ -130,12 +130,12 @@ impl Times {
         self.start
     }
 
-    /// When the run ends.
+    /// The time at which the run ends.
     pub(super) fn end(&self) -> f64 {
         self.end
     }
 
-    /// From the start to the end; 1 where they are one.
+    /// The length from the start to the end; 1 if they are equal.
     pub(super) fn length(&self) -> f64 {
         let length = self.end - self.start;
         if length > 0.0 { length } else { 1.0 }

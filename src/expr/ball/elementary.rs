@@ -1,16 +1,16 @@
-//! The functions an expression may call, on balls.
+//! The functions that an expression may call, evaluated on balls.
 
 use super::{Ball, ROUNDING, shifted};
 use crate::expr::function::FunctionId;
 use crate::num::math;
 
-/// An elementary function of `math` is good to this part of its value.
+/// The relative accuracy of an elementary function of `math`.
 const ELEMENTARY: f64 = 8.0 * f64::EPSILON;
 
-/// Below 2^this, sin x, tan x, atan x, … are x to the last place.
+/// Below 2^this, sin x, tan x, atan x, … equal x to the last place.
 const SMALL: i64 = -30;
 
-/// Above 2^this, nothing is said of a sine.
+/// Above 2^this, a sine has no useful bound.
 const LARGE: i64 = 40;
 
 impl Ball {
@@ -64,7 +64,7 @@ impl Ball {
         self.widened(ROUNDING)
     }
 
-    /// The middle and the radius as `f64`; what is too small for one is 0.
+    /// The middle and the radius as `f64`; a number too small for one becomes 0.
     fn plain(self) -> (f64, f64) {
         (shifted(self.middle, self.exponent), shifted(self.radius, self.exponent))
     }
@@ -79,7 +79,7 @@ impl Ball {
         Ball::of(value, radius.min(2.0) + ELEMENTARY * value.abs(), 0)
     }
 
-    /// A monotone function by its values at both ends, within ±`most`.
+    /// A monotone function from its values at both ends, bounded by ±`most`.
     fn between(self, f: fn(f64) -> f64, most: f64) -> Option<Ball> {
         let (x, radius) = self.plain();
         let (x, radius) = if x.is_finite() { (x, radius) } else { (f64::MAX * x.signum(), 0.0) };
@@ -109,7 +109,7 @@ impl Ball {
             + shifted(x.radius, x.exponent - common)
             + 1e-290;
         let distance = math::hypot(a, b);
-        // near the origin, and across the cut, any angle
+        // near the origin and across the cut, any angle is possible
         if distance <= 4.0 * radius || a < radius && self.sign().is_none() {
             return Ball::of(0.0, 3.2, 0);
         }
@@ -122,7 +122,7 @@ impl Ball {
         match difference.sign() {
             Some(sign) if sign >= 0.0 => Some(self),
             Some(_) => Some(other),
-            // |max| moves no more than its arguments
+            // |max| varies no more than its arguments
             None => Ball::of(self.middle, self.radius, self.exponent)?.add(Ball::of(
                 0.0,
                 difference.radius + difference.middle.abs(),
@@ -131,7 +131,7 @@ impl Ball {
         }
     }
 
-    /// e to this power.
+    /// The exponential function.
     pub(in crate::expr) fn exponential(self) -> Option<Ball> {
         if self.exponent > 39 {
             return None;
@@ -141,7 +141,7 @@ impl Ball {
             return None;
         }
         let k = (x / std::f64::consts::LN_2).round();
-        // ln 2 in two parts, the first with zeros at its end, so that k times it is exact
+        // ln 2 in two parts, the first with trailing zeros, so that k times it is exact
         let rest = (x - k * 6.931_471_803_691_238e-1) - k * 1.908_214_929_270_587_7e-10;
         let value = math::exp(rest);
         let spread = math::exp(radius) - 1.0 + radius * ELEMENTARY;
@@ -157,7 +157,7 @@ impl Ball {
         let value = math::ln(self.middle) + self.exponent as f64 * std::f64::consts::LN_2;
         let off = self.radius / (self.middle - self.radius) * (1.0 + 8.0 * ROUNDING);
         let size = 1.0 + (self.exponent as f64).abs();
-        // near 1 the logarithm of a single f64 is good to its own last place
+        // near 1 the logarithm of a single f64 is accurate to its own last place
         let rounding =
             if self.exponent == 0 { ELEMENTARY * value.abs() } else { ELEMENTARY * size };
         Ball::of(value, off + rounding, 0)

@@ -14,7 +14,7 @@ pub(super) const FUNCTION: Function = Function {
         (Some(a), Some(b)) => Some(pool.number(a.max(b))),
         _ => (u[0] == u[1]).then_some(u[0]),
     },
-    // the branch that is taken has slope 1, the other 0: ½(1 ± sign(a − b))
+    // the chosen branch has slope 1, the other 0: ½(1 ± sign(a − b))
     derivative: |pool, u, i| {
         let difference = pool.sub(u[0], u[1]);
         let side = pool.call(FunctionId::Sign, &[difference]);

@@ -1,4 +1,4 @@
-//! Sums that the Taylor rules share. All series are normalised: `u[j] = u⁽ʲ⁾/j!`.
+//! Sums shared by the Taylor rules. All series are normalised: `u[j] = u⁽ʲ⁾/j!`.
 
 use crate::num::Real;
 
@@ -7,7 +7,7 @@ pub(super) fn chain<R: Real>(k: usize, u: &[R], w: &[R]) -> R {
     (1..=k).fold(R::ZERO, |sum, j| sum + u[j] * w[k - j] * j as f64)
 }
 
-/// `Σ_{j=1}^{k−1} j y_j w_{k−j}`: the part of k (y′ w)-coefficients that is known before `y_k`.
+/// `Σ_{j=1}^{k−1} j y_j w_{k−j}`: the part of the k (y′ w) coefficients that is known before `y_k`.
 pub(super) fn known<R: Real>(k: usize, y: &[R], w: &[R]) -> R {
     (1..k).fold(R::ZERO, |sum, j| sum + y[j] * w[k - j] * j as f64)
 }

@@ -56,7 +56,7 @@ pub(super) struct Watch {
     first: Option<f64>,
     /// A state before steps became much shorter, and the step there.
     regular: Option<State>,
-    pace: f64,
+    regular_step: f64,
     /// The state at which it last began or continued.
     begun: Option<State>,
 }
@@ -78,21 +78,21 @@ impl Propagator {
         };
         self.watch.regular = Some(self.state.clone());
         self.watch.begun = Some(self.state.clone());
-        self.watch.pace = 0.0;
+        self.watch.regular_step = 0.0;
     }
 
     /// Records the state from which the next step is taken, if the last one was not much shorter
     /// than those before.
     pub(super) fn note_regular(&mut self) {
         let (begin, end) = self.stepper.interval();
-        let Watch { regular, pace, .. } = &mut self.watch;
+        let Watch { regular, regular_step, .. } = &mut self.watch;
         let step = (end - begin).abs();
-        if step >= REGULAR * *pace {
+        if step >= REGULAR * *regular_step {
             let state = self.stepper.state();
             regular.get_or_insert_with(|| state.clone()).copy_from(state);
-            *pace = step;
+            *regular_step = step;
         } else {
-            *pace *= FORGETTING;
+            *regular_step *= FORGETTING;
         }
     }
 
@@ -108,9 +108,12 @@ impl Propagator {
         let like = seen.as_ref().map(|(_, directions)| directions);
         let Some(here) = projector.directions(state, like) else { return };
         if let Some((_, before)) = seen {
-            let mut look =
-                Look { projector, stepper: self.stepper.as_mut(), scratch: &mut self.before };
-            look.passages((begin, before), (end, &here), HALVINGS, ahead);
+            let mut sampler = DirectionSampler {
+                projector,
+                stepper: self.stepper.as_mut(),
+                scratch: &mut self.before,
+            };
+            sampler.passages((begin, before), (end, &here), HALVINGS, ahead);
         }
         *seen = Some((end, here));
     }
@@ -151,12 +154,12 @@ impl Propagator {
         if !may_be_passed || self.system.cancel().is_cancelled() {
             return fault;
         }
-        let held = self.projector.as_mut().is_some_and(|projector| {
+        let is_singular = self.projector.as_mut().is_some_and(|projector| {
             let state = self.stepper.state();
             matches!(fault.kind, MotionErrorKind::SingularConstraints(_))
                 || projector.is_nearly_singular(state, self.watch.regular.as_ref())
         });
-        if held {
+        if is_singular {
             let passage = if self.method.stepping == Stepping::Fixed {
                 None
             } else {
@@ -264,13 +267,13 @@ fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
 }
 
 /// Samples the directions within a step.
-struct Look<'a> {
+struct DirectionSampler<'a> {
     projector: &'a mut ConstraintProjector,
     stepper: &'a mut dyn Stepper,
     scratch: &'a mut State,
 }
 
-impl Look<'_> {
+impl DirectionSampler<'_> {
     /// The times at which the directions are reversed between two samples. Samples at least
     /// halfway, then wherever the directions are far apart.
     fn passages(

@@ -40,7 +40,7 @@ pub enum OccurrenceKind {
 impl Propagator {
     pub(super) fn apply_scheduled(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let time = self.impulse_schedule.apply_scheduled(impulse, self.clear);
-        self.look_exactly(time)?;
+        self.move_to_exactly(time)?;
         self.impulse_at(impulse, None)
     }
 
@@ -58,7 +58,7 @@ impl Propagator {
         impulse: usize,
         event: Option<usize>,
     ) -> Result<Occurrence, MotionError> {
-        let mut before = self.own()?;
+        let mut before = self.native_state()?;
         let time = before.time;
         if let Some(projector) = &mut self.projector {
             projector.project(&mut before)?;
@@ -81,7 +81,7 @@ impl Propagator {
 
     /// Carries out the action of an event.
     pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, MotionError> {
-        self.look_exactly(found.exact)?;
+        self.move_to_exactly(found.exact)?;
         self.check_accumulation(found)?;
         let trigger = self.system.discontinuities().events[found.event].clone();
         let kind = match trigger.action {
@@ -92,7 +92,7 @@ impl Propagator {
             }
             Action::Release(constraint) => {
                 self.before.copy_from(&self.state);
-                let state = self.own()?;
+                let state = self.native_state()?;
                 self.release(constraint, &state)?;
                 OccurrenceKind::Release(constraint)
             }

@@ -1,15 +1,16 @@
 //! Branches of roots: a series follows √a through a zero of a to where it would be negative, while
-//! the root that is meant turns back. Where that happens is found, and whether a step has left the
-//! branch that is meant.
+//! the true root turns back. This module locates such points, and checks whether a step has left
+//! the intended branch.
 
 use super::super::roots::{first_crossing, value_and_slope};
 use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Series};
 
-/// A root this small beside the terms of its series is zero: the rest is rounding.
+/// A root this small relative to the terms of its series is zero; the rest is rounding.
 const ZERO: f64 = 3e-15;
 
-/// What a root may differ from its series at the end of a step, in parts of its largest term.
+/// The tolerated deviation of a root from its series at the end of a step, relative to its largest
+/// term.
 const STRAYED: f64 = 1e-6;
 
 /// A root whose values along a step stay above this part of their largest does not pass zero.
@@ -35,8 +36,8 @@ pub(super) fn first(series: &Series, end: f64) -> Option<Passing> {
     Some(Passing { guard, after: polish(series, guard, x) })
 }
 
-/// The first zero of what stands under a power, where its square root is followed beyond the step
-/// that the series allows: foretold, for a place that is very near.
+/// The first zero of the argument of a power whose square root is followed beyond the step that the
+/// series allows, as an extrapolation to a point very close.
 pub(super) fn predicted(series: &Series, end: f64) -> Option<f64> {
     let mut first: Option<f64> = None;
     let powers = (0..series.guards()).filter(|&i| !series.guard_passes(i));
@@ -56,30 +57,30 @@ pub(super) fn predicted(series: &Series, end: f64) -> Option<f64> {
     first
 }
 
-/// Whether the root that passes is exactly zero there, at a state for which the rates stand, and
-/// does not only come near; what it falls by in the time `moment` counts as nothing.
+/// Whether the root that passes is exactly zero at a state where the rates have been evaluated, and
+/// does not only come near. Its change in the time `within` counts as zero.
 pub(super) fn is_exact(
     series: &Series,
     passing: &Passing,
     rates: &ExactRates,
-    moment: f64,
+    within: f64,
 ) -> bool {
     let (coefficients, after) = (series.guard(passing.guard), passing.after.high);
     let size = largest_term(coefficients, after);
     let (_, slope) = value_and_slope(coefficients, after);
     let value = rates.guard(passing.guard);
-    value.is_nan() || value <= (ZERO * size).max(slope.abs() * moment)
+    value.is_nan() || value <= (ZERO * size).max(slope.abs() * within)
 }
 
-/// Whether some root is not what its series says a time `after` the origin, in its unit, at a
-/// state for which the rates stand.
+/// Whether some root deviates from its series a time `after` the origin, in its unit, at a state
+/// where the rates have been evaluated.
 pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
     (0..series.guards()).any(|i| {
         let coefficients = series.guard(i);
         let (predicted, _) = value_and_slope(coefficients, after);
         let size = largest_term(coefficients, after);
         let value = rates.guard(i);
-        // a value that is not a number has strayed
+        // a NaN has strayed
         let agrees = (value - predicted).abs() <= STRAYED * size.max(value.abs());
         predicted.is_finite() && !agrees
     })
@@ -90,7 +91,7 @@ fn largest_term(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().zip(powers).fold(0.0, |m: f64, (c, power)| m.max((c * power).abs()))
 }
 
-/// Where a root becomes negative, if it does.
+/// The point where a root becomes negative, if it does.
 fn passes(root: &[f64], end: f64) -> Option<f64> {
     if root[0].is_nan() || root[0] <= 0.0 {
         return None;
@@ -104,7 +105,7 @@ fn passes(root: &[f64], end: f64) -> Option<f64> {
     if least > CLEAR * most { None } else { first_crossing(root, end) }
 }
 
-/// A zero to the precision of the series' lowest orders.
+/// Refines a zero to the precision of the series' lowest orders.
 fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
     let mut x = DoubleDouble::from(x);
     for _ in 0..2 {
@@ -123,15 +124,15 @@ mod tests {
 
     #[test]
     fn a_root_that_stays_above_a_fifth_of_its_largest_is_not_looked_at() {
-        // 1 − 4 d t (1 − t) has its least value 1 − d at ½, where one of the looks is; a root just
-        // beside a look is found where the values come below a fifth
+        // 1 − 4 d t (1 − t) has its least value 1 − d at ½, where one of the samples is; a root
+        // just beside a sample is found where the values fall below a fifth
         let dips = |d: f64| passes(&[1.0, -4.0 * d, 4.0 * d], 1.0).is_some();
         assert!(dips(1.01));
         assert!(!dips(0.99));
-        // 1 − t/e meets zero at e: looked at up to 1 and 0.79 of it
+        // 1 − t/e meets zero at e: sampled up to 1 and up to 0.79 of it
         let falls = |e: f64, least: f64| passes(&[1.0, -1.0 / e], least).is_some();
         assert!(falls(0.99, 1.0));
-        // a narrow dip between two looks, whose values there are 0.19 and 0.21 of the largest
+        // a narrow dip between two samples, whose values there are 0.19 and 0.21 of the largest
         let narrow = |at: f64| {
             // (t − 0.375)² / w² − ε, above zero at 0.25 and 0.5
             let (w, e) = (0.125 / (at + 1e-3_f64).sqrt(), 1e-3);

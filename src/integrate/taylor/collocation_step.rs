@@ -1,48 +1,48 @@
-//! A short step away from a place where no series can be built: from the edge of a fractional
-//! power, the tip of a cone, a surface where 0/0 stands for a sign.
+//! A short step away from a point where no series can be built: from the branch point of a
+//! fractional power, the tip of a cone, a surface where 0/0 stands for a sign.
 //!
-//! One-sided, the rates are continuous there, only not smooth; or they grow without bound, but
-//! slower than 1/t. Gauss's collocation with three stages looks at them inside the step only, never
-//! at its ends, and the step is made so small that a part of it taken in two agrees with the whole
-//! to the last digit. The step is also tried in another measure of time, t = h s^k, in which a
-//! fractional power of t becomes a whole one.
+//! On one side, the rates are continuous there, though not smooth, or they grow without bound but
+//! more slowly than 1/t. Gauss's collocation with three stages evaluates them only inside the step,
+//! never at its ends, and the step is so small that taking a part of it in two agrees with the
+//! whole to the last digit. The step is also tried with another time variable, t = h s^k, in which
+//! a fractional power of t becomes an integer one.
 //!
-//! In: a state, the longest step wanted. Out: the step taken and the state behind it, or nothing,
-//! where the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential
-//! Equations II, IV.5.
+//! In: a state, the longest step wanted. Out: the step taken and the state after it, or nothing if
+//! the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations
+//! II, IV.5.
 
 use crate::num::{DoubleDouble, Real};
 use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 
-/// The part of the wanted step that is tried first, and the part that is left after each failure.
+/// The part of the wanted step that is tried first, and the factor after each failure.
 const FIRST: f64 = 1.0 / 64.0;
 const AGAIN: f64 = 0.125;
 
-/// How often a step is made shorter before the rates count as having no limit.
+/// The number of trials before the rates count as having no limit.
 const TRIALS: u32 = 40;
 
-/// A step found this short beside the one wanted says that the wanted one was no measure: a
-/// smaller one is taken.
+/// A step this short relative to the wanted one shows that the latter was no measure; a smaller one
+/// is taken.
 const SHORT: f64 = 1e-10;
 
-/// How far two ways of taking a step may differ, in parts of the size of each number.
+/// The tolerated difference between two ways of taking a step, relative to the size of each number.
 const AGREEMENT: f64 = 1e-18;
 
-/// Rounds in which the stages have to settle, and what they may still move then.
+/// The maximal number of iterations of the stages, and the movement tolerated then.
 const ROUNDS: u32 = 60;
 const SETTLED: f64 = 1e-26;
 
-/// The part of a step after which it is taken in two, in its measure of time.
+/// The part of a step at which it is divided in two, in its time variable.
 const PART: f64 = 0.125;
 
-/// The measures of time, by their power k: those of square, cube and fourth roots, and of both of
-/// the first.
+/// The time variables, by their power k: those of square, cube and fourth roots, and of both of the
+/// first two.
 const POWERS: [i32; 5] = [1, 2, 3, 4, 6];
 
-/// A step of this part of the wanted one is long enough that no other measure is tried.
+/// If a step is at least this part of the wanted one, no other time variable is tried.
 const LONG: f64 = 1e-6;
 
-/// The three stages: their places, weights, and what each takes of each.
+/// The three stages: their nodes, weights and coefficients.
 struct Scheme {
     at: [DoubleDouble; 3],
     weight: [DoubleDouble; 3],
@@ -66,19 +66,19 @@ impl Scheme {
     }
 }
 
-/// A part of a step, from `begin` to `end` in its measure of time.
+/// A part of a step, from `begin` to `end` in its time variable.
 struct Piece {
     step: DoubleDouble,
     begin: f64,
     end: f64,
 }
 
-/// Takes such steps.
+/// Takes such steps and evaluates states inside them.
 pub(super) struct CollocationStep {
     scheme: Scheme,
-    /// How many numbers of a state move; the rest is carried along.
+    /// The number of dynamical variables of a state; the rest is integrated along with them.
     moving: usize,
-    /// The power of the measure of time of the step taken last.
+    /// The power k of the time variable of the last step.
     power: i32,
     stages: [Vec<DoubleDouble>; 3],
     numbers: Vec<DoubleDouble>,
@@ -106,8 +106,9 @@ impl CollocationStep {
         }
     }
 
-    /// Goes from a state a part of `wanted` and `least` at least, into `out`; the step taken, if
-    /// one could be. Rates that have no value at the state itself may be given by `toward`.
+    /// Steps from a state by a part of `wanted`, but at least `least`, into `out`. Returns the step
+    /// taken, if one was possible. Rates that are undefined at the state itself may be given by
+    /// `toward`.
     pub(super) fn cross(
         &mut self,
         rates: &mut ExactRates,
@@ -117,7 +118,7 @@ impl CollocationStep {
         out: &mut State,
     ) -> Result<Option<f64>, MotionError> {
         let mut longest: Option<(f64, i32)> = None;
-        // only a place that was reached is one from which powers of the time count
+        // powers of time are meaningful only from a point that was reached
         let powers = if least > 0.0 { &POWERS[..1] } else { &POWERS[..] };
         for &power in powers {
             let Some(step) = self.longest(rates, from, (wanted, least), toward, power)? else {
@@ -136,7 +137,7 @@ impl CollocationStep {
         Ok(Some(step))
     }
 
-    /// The longest step that can be taken in one measure of time.
+    /// The longest step possible with one time variable.
     fn longest(
         &mut self,
         rates: &mut ExactRates,
@@ -189,7 +190,8 @@ impl CollocationStep {
         (out.time, out.time_carry) = (time.high, time.low);
     }
 
-    /// Whether a step as a whole and the same in two end at the same place; the second one stays.
+    /// Whether a step as a whole and the same step in two parts end at the same point; the latter
+    /// is kept.
     fn agree(
         &mut self,
         rates: &mut ExactRates,
@@ -214,8 +216,8 @@ impl CollocationStep {
         }))
     }
 
-    /// Whether the rates at the beginning of a step change no velocity by more than the fastest in it:
-    /// else something lies there that the stages would step over.
+    /// Whether the rates at the beginning of a step change no velocity by more than the fastest in
+    /// it. Otherwise the stages would step over something there.
     fn begins_inside(&self, rates: &mut ExactRates, from: &State, step: f64) -> bool {
         let start = numbers_of(from);
         if rates.evaluate(from.exact_time(), &start).is_err() {
@@ -247,8 +249,8 @@ impl CollocationStep {
         Ok(done)
     }
 
-    /// One piece of a step that begins at a time, from the numbers where the piece begins, into
-    /// `end`; false where the stages do not settle.
+    /// Takes one piece of a step that begins at a time, from the numbers at its beginning, and
+    /// writes those at its end into `end`. Returns false if the stages do not converge.
     fn take(
         &mut self,
         rates: &mut ExactRates,

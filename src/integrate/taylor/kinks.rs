@@ -1,34 +1,34 @@
-//! Kinks: which branch the functions with a kink take, where along a step a switch changes sign,
-//! and what becomes of the motion there.
+//! Kinks: the branches of functions with a kink, the points along a step where a switch changes
+//! sign, and the motion after them.
 //!
-//! At a switching surface each side says where its own branch leads. If one leads away from the
-//! surface, the motion goes that way. If both lead back (dry friction bringing a body to rest),
-//! the motion stays on the surface: the branches are mixed with the weight that keeps the switch
-//! at zero, until that weight leaves [−1, 1] (A. F. Filippov, Differential Equations with
+//! At a switching surface the branch on each side determines a direction. If one leads away from
+//! the surface, the motion goes that way. If both lead back (dry friction bringing a body to rest),
+//! the motion stays on the surface: the branches are mixed with the weight that keeps the switch at
+//! zero, until that weight leaves [−1, 1] (A. F. Filippov, Differential Equations with
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
 use super::super::roots::{first_crossing, value_and_slope};
 use crate::num::{DoubleDouble, math};
 use crate::system::{ExactRates, MotionError, Series, Side, State};
 
-/// Switches that cross within this part of a step of each other cross together.
+/// Switches whose crossings differ by less than this part of a step cross together.
 const TOGETHER: f64 = 1e-12;
 
-/// A term smaller than this part of the largest says nothing about a direction.
+/// A term smaller than this part of the largest is ignored in choosing a direction.
 const SIGNIFICANT: f64 = 1e-9;
 
-/// How many switches at once are tried in every combination.
+/// The maximal number of simultaneous switches that are tried in every combination.
 const COMBINED: usize = 5;
 
-/// Surfaces met at one and the same time before the motion counts as stuck.
+/// The maximal number of surfaces met at the same time; beyond it the motion counts as stuck.
 const PATIENCE: u32 = 64;
 
-/// Where the motion stands with respect to its switching surfaces.
+/// The position of the motion relative to its switching surfaces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Kinks {
-    /// The switches whose surface the present state lies on.
+    /// The switches on whose surface the current state lies.
     on_surface: Vec<usize>,
-    /// How many steps in a row ended on a surface without moving the clock.
+    /// The number of steps in a row that ended on a surface without advancing the time.
     stalled: u32,
 }
 
@@ -39,13 +39,13 @@ pub(super) struct Crossing {
     switches: Vec<usize>,
 }
 
-/// The last term of a series may have this part of the first where the series still says
-/// something of its function.
+/// The last term of a series may be this part of the first where the series still represents its
+/// function.
 const LAST: f64 = 0.1;
 
 impl Crossing {
-    /// Whether the series still say something there, beyond the step they allow: of the switches,
-    /// and to this part of every number.
+    /// Whether the series are still valid there, beyond the step they allow: those of the switches,
+    /// and to this part those of every number.
     pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
         let last_of = |c: &[f64]| {
             let term = |k: usize| (c[k] * math::powi(self.after.high, k as i32)).abs();
@@ -62,7 +62,7 @@ impl Crossing {
 
 impl Kinks {
     /// Chooses the sides at a state from which the motion begins: by the sign of each switch, and
-    /// where one is zero by where the motion goes.
+    /// if one is zero by the direction of the motion.
     pub(super) fn begin(
         &mut self,
         series: &mut Series,
@@ -80,13 +80,13 @@ impl Kinks {
             if value == 0.0 {
                 self.on_surface.push(i);
             }
-            // on a surface the positive side, behind it, is tried first
+            // on a surface the positive side is tried first
             series.set_side(i, if value > 0.0 { Side::Positive } else { Side::Negative });
         }
         Ok(())
     }
 
-    /// On a surface: the choices of sides there, the likeliest first.
+    /// The choices of sides on a surface, the likeliest first.
     pub(super) fn undecided(&self, series: &Series) -> Option<Vec<Vec<Side>>> {
         let before: Vec<Side> = self.on_surface.iter().map(|&i| series.sides()[i]).collect();
         (!before.is_empty()).then(|| candidates(&before))
@@ -99,7 +99,7 @@ impl Kinks {
         }
     }
 
-    /// Whether the motion goes on to the sides chosen; `step` is how far the series reaches.
+    /// Whether the motion moves to the chosen sides; `step` is how far the series is valid.
     pub(super) fn leads_on(&self, series: &Series, step: f64) -> bool {
         let reach = (step / series.scale().abs()).min(1.0);
         self.on_surface.iter().all(|&i| leads_on(series, i, reach))
@@ -120,7 +120,7 @@ impl Kinks {
         }
         let (x, first) = earliest?;
         let width = TOGETHER * end.min(x.max(1e-3 * end));
-        // one that was only touched before is not met again here
+        // a surface that was only touched before is not met again here
         let together =
             |&i: &usize| i == first || met(i, x + width).is_some_and(|other| other >= x - width);
         let switches: Vec<usize> = (0..series.switches()).filter(together).collect();
@@ -131,7 +131,7 @@ impl Kinks {
         Some(Crossing { after, switches })
     }
 
-    /// A step ends on a surface, or on none. False where the clock no longer moves.
+    /// Ends a step on a surface, or on none. Returns false if the time no longer advances.
     pub(super) fn arrive(
         &mut self,
         crossing: Option<Crossing>,
@@ -142,7 +142,7 @@ impl Kinks {
         self.stalled = if moved { 0 } else { self.stalled + 1 };
         self.on_surface = crossing.map_or(Vec::new(), |crossing| crossing.switches);
         for &i in &self.on_surface {
-            // a number of the state that has come to zero is zero, not a rounding error
+            // a number of the state that has reached zero is zero, not a rounding error
             if let (Some(number), true) = (series.switch_number(i), moved) {
                 state.set(number, DoubleDouble::ZERO);
             }
@@ -150,8 +150,8 @@ impl Kinks {
         self.stalled < PATIENCE
     }
 
-    /// Where a switch leaves its side. One whose surface the step begins on begins with its first
-    /// term that matters, whatever rounding says of those before it.
+    /// The point where a switch leaves its side. If the step begins on its surface, the switch
+    /// begins with its first significant term, whatever rounding makes of those before it.
     fn leaves_side(&self, i: usize, switch: &[f64], side: Side, end: f64) -> Option<f64> {
         let sign = if side == Side::Negative { -1.0 } else { 1.0 };
         let from = if self.on_surface.contains(&i) { first_that_matters(switch, end)? } else { 0 };
@@ -163,7 +163,7 @@ impl Kinks {
         falls(signed, end)
     }
 
-    /// A root to the precision of the series' lowest orders.
+    /// Refines a root to the precision of the series' lowest orders.
     fn polish(&self, series: &Series, i: usize, x: f64) -> DoubleDouble {
         let origin = if self.on_surface.contains(&i) {
             series.switch_after(i, DoubleDouble::ZERO)
@@ -174,7 +174,7 @@ impl Kinks {
         for _ in 0..2 {
             let (_, slope) = value_and_slope(series.switch(i), x.high);
             let correction = (series.switch_after(i, x) - origin) / slope;
-            // a root of higher order is known to fewer digits and is left alone
+            // a root of higher order is known to fewer digits and is not refined
             if correction.high.abs() < 1e-6 * x.high {
                 x = x - correction;
             }
@@ -183,8 +183,8 @@ impl Kinks {
     }
 }
 
-/// Whether the motion goes on to the side chosen at a surface: the first term of the switch that
-/// matters has that sign.
+/// Whether the motion moves to the chosen side of a surface, that is whether the first significant
+/// term of the switch has that sign.
 fn leads_on(series: &Series, i: usize, reach: f64) -> bool {
     let sign = match series.sides()[i] {
         Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
@@ -195,7 +195,7 @@ fn leads_on(series: &Series, i: usize, reach: f64) -> bool {
     first_that_matters(switch, reach).is_none_or(|k| sign * switch[k] > 0.0)
 }
 
-/// The first term beyond the constant one that is not negligible beside the largest at a time.
+/// The first term beyond the constant one that is not negligible relative to the largest at a time.
 fn first_that_matters(switch: &[f64], time: f64) -> Option<usize> {
     let terms = || {
         let powers = std::iter::successors(Some(time), |x| Some(x * time));
@@ -205,7 +205,7 @@ fn first_that_matters(switch: &[f64], time: f64) -> Option<usize> {
     terms().find(|(_, term)| *term > SIGNIFICANT * largest).map(|(k, _)| k)
 }
 
-/// Where a weight leaves [−1, 1]. One that begins at the edge may leave at once.
+/// The point where a weight leaves [−1, 1]. One that begins at the edge may leave at once.
 fn leaves_weight(weight: &[f64], end: f64) -> Option<f64> {
     let edge = |sign: f64| {
         let mut distance = [0.0; 64];
@@ -222,7 +222,7 @@ fn leaves_weight(weight: &[f64], end: f64) -> Option<f64> {
     }
 }
 
-/// Where a polynomial that ought to be positive falls below zero: at once, later, or not.
+/// The point where a polynomial that should be positive falls below zero: at once, later, or never.
 fn falls(coefficients: &[f64], end: f64) -> Option<f64> {
     match coefficients.iter().find(|c| **c != 0.0) {
         Some(c) if *c < 0.0 => Some(0.0),
@@ -231,7 +231,7 @@ fn falls(coefficients: &[f64], end: f64) -> Option<f64> {
     }
 }
 
-/// The choices of sides to try, the likeliest first: through the surface; back or through; held
+/// The choices of sides to try, the likeliest first: through the surface; back or through; staying
 /// on it.
 fn candidates(before: &[Side]) -> Vec<Vec<Side>> {
     let through = |side: &Side| match side {
@@ -265,7 +265,7 @@ mod tests {
     fn a_direction_is_reported_by_a_term_above_a_billionth() {
         assert_eq!(first_that_matters(&[0.0, 2e-9, 1.0], 1.0), Some(1));
         assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0), Some(2));
-        // in the unit of the time looked at
+        // in the unit of the time in question
         assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 0.1), Some(1));
     }
 

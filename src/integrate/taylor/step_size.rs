@@ -1,51 +1,52 @@
-//! How long a step a series allows.
+//! The longest step that a series allows.
 //!
-//! Each number of the state is judged by its own size, so units do not matter and nothing small
-//! is lost beside something large. Its series is cut off at order p; the step h is such that the
-//! last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j |c_j| h^j, and stays inside the radius
-//! of convergence however small those terms are: a body far from a collision hardly feels it.
+//! The error of each number of the state is measured relative to its own size, so units do not
+//! matter and nothing small is lost beside something large. Its series is truncated at order p; the
+//! step h is such that the last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j
+//! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
+//! from a collision is hardly affected by it.
 
 use crate::expr::FunctionId;
 use crate::num::math;
 use crate::system::Series;
 
-/// The part of the tolerance that the last terms may have: they stand for all that is cut off,
-/// and cutting off errs in one direction step by step, while rounding does not.
+/// The part of the tolerance allowed for the last terms, which represent everything truncated.
+/// Truncation errs in the same direction step by step, while rounding does not.
 const SHARE: f64 = 0.01;
 
-/// How many of the last orders are looked at. More than two, because symmetric motions have
+/// The number of last orders that enter. There are more than two, because symmetric motions have
 /// coefficients that vanish in a regular pattern.
 const LAST: usize = 4;
 
-/// How many orders before these are looked at too, with some indulgence.
+/// The number of orders before these that also enter, with a larger tolerance.
 const BEFORE: usize = 6;
 const INDULGENCE: f64 = 1.5;
 
-/// The step's part of the radius of convergence at most.
+/// The largest step as a part of the radius of convergence.
 const PART_OF_RADIUS: f64 = 0.6;
 
-/// The tolerance of an integral carried along (action, work), in tolerances of the motion: its
-/// errors act back on nothing.
+/// The tolerance of an integral (action, work), in tolerances of the motion: its errors have no
+/// effect on the motion.
 const SPARED: f64 = 1e3;
 
-/// How far the argument of a function may move in one step: a potential that is felt only from
-/// nearby is not to be jumped over.
+/// The largest change of a function's argument in one step: a short-range potential must not be
+/// stepped over.
 const FARTHEST_ARGUMENT: f64 = 6.0;
 
-/// Beyond this argument exponentials leave the range of `f64`, and what saturates with them has no
-/// digit left to change: up to there an argument may move at once.
+/// Beyond this argument exponentials leave the range of `f64`, and functions that saturate with
+/// them no longer change: up to there an argument may move at once.
 const SATURATED: f64 = 750.0;
 
-/// The part of its size that the argument of a function without scale (`ln`, `atan`) may move.
+/// The largest relative change of the argument of a function without scale (`ln`, `atan`).
 const PART_OF_ARGUMENT: f64 = 0.5;
 
-/// A coefficient below this is what underflow has left of one: in a unit of time near the step its
-/// term is far below the last digit of anything.
+/// A coefficient below this is an underflow: in a unit of time near the step its term is far below
+/// the last digit of anything.
 const FAINT: f64 = 1e-290;
 
 /// The order at which a tolerance costs least: the step grows with the order, the work with its
-/// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 where each order costs the same work;
-/// orders cost less here).
+/// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 if each order costs the same work; orders
+/// cost less here).
 pub(super) fn order_for(tolerance: f64) -> usize {
     ((-math::ln(tolerance) * 0.66).ceil() as usize).clamp(12, 44)
 }
@@ -55,8 +56,8 @@ pub(super) fn has_velocity(series: &Series) -> bool {
     numbers(series).all(|c| c[1].is_finite())
 }
 
-/// The longest step that a tolerance allows, in the unit of the series; infinite for a
-/// polynomial. `None` where a coefficient is not finite.
+/// The longest step that a tolerance allows, in the unit of the series; infinite for a polynomial.
+/// Returns `None` if a coefficient is not finite.
 pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
     let tolerance = tolerance * SHARE;
     let mut logs = [0.0; 64];
@@ -79,7 +80,7 @@ pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
     Some(shortest)
 }
 
-/// The step in which the argument of a function moves as far as it may.
+/// The step in which the argument of a function changes by the largest amount allowed.
 fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
     let room = match function {
         FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh => {
@@ -100,7 +101,7 @@ fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
     step
 }
 
-/// The time in which none of a series' terms moves farther than so.
+/// The time in which no term of a series exceeds `far`.
 fn moving(far: f64, u: &[f64]) -> f64 {
     let mut shortest = f64::INFINITY;
     for (k, c) in u.iter().enumerate().skip(1) {
@@ -112,12 +113,12 @@ fn moving(far: f64, u: &[f64]) -> f64 {
     shortest
 }
 
-/// The coordinates' and rates' series.
+/// The series of the coordinates and rates.
 fn numbers(series: &Series) -> impl Iterator<Item = &[f64]> {
     (0..series.inputs()).map(|i| series.coefficients(i))
 }
 
-/// The series of the integrals carried along.
+/// The series of the integrals.
 fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
     (series.inputs()..series.len()).map(|i| series.coefficients(i))
 }
@@ -173,7 +174,7 @@ mod tests {
         let last = math::exp(logs[28] + 28.0 * math::ln(step));
         let largest = (0..29).map(|k| math::exp(logs[k] + k as f64 * math::ln(step)));
         let part = last / largest.fold(0.0, f64::max);
-        // earlier terms of the last ones are looked at as well: less than a hundredth is left
+        // earlier terms also enter, so less than a hundredth is left
         assert!((0.4e-15..4e-15).contains(&part), "{part:e}");
     }
 
@@ -200,7 +201,7 @@ mod tests {
         let near = |step: f64, wanted: f64| assert!((step / wanted - 1.0).abs() < 1e-9, "{step}");
         near(step(FunctionId::Exp, 1.0), 6.0);
         near(step(FunctionId::Exp, -749.0), 6.0);
-        // beyond the range of exponentials nothing changes until it comes back
+        // beyond the range of exponentials nothing changes until the argument comes back
         near(step(FunctionId::Exp, -850.0), 50.0);
         near(step(FunctionId::Ln, 100.0), 25.0);
         near(step(FunctionId::Sin, 100.0), 6.0);

@@ -1,47 +1,49 @@
-//! Rest under dry friction in more than one direction: −μ v/|v| has no value at v = 0, where it is
-//! any vector up to its strength.
+//! Static friction in more than one direction: −μ v/|v| is undefined at v = 0, where it may be any
+//! vector up to its strength.
 //!
-//! In: a state where all velocities have come to zero. Out: whether the motion stays there, and
-//! until when, or the rates with which it sets out. It stays where a small velocity in whatever
-//! direction loses energy; that is asked of many directions, and of those in which everything else
-//! pulls. Where the forces depend on the time it is asked again and again.
+//! In: a state in which all velocities have reached zero. Out: whether the motion stays there, and
+//! until when, or the rates with which it starts to move. It stays if a small velocity in any
+//! direction loses energy. This is tested in many directions, including those in which all other
+//! forces pull, and repeatedly if the forces depend on time.
 
 use crate::num::{DoubleDouble, Real};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
-/// Velocities below this part of what a typical step changes them by count as zero where friction
-/// takes away even more.
+/// Velocities below this part of their change in a typical step count as zero where friction
+/// removes even more.
 const SLOW: f64 = 1e-9;
 
-/// Below this part they are nothing but rounding.
+/// Velocities below this part are nothing but rounding.
 const NOTHING: f64 = 1e-15;
 
-/// The velocity with which directions are tried, in the same measure.
+/// The trial velocity, in the same measure.
 const TRIAL: f64 = 1e-12;
 
-/// How much smaller the second look at what is carried along is.
+/// The ratio of the second trial velocity to the first, for the auxiliary numbers.
 const SMALLER: f64 = 1e-3;
 
-/// More degrees of freedom are not tried in all directions.
+/// The maximal number of degrees of freedom that are tested in all directions.
 const MOST: usize = 12;
 
-/// How many directions there are between any two velocities.
+/// The number of directions between any two velocities.
 const BETWEEN: usize = 16;
 
-/// Rounds in which the direction of a motion that sets out is found.
+/// The maximal number of iterations for the direction of a motion that starts.
 const ROUNDS: usize = 200;
 
-/// How often a motion at rest is looked at within a typical step.
-const LOOKS: u32 = 32;
+/// The number of checks of a motion at rest within a typical step.
+const CHECKS: u32 = 32;
 
-/// A motion sets out by a first step of this part of a typical one: what it neglects is of the
-/// third order.
+/// The first step of a motion that starts, as a part of a typical one: what it neglects is of third
+/// order.
 const FIRST: f64 = 1e-8;
 
-/// What turns round with the velocity is friction where it is this part of all that acts.
+/// A force that reverses with the velocity counts as friction if it is at least this part of all
+/// forces.
 const FRICTION: f64 = 0.01;
 
-/// Halvings of the time in which rest ends; each golden section finds less than one.
+/// The number of iterations for the time at which rest ends; each golden section contributes less
+/// than one halving.
 const HALVINGS: u32 = 60;
 const SECTIONS: u32 = 40;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -55,13 +57,13 @@ const POINTS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-/// What comes of rest.
+/// The result of the test.
 pub(super) enum Sticking {
-    /// It stays so.
+    /// The motion stays at rest.
     Stays(Still),
-    /// It sets out from this state, with these rates.
+    /// The motion starts from this state, with these rates.
     SetsOut(State, Vec<DoubleDouble>),
-    /// Not at rest, or not to be said.
+    /// The motion is not at rest, or the test is inconclusive.
     Unknown,
 }
 
@@ -70,10 +72,10 @@ pub(super) enum Sticking {
 pub(super) struct Still {
     /// The state at the beginning of the last step.
     from: State,
-    /// The rates of all numbers at rest; zero but for what is carried along.
+    /// The rates of all numbers at rest, zero except for the auxiliary numbers and integrals.
     rates: Vec<DoubleDouble>,
     degrees: usize,
-    /// The size of the velocities with which directions are tried.
+    /// The size of the trial velocities.
     size: f64,
     /// The length of a typical step of the motion before.
     stride: f64,
@@ -81,12 +83,13 @@ pub(super) struct Still {
 }
 
 impl Still {
-    /// Whether it has set out at the end of the last step.
+    /// Whether the motion has started at the end of the last step.
     pub(super) fn is_over(&self) -> bool {
         self.over
     }
 
-    /// Rests on from a state up to a time, or until it sets out; gives the state there.
+    /// Continues at rest from a state up to a time, or until it starts moving. Returns the state
+    /// there.
     pub(super) fn go_on(
         &mut self,
         system: &System,
@@ -98,7 +101,8 @@ impl Still {
         let (n, time) = (system.degrees(), from.time);
         let mut end = limit;
         if rates.depends_on_time() {
-            let (step, size) = ((self.stride / f64::from(LOOKS)).copysign(limit - time), self.size);
+            let (step, size) =
+                ((self.stride / f64::from(CHECKS)).copysign(limit - time), self.size);
             let still = from.clone();
             let mut asked = Asked { system, rates: &mut *rates, parameters, still, n, size };
             let reach = (limit - time).abs().min(self.stride);
@@ -130,7 +134,7 @@ impl Still {
                 state.set(i, state.exact(i) + self.rates[i] * after);
             }
         } else if !carried.is_empty() {
-            let pieces = (after.high.abs() / self.stride * f64::from(LOOKS)).ceil().max(1.0);
+            let pieces = (after.high.abs() / self.stride * f64::from(CHECKS)).ceil().max(1.0);
             let half = after * (0.5 / pieces);
             for k in 0..pieces as u32 {
                 let middle = self.from.exact_time() + half * f64::from(2 * k + 1);
@@ -147,7 +151,7 @@ impl Still {
         Ok(state)
     }
 
-    /// The numbers at rest, but for one velocity: at rest friction has no value.
+    /// The numbers at rest, except for one small velocity, since friction has no value at rest.
     fn barely_moving(&self) -> Vec<DoubleDouble> {
         let mut numbers: Vec<DoubleDouble> =
             (0..self.from.values.len()).map(|i| self.from.exact(i)).collect();
@@ -156,7 +160,7 @@ impl Still {
     }
 }
 
-/// Asks what comes of a state; `stride` is the length of a typical step.
+/// Tests a state; `stride` is the length of a typical step.
 pub(super) fn of(
     system: &System,
     rates: &mut ExactRates,
@@ -173,7 +177,7 @@ pub(super) fn of(
         still.set(i, DoubleDouble::ZERO);
     }
     if state.form == Form::Momentum {
-        // the momenta that belong to no velocity
+        // the momenta that belong to zero velocity
         let resting = State { form: Form::Velocity, ..still.clone() };
         let Ok(found) = system.convert(&resting, Form::Momentum, parameters) else {
             return Ok(Sticking::Unknown);
@@ -183,7 +187,7 @@ pub(super) fn of(
     let moved = |i: usize| (state.exact(i) - still.exact(i)).high.abs();
     let fastest = (n..2 * n).map(moved).fold(0.0, f64::max);
     let mut asked = Asked { system, rates, parameters, still, n, size: 1.0 };
-    // the strength of what acts there, asked at some direction
+    // the strength of the forces, sampled in one direction
     let mut some = vec![0.0; n];
     some[0] = 1.0;
     asked.size = if fastest > 0.0 { fastest } else { 1e-9 };
@@ -209,7 +213,7 @@ pub(super) fn of(
     Ok(Sticking::SetsOut(asked.still, toward))
 }
 
-/// A first step out of rest, for a motion that no collocation leads out of it.
+/// Takes a first step from rest, for a motion that no collocation step starts.
 pub(super) fn set_out(
     system: &System,
     rates: &mut ExactRates,
@@ -239,7 +243,7 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// The still state with a small velocity in a direction.
+    /// The state at rest with a small velocity in a direction.
     fn moving(&self, direction: &[f64]) -> State {
         let length = direction
             .iter()
@@ -269,12 +273,12 @@ impl Asked<'_> {
         Ok(found.iter().all(|x| x.is_finite()).then_some(found))
     }
 
-    /// The most that a small velocity in whatever direction gains of kinetic energy, for its size;
-    /// below zero the motion stays at rest.
+    /// The largest gain of kinetic energy of a small velocity in any direction, relative to its
+    /// size; if it is negative the motion stays at rest.
     fn margin(&mut self) -> Result<Option<f64>, MotionError> {
         let mut some = vec![0.0; self.n];
         some[0] = 1.0;
-        // friction is odd in the direction: the mean is everything else
+        // friction is odd in the direction, so the mean is everything else
         let Some(there) = self.accelerations(&some)? else { return Ok(None) };
         some[0] = -1.0;
         let Some(back) = self.accelerations(&some)? else { return Ok(None) };
@@ -297,7 +301,7 @@ impl Asked<'_> {
         Ok(Some(most))
     }
 
-    /// Whether accelerations turn round with the velocity, by a part that counts.
+    /// Whether a significant part of the accelerations reverses with the velocity.
     fn has_friction(&mut self) -> Result<bool, MotionError> {
         let mut some = vec![0.0; self.n];
         some[0] = 1.0;
@@ -309,7 +313,7 @@ impl Asked<'_> {
         Ok(odd.fold(0.0, f64::max) > FRICTION * strength)
     }
 
-    /// The direction in which a motion out of rest is accelerated, and how.
+    /// The direction in which a motion from rest is accelerated, and its rates.
     fn direction(&mut self) -> Result<Option<(Vec<f64>, Vec<DoubleDouble>)>, MotionError> {
         let n = self.n;
         let mut direction: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
@@ -327,28 +331,28 @@ impl Asked<'_> {
             if round == ROUNDS {
                 return Ok(Some((direction, found)));
             }
-            // with a part of the old one, as friction pulls strongly aside
+            // keeps a part of the old direction, since friction pulls strongly aside
             let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let kept = strength / length;
-            direction = found.iter().zip(&direction).map(|(a, d)| a.high + kept * d).collect();
+            let share = strength / length;
+            direction = found.iter().zip(&direction).map(|(a, d)| a.high + share * d).collect();
         }
         Ok(None)
     }
 
-    /// When rest ends between two times, if it does, looked at in such steps.
+    /// The time between two others at which rest ends, if it does, checked at steps of this size.
     fn end_of_rest(&mut self, time: f64, end: f64, step: f64) -> Result<Option<f64>, MotionError> {
-        let mut looks = [(time, f64::NEG_INFINITY); 3];
+        let mut samples = [(time, f64::NEG_INFINITY); 3];
         let count = ((end - time) / step).ceil();
         for k in 0..=count as u32 {
             let at = if f64::from(k) >= count { end } else { time + step * f64::from(k) };
             let margin = self.margin_at(at)?;
-            let [_, b, c] = looks;
-            looks = [b, c, (at, margin)];
-            let [first, middle, last] = looks;
+            let [_, b, c] = samples;
+            samples = [b, c, (at, margin)];
+            let [first, middle, last] = samples;
             let mut rests = middle;
             let mut moves = (last.1 >= 0.0).then_some(last);
             if moves.is_none() && k > 1 && middle.1 > first.1 && middle.1 > last.1 {
-                // it may be passed between two looks
+                // it may end between two checks
                 let top = self.top((first.0, last.0))?;
                 moves = (top.1 >= 0.0).then_some(top);
                 rests = first;
@@ -368,7 +372,7 @@ impl Asked<'_> {
         Ok(None)
     }
 
-    /// The greatest margin between two times, by golden sections.
+    /// The greatest margin between two times, by golden-section search.
     fn top(&mut self, (mut a, mut b): (f64, f64)) -> Result<(f64, f64), MotionError> {
         let mut best = (a, f64::NEG_INFINITY);
         for _ in 0..SECTIONS {
@@ -383,13 +387,13 @@ impl Asked<'_> {
         Ok(best)
     }
 
-    /// The margin at a time; where it has no value rest is not left.
+    /// The margin at a time; where it has no value, the motion stays at rest.
     fn margin_at(&mut self, time: f64) -> Result<f64, MotionError> {
         (self.still.time, self.still.time_carry) = (time, 0.0);
         Ok(self.margin()?.unwrap_or(f64::NEG_INFINITY))
     }
 
-    /// The state a short time after rest has ended: the velocities are those of the accelerations
+    /// The state a short time after rest has ended: the velocities follow from the accelerations
     /// halfway.
     fn first_step(&mut self, first: f64) -> Result<Option<State>, MotionError> {
         let begin = self.still.exact_time();
@@ -405,26 +409,26 @@ impl Asked<'_> {
         Ok(Some(state))
     }
 
-    /// The end of a motion: the rates of what is carried along, at rest or as velocities go to
-    /// zero.
+    /// The end of a motion: the rates of the auxiliary numbers and integrals, at rest or in the
+    /// limit of zero velocities.
     fn carried(mut self, some: &[f64], stride: f64) -> Result<Sticking, MotionError> {
         let moving = self.system.moving();
         let len = self.still.values.len();
         let size = self.size;
         let mut rates = vec![DoubleDouble::ZERO; len];
-        let mut looks = [vec![DoubleDouble::ZERO; len], vec![DoubleDouble::ZERO; len]];
-        for look in &mut looks {
+        let mut samples = [vec![DoubleDouble::ZERO; len], vec![DoubleDouble::ZERO; len]];
+        for sample in &mut samples {
             if self.accelerations(some)?.is_none() {
                 return Ok(Sticking::Unknown);
             }
-            for (i, x) in look.iter_mut().enumerate() {
+            for (i, x) in sample.iter_mut().enumerate() {
                 *x = self.rates.rate(i);
             }
             self.size *= SMALLER;
         }
         for i in moving..len {
-            let (before, after) = (looks[0][i], looks[1][i]);
-            // what goes to zero with the velocity is zero
+            let (before, after) = (samples[0][i], samples[1][i]);
+            // a rate that goes to zero with the velocity is zero
             let falls = after.high.abs() <= 2.0 * SMALLER * before.high.abs();
             rates[i] = if falls { DoubleDouble::ZERO } else { after };
         }
@@ -434,8 +438,8 @@ impl Asked<'_> {
         Ok(if known { Sticking::Stays(still) } else { Sticking::Unknown })
     }
 
-    /// The momenta of a velocity in a direction, without those of rest; they point where a force
-    /// does that accelerates so.
+    /// The momenta of a velocity in a direction, less those at rest. They have the direction of a
+    /// force that accelerates so.
     fn momenta(&self, direction: &[f64]) -> Result<Option<Vec<f64>>, MotionError> {
         if self.still.form == Form::Momentum {
             return Ok(None);
@@ -447,7 +451,7 @@ impl Asked<'_> {
         Ok(Some((n..2 * n).map(|i| (momenta.exact(i) - still.exact(i)).high).collect()))
     }
 
-    /// How a small velocity in a direction gains kinetic energy, up to a factor.
+    /// The gain of kinetic energy of a small velocity in a direction, up to a factor.
     fn gains(&mut self, direction: &[f64]) -> Result<Option<f64>, MotionError> {
         let Some(accelerations) = self.accelerations(direction)? else { return Ok(None) };
         if self.still.form == Form::Momentum {
@@ -465,7 +469,7 @@ impl Asked<'_> {
     }
 }
 
-/// Along every velocity, and around the circle of any two.
+/// The directions along every velocity, and around the circle of any two.
 fn all_directions(n: usize) -> Vec<Vec<f64>> {
     let mut all = Vec::new();
     for i in 0..n {

@@ -1,4 +1,4 @@
-//! One preset in the catalog: what a list shows of it, and the way to its text.
+//! One preset in the catalog: its listing and access to its text.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -11,27 +11,27 @@ use crate::model::Info;
 use crate::preset::{draft, toml_errors};
 use crate::printable;
 
-/// Where a preset comes from.
+/// The origin of a preset.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Origin {
-    /// It is part of the program.
+    /// Part of the program.
     Shipped,
-    /// It is the user's own.
+    /// A file of the user.
     User(PathBuf),
 }
 
-/// A preset to choose.
+/// A preset in the catalog.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// What it is called by: the file's name without `.toml`.
+    /// The file's name without `.toml`.
     pub name: String,
-    /// The folder it stands in, below `presets`; empty at the top.
+    /// Its folder below `presets`; empty at the top level.
     pub folder: String,
-    /// Where it comes from.
+    /// The origin.
     pub origin: Origin,
-    /// Title, summary, topics and chapter (no notes).
+    /// The title, summary, topics and chapter, without the notes.
     pub info: Info,
-    /// What is wrong with it, as `file:line:column: reason`, where it cannot be used.
+    /// The first mistake of an invalid preset, as `file:line:column: reason`.
     pub fault: Option<String>,
     text: &'static str,
 }
@@ -48,7 +48,8 @@ impl Entry {
         }
     }
 
-    /// A file in the user's folder; it is read whole, so that what is wrong with it can be reported.
+    /// An entry for a file in the user's folder. The whole file is read, so that its mistakes can
+    /// be reported.
     pub(super) fn of_user(folder: &Path, path: &Path) -> Entry {
         let mut entry = Entry {
             name: stem(path),
@@ -76,7 +77,7 @@ impl Entry {
         entry
     }
 
-    /// What it is about first of all: its place in a list.
+    /// The first topic, which determines its position in a list.
     pub fn topic(&self) -> &str {
         self.info.topics.first().unwrap_or(&self.folder)
     }
@@ -84,7 +85,7 @@ impl Entry {
     /// The preset's text.
     ///
     /// # Errors
-    /// If a user's file cannot be read.
+    /// Returns an error if a user's file cannot be read.
     pub fn document(&self) -> Result<Document, NotFound> {
         match &self.origin {
             Origin::Shipped if self.folder.is_empty() => {
@@ -101,7 +102,7 @@ impl Entry {
     }
 }
 
-/// The words at the head of a file, without the notes.
+/// The head of a file, without the notes.
 fn head(text: &str) -> Info {
     let table = toml_errors::parse(text, &mut Diagnostics::default());
     Info { notes: String::new(), ..draft::read_head(&table) }
@@ -123,8 +124,8 @@ fn folder_of(path: &Path) -> String {
     parts.join("/")
 }
 
-/// Topics in the order in which the notes come to them, those of no chapter last; within a topic
-/// by chapter, then by title.
+/// Sorts by topic in the order of the notes, with topics without a chapter last; within a topic by
+/// chapter, then by title.
 pub(super) fn sort(entries: &mut [Entry]) {
     let mut first: BTreeMap<String, Chapter> = BTreeMap::new();
     for entry in entries.iter() {
@@ -143,7 +144,7 @@ pub(super) fn sort(entries: &mut [Entry]) {
     });
 }
 
-/// `2.3.1` as its numbers; nothing comes after everything.
+/// The numbers of a chapter such as `2.3.1`; no chapter comes after all others.
 #[derive(Clone, PartialEq, Eq)]
 struct Chapter(Vec<u32>);
 

@@ -1,29 +1,29 @@
-//! The user's folder: the files in it that are presets, within limits.
+//! The user's folder: the preset files in it, within limits.
 //!
-//! In: a folder. Out: paths, in the same order everywhere. A link leads into a folder of files, not on from there, so that
-//! no link leads round in a circle or over the whole disk. Never here: what is in the files.
+//! In: a folder. Out: paths in a deterministic order. A link to a folder is followed only to its files, so that no
+//! link leads into a cycle or across the whole disk. Never here: what is in the files.
 
 use std::path::{Path, PathBuf};
 
 use super::is_preset;
 
-/// So deep are folders entered; the notes have three levels of headings.
+/// The greatest depth of folders; the notes have three levels of headings.
 const DEEPEST: usize = 8;
 
-/// So many names are looked at; a person's own presets are far fewer.
+/// The greatest number of names visited; a user has far fewer presets.
 pub(super) const MOST: usize = 4096;
 
-/// What is in a folder.
+/// The contents of a folder.
 #[derive(Default)]
 pub(super) struct Found {
     /// The presets.
     pub(super) files: Vec<PathBuf>,
-    /// Whether there is more than was looked at.
+    /// Whether the limits were exceeded.
     pub(super) cut: bool,
     looked: usize,
 }
 
-/// The presets in a folder and the folders in it.
+/// The presets in a folder and its subfolders.
 pub(super) fn presets(folder: &Path) -> Found {
     let mut found = Found::default();
     found.enter(folder, DEEPEST);
@@ -64,7 +64,7 @@ mod tests {
 
     use super::*;
 
-    /// The names of what is found, below the folder.
+    /// The names of the presets, relative to the folder.
     fn names(folder: &Path) -> (Vec<String>, bool) {
         let found = presets(folder);
         let name = |path: &PathBuf| {

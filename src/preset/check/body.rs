@@ -1,4 +1,4 @@
-//! A body and how it stands: pieces of sizes that can be, and the names that follow from them.
+//! A body and its attitude: pieces with valid sizes, and the names that follow from them.
 
 use toml::Spanned;
 
@@ -11,8 +11,8 @@ use crate::model::{
 use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 
 impl Check<'_> {
-    /// The names that follow from a body and its attitude, so that all expressions know them; what
-    /// they follow from is read by [`Check::body`] and [`Check::attitude`].
+    /// Declares the names that follow from a body and its attitude, so that all expressions know
+    /// them. Their values are read by [`Check::body`] and [`Check::attitude`].
     pub(super) fn body_names(
         &mut self,
         body: Option<&DraftBody>,
@@ -50,7 +50,7 @@ impl Check<'_> {
         symbol
     }
 
-    /// What the body is made of.
+    /// Reads the pieces of the body.
     pub(super) fn body(&mut self, written: &DraftBody) {
         let mut scope = Scope::new(&self.model, Allowed::Pieces, "a piece of a body");
         let pieces: Vec<Option<Piece>> =
@@ -73,7 +73,7 @@ impl Check<'_> {
         }
     }
 
-    /// A piece. All parts are read, also where one of them is missing or wrong.
+    /// Reads a piece. All parts are read, even if one of them is missing or wrong.
     fn piece(&mut self, written: &DraftPiece, scope: &mut Scope) -> Option<Piece> {
         let mass = self.constant(written.mass.as_ref(), "the mass of this piece", scope);
         let kind = written.solid.unwrap_or("point");
@@ -127,7 +127,7 @@ impl Check<'_> {
         })
     }
 
-    /// An expression in parameters that has a value.
+    /// Reads an expression in parameters that has a value.
     fn constant(&mut self, f: Option<&Formula>, what: &str, scope: &mut Scope) -> Option<Expr> {
         let e = self.formula(scope, what, f?)?;
         self.finite(e, what, f?).then_some(e)
@@ -148,7 +148,7 @@ impl Check<'_> {
         value >= 0.0
     }
 
-    /// How the body stands.
+    /// Reads the attitude of the body.
     pub(super) fn attitude(&mut self, written: &DraftAttitude) {
         let source = match (&written.euler, &written.omega) {
             (Some(angles), None) => {
@@ -173,7 +173,7 @@ impl Check<'_> {
                 };
                 omega.zip(start).map(|(omega, start)| AttitudeSource::Rate { omega, start })
             }
-            // told where they were read
+            // reported where they were read
             _ => None,
         };
         if let (Some(attitude), Some(source)) = (&mut self.model.attitude, source) {

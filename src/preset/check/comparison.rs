@@ -1,5 +1,5 @@
-//! The wrong mechanics beside the right: as many velocities to eliminate as there are constraints.
-//! Whether the constraints can be solved for them is not asked here.
+//! The incorrect mechanics for comparison: as many velocities to eliminate as there are
+//! constraints. Whether the constraints can be solved for them is not checked here.
 
 use toml::Spanned;
 
@@ -11,7 +11,7 @@ use crate::model::Comparison;
 use crate::preset::draft::DraftComparison;
 
 impl Check<'_> {
-    /// The other motion: `other_x` and `other_x'` of every coordinate.
+    /// Declares the other motion: `other_x` and `other_x'` of every coordinate.
     pub(super) fn comparison(&mut self, written: &DraftComparison) {
         let mut symbols = Vec::new();
         for c in &self.model.coordinates {

@@ -1,5 +1,4 @@
-//! Constraints: linear in the velocities, each binding something, each with a multiplier of its
-//! own name.
+//! Constraints: linear in the velocities, not trivial, each with a multiplier of its own name.
 
 use std::collections::HashMap;
 
@@ -12,13 +11,13 @@ use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
 use crate::model::{Allowed, Constraint, Scope, multiplier_name};
 use crate::preset::draft::{Draft, DraftConstraint, Formula};
 
-/// How many nodes may be walked to prove all constraints of a file linear: each of a constraint
-/// once for each velocity in it.
+/// The limit on the nodes visited to prove that all constraints of a file are linear. The nodes of
+/// a constraint count once for each velocity in it.
 const PROOF_LIMIT: usize = 4_000_000;
 
 impl Check<'_> {
-    /// The constraints by their names, so that their multipliers are known to all expressions; what
-    /// they say is read by [`Check::constraints`].
+    /// Declares the constraints' names, so that all expressions know their multipliers. The
+    /// constraints themselves are read by [`Check::constraints`].
     pub(super) fn multipliers(&mut self, draft: &Draft) {
         let mut taken: Vec<(String, &DraftConstraint)> = Vec::new();
         for written in &draft.constraints {
@@ -49,7 +48,8 @@ impl Check<'_> {
         }
     }
 
-    /// What is to vanish. Constraints stand beside a Lagrangian only.
+    /// Reads the constraints, expressions that must vanish. They are allowed only with a
+    /// Lagrangian.
     pub(super) fn constraints(&mut self, written: &[DraftConstraint]) {
         if let Some(first) = written.first()
             && !self.model.is_lagrangian()
@@ -80,7 +80,7 @@ impl Check<'_> {
         }
     }
 
-    /// How many nodes are walked to prove a constraint linear.
+    /// The number of nodes visited to prove that a constraint is linear.
     fn effort(&self, e: Expr) -> usize {
         let parts = self.model.pool.reachable(&[e]);
         let velocities: Vec<Symbol> = self.model.coordinates.iter().map(|c| c.velocity).collect();
@@ -89,8 +89,9 @@ impl Check<'_> {
         parts.len() * (1 + present)
     }
 
-    /// A constraint proved to be Σ A_α(q, t) q̇_α + A(q, t), in that form where it is not evident
-    /// from its own. Complains where it is not linear, or binds nothing.
+    /// Proves that a constraint has the form Σ A_α(q, t) q̇_α + A(q, t), and returns that form if
+    /// it is not evident from the expression. Reports a constraint that is not linear or is
+    /// trivial.
     fn linear(&mut self, e: Expr, called: &str, formula: &Formula) -> Option<Expr> {
         let coordinates = &self.model.coordinates;
         let positions: Vec<Symbol> = coordinates.iter().map(|c| c.position).collect();
@@ -130,9 +131,9 @@ impl Check<'_> {
         }
         let form = if evident { e } else { form };
         let binds = if rows.is_empty() {
-            let held: Vec<Symbol> =
+            let involved: Vec<Symbol> =
                 positions.into_iter().filter(|&q| pool.depends(form, q)).collect();
-            held.into_iter().any(|q| {
+            involved.into_iter().any(|q| {
                 let slope = pool.derivative(form, q);
                 pool.is_zero(slope) != Zero::Proved
             })
@@ -150,7 +151,7 @@ impl Check<'_> {
         Some(form)
     }
 
-    /// Tells of which velocities a constraint is not linear.
+    /// Reports the velocities in which a constraint is not linear.
     fn not_linear(&mut self, e: Expr, present: &[Symbol], called: &str, formula: &Formula) {
         let pool = &mut self.model.pool;
         let mut culprit = "in the velocities".to_owned();
@@ -177,7 +178,8 @@ impl Check<'_> {
     }
 }
 
-/// Whether a function with a kink is called of a velocity: its derivatives do not tell all of it.
+/// Whether a function with a kink is applied to a velocity, in which case the derivatives do not
+/// prove linearity.
 fn kinked(pool: &Pool, e: Expr, velocities: &[Symbol]) -> bool {
     pool.reachable(&[e]).into_iter().any(|part| match pool.node(part) {
         Node::Call(function, _) => {

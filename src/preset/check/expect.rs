@@ -1,4 +1,4 @@
-//! What the file claims: read and kept with its places, to be verified by whoever has the motion.
+//! The file's claims: read with their ranges, and verified later with the motion.
 
 use toml::Spanned;
 
@@ -15,11 +15,11 @@ use crate::preset::draft::{
 };
 use crate::printable::number;
 
-/// The absolute tolerance of a claimed number where the file gives none.
+/// The absolute tolerance of an expected number if the file gives none.
 const TOLERANCE: f64 = 1e-10;
 
 impl Check<'_> {
-    /// What the file claims of the motion.
+    /// Reads what the file expects of the motion.
     pub(super) fn expect(&mut self, written: &DraftExpect) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "an expectation");
         let mut expect = Expect::default();
@@ -44,7 +44,7 @@ impl Check<'_> {
         self.model.expect = expect;
     }
 
-    /// When something is to happen.
+    /// Reads the time of an expected occurrence.
     fn expected_event(&mut self, written: &DraftOccurrence) -> Option<ExpectedEvent> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         let nth = match &written.nth {
@@ -64,7 +64,7 @@ impl Check<'_> {
         })
     }
 
-    /// How often something is to happen.
+    /// Reads the number of expected occurrences.
     fn expected_count(&mut self, written: &DraftCount) -> Option<ExpectedCount> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         self.not_before_the_start(written.until.as_ref());
@@ -79,7 +79,7 @@ impl Check<'_> {
         })
     }
 
-    /// What a bracket is to be.
+    /// Reads the expected value of a bracket.
     fn expected_bracket(
         &mut self,
         written: &DraftBracketClaim,
@@ -103,7 +103,7 @@ impl Check<'_> {
         })
     }
 
-    /// The name of an event or impulse, or a complaint.
+    /// The name of an event or impulse; an unknown name is reported.
     fn occurrence(&mut self, name: &Spanned<String>) -> Option<String> {
         let impulses = self.model.impulses.iter().map(|impulse| impulse.name.as_str());
         let events = self.model.events.iter().map(|event| event.name.as_str());
@@ -144,7 +144,7 @@ impl Check<'_> {
         }
     }
 
-    /// What a name in `conserves` stands for: `energy`, a momentum, an observable; or an
+    /// The expression of a name in `conserves`: `energy`, a momentum, an observable, or an
     /// expression.
     fn conserved(&mut self, claim: &Spanned<String>, scope: &mut Scope) -> Option<Expr> {
         let name = claim.get_ref().as_str();

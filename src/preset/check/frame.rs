@@ -1,4 +1,4 @@
-//! Frames a picture may be seen from: how they turn, and whose apparent forces are drawn in them.
+//! Frames for viewing a picture: how they turn, and whose apparent forces are drawn in them.
 
 use toml::Spanned;
 
@@ -11,7 +11,7 @@ use crate::model::{Allowed, Frame, Point, Scope};
 use crate::preset::draft::{DraftFrame, Formulas};
 
 impl Check<'_> {
-    /// The frames of the file.
+    /// Reads the frames of the file.
     pub(super) fn frames(&mut self, written: &[DraftFrame]) {
         let mut scope = Scope::new(&self.model, Allowed::Configuration, "a frame");
         let mut fixed = Scope::new(&self.model, Allowed::Parameters, "the axis of a frame");
@@ -56,7 +56,7 @@ impl Check<'_> {
         Some([read[0]?, read[1]?, read[2]?])
     }
 
-    /// A direction that stays.
+    /// A constant direction.
     fn axis(&mut self, written: &Formulas, scope: &mut Scope) -> Option<Point> {
         let axis = self.of_frame(written, "the axis of a frame", scope)?;
         if axis.into_iter().all(|e| self.at_start(e) == 0.0) {
@@ -66,7 +66,7 @@ impl Check<'_> {
         Some(axis)
     }
 
-    /// The frame a view names.
+    /// The index of the frame that a view names.
     pub(super) fn frame_of_view(&mut self, name: &Spanned<String>) -> Option<usize> {
         let found = self.model.frames.iter().position(|frame| frame.name == *name.get_ref());
         if found.is_none() {

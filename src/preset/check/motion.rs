@@ -9,8 +9,8 @@ use crate::model::{Allowed, Coordinate, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
 
 impl Check<'_> {
-    /// The coordinates or variables, and which kind of law they move by: what an expression may name
-    /// depends on it.
+    /// Declares the coordinates or variables and the kind of the law, which determine what
+    /// expressions may name.
     pub(super) fn moving(&mut self, draft: &Draft) {
         let law = draft.law();
         let poisson = law == Some(Law::Poisson);
@@ -38,7 +38,7 @@ impl Check<'_> {
         }
     }
 
-    /// The law of motion, read into the model; `None` where the file does not give exactly one.
+    /// Reads the law of motion into the model. Returns `None` unless the file gives exactly one.
     pub(super) fn law(&mut self, given: &[DraftMechanics], names: &mut Names) -> Option<Law> {
         let (first, others) = given.split_first()?;
         for other in others {
@@ -105,7 +105,7 @@ impl Check<'_> {
         }
     }
 
-    /// Where everything starts, in parameters.
+    /// Reads the initial values, which are expressions in parameters.
     pub(super) fn initial_values(&mut self, draft: &Draft, law: Option<Law>) {
         let mut scope = Scope::new(&self.model, Allowed::Parameters, "an initial value");
         for (index, written) in draft.moving.all.iter().enumerate() {
@@ -137,7 +137,7 @@ impl Check<'_> {
         }
     }
 
-    /// A Lagrangian starts from velocities, a Hamiltonian from momenta.
+    /// A Lagrangian needs initial velocities, a Hamiltonian initial momenta.
     fn right_rate(&mut self, law: Law, written: &DraftCoordinate) {
         let (wrong, given, wanted, of) = match law {
             Law::Lagrangian => (&written.momentum, "momentum", "velocity", "a Lagrangian"),
@@ -160,8 +160,8 @@ impl Check<'_> {
         positive
     }
 
-    /// The value of an expression in parameters, with the values the file gives them; NaN where it
-    /// uses what only follows from them, such as the moments of a body.
+    /// The value of an expression in parameters at the file's values. It is NaN if the expression
+    /// uses derived quantities, such as the moments of a body.
     pub(super) fn at_start(&self, e: Expr) -> f64 {
         let value = |symbol| {
             self.model.parameters.iter().find(|p| p.symbol == symbol).map_or(f64::NAN, |p| p.value)

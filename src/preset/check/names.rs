@@ -11,18 +11,18 @@ use crate::expr::{FUNCTIONS, latex_of_unicode};
 use crate::model::{Attitude, BodyNames, multiplier_name};
 use crate::preset::draft::{Draft, Law};
 
-/// The names given so far, with what they name and where.
+/// The names given so far, with what they name and their ranges.
 pub(super) struct Names {
     taken: BTreeMap<String, (&'static str, SourceRange)>,
     coordinates: Vec<String>,
-    /// Whether these are variables of brackets, which have no momenta.
+    /// Whether the names include variables of brackets, which have no momenta.
     poisson: bool,
-    /// Constraints and how their multipliers are written.
+    /// The constraints and the notation of their multipliers.
     multipliers: Vec<(String, String)>,
 }
 
 impl Names {
-    /// The names of coordinates, parameters and definitions, after they have been checked.
+    /// Checks the names of coordinates, parameters and definitions.
     pub(super) fn of(draft: &Draft, mistakes: &mut Diagnostics) -> Names {
         let coordinates = draft.moving.all.iter().map(|c| c.name.get_ref().clone()).collect();
         let constraints = draft.constraints.iter().filter_map(|c| c.name.as_ref());
@@ -45,7 +45,7 @@ impl Names {
         names
     }
 
-    /// The names that tables of the file define by being there.
+    /// Adds the names that tables of the file define implicitly.
     fn given(&mut self, draft: &Draft) {
         let mut take = |name: &str, kind: &'static str, place: &SourceRange| {
             self.taken.insert(name.to_owned(), (kind, place.clone()));
@@ -68,7 +68,7 @@ impl Names {
         }
     }
 
-    /// A name that stands in expressions.
+    /// Claims a name that may be used in expressions.
     fn word(&mut self, name: &Spanned<String>, kind: &'static str, mistakes: &mut Diagnostics) {
         let written = name.get_ref();
         if is_word(written) {
@@ -87,7 +87,7 @@ impl Names {
         mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
     }
 
-    /// A name of any letters, that must be neither reserved nor taken.
+    /// Claims a name of any letters, which must be neither reserved nor taken.
     pub(super) fn claim(
         &mut self,
         name: &Spanned<String>,
@@ -105,12 +105,12 @@ impl Names {
         }
     }
 
-    /// What a name is taken for, if it is.
+    /// The kind of thing that already has this name, if any.
     pub(super) fn kind(&self, name: &str) -> Option<&'static str> {
         self.taken.get(name).map(|(kind, _)| *kind)
     }
 
-    /// What a reserved name means.
+    /// The meaning of a reserved name.
     fn reserved(&self, name: &str) -> Option<String> {
         let of = |prefix: &str| {
             let coordinate = name.strip_prefix(prefix)?;
@@ -141,7 +141,7 @@ impl Names {
     }
 }
 
-/// Complains of a name that something has already.
+/// Reports a name that is already taken.
 pub(super) fn report_twice(
     name: &Spanned<String>,
     first: SourceRange,
@@ -155,7 +155,7 @@ pub(super) fn report_twice(
     mistakes.push(mistake);
 }
 
-/// Whether expressions can name it.
+/// Whether expressions can use it as a name.
 fn is_word(name: &str) -> bool {
     name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
         && name.bytes().next().is_some_and(|b| !b.is_ascii_digit())

@@ -1,4 +1,4 @@
-//! What is to be watched: observables in order, named once each.
+//! Observables in order, each with a unique name.
 
 use toml::Spanned;
 
@@ -9,7 +9,7 @@ use crate::model::{Allowed, Observable, Scope};
 use crate::preset::draft::DraftObservable;
 
 impl Check<'_> {
-    /// Observables in order; each may use those above it.
+    /// Reads the observables in order; each may use those above it.
     pub(super) fn observables(&mut self, written: &[DraftObservable], names: &mut Names) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "an observable");
         for name in written.iter().filter_map(|o| o.name.as_ref()) {
@@ -23,7 +23,8 @@ impl Check<'_> {
             let Some(written) = &observable.name else { continue };
             let shown = self.name_shown(written, "an observable", read, names);
             let Some(name) = shown else { continue };
-            // one that cannot be read stands for itself, so that its uses are no mistakes
+            // one that cannot be read is replaced by its own symbol, so that its uses are not
+            // reported as well
             let e = read.unwrap_or_else(|| self.model.pool.named(&name));
             scope.define(&name, e);
             let place = observable.conserved.as_ref().map(Spanned::span);
@@ -33,8 +34,8 @@ impl Check<'_> {
         }
     }
 
-    /// The name of an observable or Casimir, claimed for it. One that shows a definition under the
-    /// definition's own name gives that name no second meaning.
+    /// Claims the name of an observable or Casimir. If it shows a definition under the definition's
+    /// own name, it adds no second meaning.
     pub(super) fn name_shown(
         &mut self,
         written: &Spanned<String>,

@@ -1,4 +1,4 @@
-//! Impulses and events: what they name is there, and what they say is of the state before them.
+//! Impulses and events: what they name must exist, and they depend on the state before them.
 
 use toml::Spanned;
 
@@ -11,11 +11,11 @@ use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope}
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
 use crate::printable::number;
 
-/// What an event can do, as messages list it.
+/// The actions of an event, as listed in messages.
 const ACTIONS: &str = "`mark`, `stop`, `release:CONSTRAINT` or `impulse:IMPULSE`";
 
 impl Check<'_> {
-    /// Impulses and events have their names in common: what happens is reported by name.
+    /// Impulses and events share one namespace, because occurrences are reported by name.
     pub(super) fn occurrences_named_once(&mut self, draft: &Draft) {
         let impulses = draft.impulses.iter().filter_map(|i| i.name.as_ref());
         let events = draft.events.iter().filter_map(|e| e.name.as_ref());
@@ -31,7 +31,7 @@ impl Check<'_> {
         }
     }
 
-    /// Impulses.
+    /// Reads the impulses.
     pub(super) fn impulses(&mut self, written: &[DraftImpulse]) {
         let mut times = Scope::new(&self.model, Allowed::Parameters, "the time of an impulse");
         let allowed = match self.model.mechanics {
@@ -68,7 +68,7 @@ impl Check<'_> {
         }
     }
 
-    /// When an impulse strikes.
+    /// Reads the time at which an impulse is applied.
     fn time(&mut self, formula: &Formula, scope: &mut Scope) -> Option<Expr> {
         let e = self.formula(scope, "the time of an impulse", formula)?;
         if !self.finite(e, "the time of this impulse", formula) {
@@ -84,7 +84,7 @@ impl Check<'_> {
         Some(e)
     }
 
-    /// After what time an impulse strikes again.
+    /// Reads the period at which an impulse is repeated.
     fn interval(&mut self, formula: &Formula, scope: &mut Scope) -> Option<Expr> {
         let e = self.formula(scope, "the interval of an impulse", formula)?;
         if !self.finite(e, "the interval of this impulse", formula) {
@@ -99,7 +99,7 @@ impl Check<'_> {
         Some(e)
     }
 
-    /// The coordinate whose momentum a key of `change` names, or the variable.
+    /// The index of the coordinate whose momentum a key of `change` names, or of the variable that it names.
     fn after_impulse(&self, name: &str) -> Option<usize> {
         let bare = if self.model.is_poisson() { name } else { name.strip_prefix("p_")? };
         self.model.coordinate(bare)
@@ -124,7 +124,7 @@ impl Check<'_> {
         })
     }
 
-    /// Events.
+    /// Reads the events.
     pub(super) fn events(&mut self, written: &[DraftEvent]) {
         let mut scope = Scope::new(&self.model, Allowed::Event, "an event");
         for event in written {
@@ -146,7 +146,7 @@ impl Check<'_> {
         }
     }
 
-    /// Whether an event can ever happen, as far as its symbols tell.
+    /// Whether an event can ever happen, as far as its symbols show.
     fn changes(&mut self, e: Expr, formula: &Formula) -> bool {
         let constant = |s| {
             let body = self.model.body.as_ref();

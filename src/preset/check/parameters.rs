@@ -1,4 +1,4 @@
-//! Parameters: value, range and scale; and a sensible range where the file gives none.
+//! Parameters: value, range and scale, with a default range if the file gives none.
 
 use toml::Spanned;
 
@@ -50,7 +50,7 @@ impl Check<'_> {
         }
     }
 
-    /// The range as given, filled up where it is not.
+    /// The range, with missing ends filled in.
     fn range(&mut self, written: &DraftParameter, value: f64, scale: Scale) -> (f64, f64) {
         let given = |end: &Option<Spanned<f64>>| end.as_ref().map(|v| *v.get_ref());
         let (min, max) = (given(&written.min), given(&written.max));
@@ -82,9 +82,8 @@ impl Check<'_> {
     }
 }
 
-/// A range around a value where the file leaves one or both ends open: 0 to twice the value, −1 to
-/// 1 around zero, a factor of ten to each side on a log scale, widened to 1, 2 or 5 times a power
-/// of ten.
+/// Fills in the missing ends of a range: 0 to twice the value, −1 to 1 for zero, or a factor of ten
+/// to each side on a log scale, widened to 1, 2 or 5 times a power of ten.
 fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: Scale) -> (f64, f64) {
     let (low, high) = if scale == Scale::Log && value > 0.0 {
         (1.0 / nice_above(10.0 / value), nice_above(10.0 * value))
@@ -105,8 +104,8 @@ fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: Scale) -> (f64, f
     }
 }
 
-/// The least of 1, 2, 5, 10, … times a power of ten that is not below a positive number; the
-/// number itself where none is finite.
+/// The least of 1, 2, 5, 10, … times a power of ten that is not below a positive number, or the
+/// number itself if none is finite.
 fn nice_above(x: f64) -> f64 {
     let power = math::log10(x).floor();
     let steps = [1.0, 2.0, 5.0, 10.0];
@@ -114,7 +113,7 @@ fn nice_above(x: f64) -> f64 {
     nice.filter(|nice| nice.is_finite()).unwrap_or(x)
 }
 
-/// `digit · 10^power`, the f64 nearest to that decimal.
+/// `digit · 10^power`, as the f64 nearest to that decimal.
 fn decimal(digit: f64, power: f64) -> f64 {
     format!("{digit}e{power}").parse().unwrap_or(f64::INFINITY)
 }

@@ -1,4 +1,4 @@
-//! Views and shapes: their expressions read, paths sampled.
+//! Views and shapes: their expressions parsed, their paths sampled.
 
 use std::collections::HashMap;
 
@@ -11,14 +11,14 @@ use crate::instrument::Instrument;
 use crate::model::{Allowed, Channel, Point, Scope, Shape, View};
 use crate::preset::draft::{DraftShape, DraftShapeKind, DraftView, Formula, Formulas};
 
-/// Into how many pieces a path is cut where the file does not say.
+/// The default number of segments of a path.
 const SAMPLES: usize = 96;
 
-/// How many nodes all paths of a file may have together once they are cut.
+/// The limit on the nodes of all sampled paths of a file.
 const PATHS_LIMIT: usize = 1_000_000;
 
 impl Check<'_> {
-    /// What the screen opens with. `nodes` counts those of all paths.
+    /// Reads the views that the screen opens with. `nodes` counts those of all paths.
     pub(super) fn views(&mut self, written: &[DraftView], nodes: &mut usize) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
         for view in written {
@@ -47,7 +47,7 @@ impl Check<'_> {
         }
     }
 
-    /// What an axis runs along is a coordinate where all else is held while it varies.
+    /// The horizontal axis of this kind must be a coordinate, because everything else is fixed while it varies.
     fn along_a_coordinate(
         &mut self,
         x: &Channel,
@@ -64,7 +64,7 @@ impl Check<'_> {
         }
     }
 
-    /// A picture in space. `nodes` counts those of all paths.
+    /// Reads the shapes of a picture in space. `nodes` counts those of all paths.
     pub(super) fn shapes(&mut self, written: &[DraftShape], nodes: &mut usize) -> Vec<Shape> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a shape");
         let mut shapes = Vec::new();
@@ -87,7 +87,7 @@ impl Check<'_> {
         shapes
     }
 
-    /// A shape that is neither path nor body. All parts are read, also where one of them is missing or wrong.
+    /// Reads a shape other than a path or a body. All parts are read, even if one of them is missing or wrong.
     fn shape(&mut self, written: &DraftShapeKind, scope: &mut Scope) -> Option<Shape> {
         match written {
             DraftShapeKind::Line { from, to } => {
@@ -130,7 +130,7 @@ impl Check<'_> {
         self.formula(scope, "a shape", written?)
     }
 
-    /// A point; the third entry left out is zero.
+    /// Reads a point; the third component defaults to zero.
     fn point(&mut self, written: Option<&Formulas>, scope: &mut Scope) -> Option<Point> {
         let entries = written?.get_ref();
         let read: Vec<Option<Expr>> =
@@ -139,7 +139,7 @@ impl Check<'_> {
         Some([read[0]?, read[1]?, third?])
     }
 
-    /// A direction; z where the file gives none.
+    /// Reads a direction; the default is z.
     fn normal(&mut self, written: Option<&Formulas>, scope: &mut Scope) -> Option<Point> {
         match written {
             None => Some([Expr::ZERO, Expr::ZERO, Expr::ONE]),
@@ -147,8 +147,8 @@ impl Check<'_> {
         }
     }
 
-    /// A curve in its own parameter `s`, sampled at evenly spaced values of it. Inside a path, `s`
-    /// is that parameter, whatever else has the name. `nodes` counts those of all paths.
+    /// Reads a curve in its own parameter `s`, sampled at evenly spaced values. Inside a path `s` always means that
+    /// parameter, whatever else has the name. `nodes` counts those of all paths.
     fn path(
         &mut self,
         written: &DraftShape,
@@ -168,9 +168,9 @@ impl Check<'_> {
             self.used.remove("s");
         }
         let (curve, from, to, count) = (curve?, from?, to?, count?);
-        let told = *nodes > PATHS_LIMIT;
+        let exceeded = *nodes > PATHS_LIMIT;
         *nodes += self.model.pool.reachable(&curve).len() * (count + 1);
-        if told {
+        if exceeded {
             return None;
         }
         if *nodes > PATHS_LIMIT {
@@ -196,7 +196,7 @@ impl Check<'_> {
         Some(Shape::Path { points })
     }
 
-    /// Into how many pieces a path is cut.
+    /// The number of segments of a path.
     fn samples(&mut self, written: Option<&Spanned<f64>>) -> Option<usize> {
         let Some(written) = written else { return Some(SAMPLES) };
         let count = *written.get_ref();

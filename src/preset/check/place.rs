@@ -1,11 +1,11 @@
-//! From a byte of an expression to a byte of the file: past the quotes, and past escapes, of which
+//! Maps a byte of an expression to a byte of the file: past the quotes and escapes, in which
 //! several bytes stand for one character.
 
 use crate::diagnostic::SourceRange;
 use crate::expr::Span;
 use crate::preset::draft::Formula;
 
-/// Where a part of an expression stands in the file.
+/// The range in the file of a part of an expression.
 pub(super) fn within(file: &str, formula: &Formula, span: Span) -> SourceRange {
     let whole = formula.span();
     let Some(raw) = file.get(whole.clone()) else { return whole };
@@ -23,7 +23,7 @@ pub(super) fn within(file: &str, formula: &Formula, span: Span) -> SourceRange {
     first + written_offset(body, text, span.start)..first + written_offset(body, text, span.end)
 }
 
-/// How many bytes open and close a value as written.
+/// The lengths of the opening and closing quotes of a value.
 fn quotes(raw: &str) -> (usize, usize) {
     for quote in ["\"\"\"", "'''"] {
         if raw.len() >= 6 && raw.starts_with(quote) {
@@ -34,7 +34,8 @@ fn quotes(raw: &str) -> (usize, usize) {
     if raw.len() >= 2 && raw.starts_with(['"', '\'']) { (1, 1) } else { (0, 0) }
 }
 
-/// Where the character at `offset` of the meant text begins in the text as written, with escapes.
+/// The offset in the written text, with escapes, of the character at `offset` of the unescaped
+/// text.
 fn written_offset(written: &str, meant: &str, offset: usize) -> usize {
     let mut at = 0;
     let mut meant_at = 0;
@@ -60,7 +61,7 @@ fn written_offset(written: &str, meant: &str, offset: usize) -> usize {
     at
 }
 
-/// The length of line endings folded away by a backslash.
+/// The length of line endings that a backslash removes.
 fn folded(rest: &str) -> usize {
     let Some(after) = rest.strip_prefix('\\') else { return 0 };
     let next = after.trim_start();

@@ -1,5 +1,5 @@
-//! Brackets of variables, made antisymmetric, and what commutes with everything. Whether Jacobi's
-//! identity holds, and whether a Casimir is one, is not asked here.
+//! Brackets of variables, made antisymmetric, and Casimirs. Whether the Jacobi identity holds, and
+//! whether a Casimir is one, is not checked here.
 
 use toml::Spanned;
 
@@ -13,7 +13,7 @@ use crate::model::{Allowed, Scope};
 use crate::preset::draft::{DraftBracket, NamedFormula};
 
 impl Check<'_> {
-    /// {x_i, x_j} for all i and j; zero where the file gives none.
+    /// {x_i, x_j} for all i and j; zero if the file gives none.
     pub(super) fn brackets(&mut self, written: &[DraftBracket]) -> Vec<Vec<Expr>> {
         let count = self.model.coordinates.len();
         let mut scope = Scope::new(&self.model, Allowed::Poisson, "a bracket");
@@ -50,7 +50,7 @@ impl Check<'_> {
         matrix
     }
 
-    /// The variable of a name, or a complaint.
+    /// The index of a variable; an unknown name is reported.
     fn variable(&mut self, name: &Spanned<String>) -> Option<usize> {
         let found = self.model.coordinate(name.get_ref());
         if found.is_none() {
@@ -65,7 +65,7 @@ impl Check<'_> {
         found
     }
 
-    /// What the file says has zero bracket with everything.
+    /// Reads the expressions that the file declares as Casimirs.
     pub(super) fn casimirs(
         &mut self,
         written: &[NamedFormula],
@@ -77,7 +77,8 @@ impl Check<'_> {
             let read = formula.as_ref().and_then(|f| self.formula(&mut scope, "a Casimir", f));
             if let Some(shown) = self.name_shown(name, "a Casimir", read, names) {
                 let place = formula.as_ref().map_or(name.span(), Spanned::span);
-                // one that cannot be read stands for itself, so that its uses are no mistakes
+                // one that cannot be read is replaced by its own symbol, so that its uses are not
+                // reported as well
                 let e = read.unwrap_or_else(|| self.model.pool.named(&shown));
                 all.push((shown, e, place));
             }

@@ -1,4 +1,4 @@
-//! How a file wants to be run: numbers that make sense.
+//! The settings of a run, validated.
 
 use toml::Spanned;
 
@@ -8,7 +8,7 @@ use crate::preset::draft::DraftRun;
 use crate::printable;
 
 impl Check<'_> {
-    /// The settings of a run, over those every model has.
+    /// Reads the settings of a run over the defaults.
     pub(super) fn run(&mut self, written: &DraftRun) {
         let usual = RunSettings::default();
         let given = |number: &Option<Spanned<f64>>| number.as_ref().map(|n| *n.get_ref());

@@ -1,5 +1,4 @@
-//! A body put together from pieces, how it stands, and the wrong mechanics beside the right, as
-//! written.
+//! A body composed of pieces, its attitude, and the incorrect mechanics for comparison, as written.
 
 use toml::Spanned;
 
@@ -12,25 +11,25 @@ use crate::preset::schema::{Key, PIECE, SOLIDS, TURN};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
-    /// Where the table stands.
+    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) pieces: Vec<DraftPiece>,
 }
 
 /// A piece as written.
 pub(in crate::preset) struct DraftPiece {
-    /// Which of the [`SOLIDS`]; `None` for a point.
+    /// One of the [`SOLIDS`]; `None` for a point.
     pub(in crate::preset) solid: Option<&'static str>,
-    /// The sizes the solid has, each with its key; three of one key for a cuboid.
+    /// The sizes of the solid with their keys; a cuboid has three under one key.
     pub(in crate::preset) sizes: Vec<(&'static str, Option<Formula>)>,
     pub(in crate::preset) mass: Option<Formula>,
     pub(in crate::preset) at: Option<Formulas>,
     pub(in crate::preset) turn: DraftTurn,
-    /// Where it stands.
+    /// The range of the piece.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// How a piece is turned, as written.
+/// The rotation of a piece, as written.
 pub(in crate::preset) enum DraftTurn {
     None,
     Axis { axis: Option<Formulas>, angle: Option<Formula> },
@@ -39,7 +38,7 @@ pub(in crate::preset) enum DraftTurn {
 
 /// `[attitude]` as written.
 pub(in crate::preset) struct DraftAttitude {
-    /// Where the table stands.
+    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) euler: Option<Formulas>,
     pub(in crate::preset) omega: Option<Formulas>,
@@ -48,9 +47,9 @@ pub(in crate::preset) struct DraftAttitude {
 
 /// `[comparison]` as written.
 pub(in crate::preset) struct DraftComparison {
-    /// Where the table stands.
+    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
-    /// Where the list stands.
+    /// The range of the list.
     pub(in crate::preset) list: SourceRange,
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }

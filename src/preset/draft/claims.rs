@@ -1,4 +1,4 @@
-//! What is to be watched and what the file claims of itself, as written.
+//! The observables and the file's claims, as written.
 
 use toml::Spanned;
 
@@ -23,38 +23,38 @@ pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) brackets: Vec<DraftBracketClaim>,
 }
 
-/// When something is to happen, as written.
+/// The time of an expected occurrence, as written.
 pub(in crate::preset) struct DraftOccurrence {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) nth: Option<Spanned<f64>>,
     pub(in crate::preset) at: Option<Spanned<f64>>,
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// How often something is to happen, as written.
+/// An expected number of occurrences, as written.
 pub(in crate::preset) struct DraftCount {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) until: Option<Spanned<f64>>,
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// What a bracket is to be, as written.
+/// The expected value of a bracket, as written.
 pub(in crate::preset) struct DraftBracketClaim {
     pub(in crate::preset) f: Option<Formula>,
     pub(in crate::preset) g: Option<Formula>,
     pub(in crate::preset) is: Option<Formula>,
     pub(in crate::preset) source: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// A value claimed, as written.
+/// An expected value, as written.
 pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) name: String,
     pub(in crate::preset) expression: Option<Formula>,
@@ -62,7 +62,7 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

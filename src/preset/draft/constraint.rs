@@ -1,4 +1,4 @@
-//! What the motion is held to, as written.
+//! The constraints, as written.
 
 use toml::Spanned;
 
@@ -12,7 +12,7 @@ pub(in crate::preset) struct DraftConstraint {
     pub(in crate::preset) expression: Option<Formula>,
     pub(in crate::preset) unit: String,
     pub(in crate::preset) about: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

@@ -1,4 +1,4 @@
-//! Frames a picture may be seen from, as written.
+//! The frames for viewing a picture, as written.
 
 use toml::Spanned;
 
@@ -13,11 +13,11 @@ pub(in crate::preset) struct DraftFrame {
     pub(in crate::preset) axis: Option<Formulas>,
     pub(in crate::preset) angle: Option<Formula>,
     pub(in crate::preset) origin: Option<Formulas>,
-    /// Where each particle is, and its mass.
+    /// The position and mass of each particle.
     pub(in crate::preset) particles: Vec<(Option<Formulas>, Option<Formula>)>,
-    /// Where the file says that it is the frame of the body.
+    /// The range of the key that makes it the frame of the body.
     pub(in crate::preset) attitude: Option<SourceRange>,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

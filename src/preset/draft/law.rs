@@ -10,19 +10,19 @@ use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {
-    /// Which table it is.
+    /// The table.
     pub(in crate::preset) law: Law,
-    /// Where the table's name stands.
+    /// The range of the table's name.
     pub(in crate::preset) place: SourceRange,
     /// L or H.
     pub(in crate::preset) function: Option<Formula>,
-    /// Rayleigh's function.
+    /// The Rayleigh dissipation function.
     pub(in crate::preset) dissipation: Option<Formula>,
-    /// Coordinate and force.
+    /// Coordinates and forces.
     pub(in crate::preset) forces: Vec<NamedFormula>,
     /// The brackets of variables.
     pub(in crate::preset) brackets: Vec<DraftBracket>,
-    /// Where the brackets stand.
+    /// The range of the brackets.
     pub(in crate::preset) brackets_place: SourceRange,
     /// The Casimirs.
     pub(in crate::preset) casimirs: Vec<NamedFormula>,
@@ -30,11 +30,11 @@ pub(in crate::preset) struct DraftMechanics {
 
 /// A bracket of two variables, as written.
 pub(in crate::preset) struct DraftBracket {
-    /// Of what.
+    /// The two variables.
     pub(in crate::preset) pair: [Spanned<String>; 2],
-    /// What it is.
+    /// The value of the bracket.
     pub(in crate::preset) value: Formula,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
@@ -107,7 +107,7 @@ fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<Draf
     })
 }
 
-/// A table of names with an expression each, in its own key.
+/// A table of names and expressions, at its own key.
 fn named(
     table: &mut Table<'_>,
     key: &'static str,

@@ -11,13 +11,13 @@ use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 /// An impulse as written.
 pub(in crate::preset) struct DraftImpulse {
     pub(in crate::preset) name: Option<Spanned<String>>,
-    /// The times given, one by one.
+    /// The times, one by one.
     pub(in crate::preset) at: Vec<Formula>,
     pub(in crate::preset) every: Option<Formula>,
-    /// What jumps, and by how much; `None` where that could not be read.
+    /// The jumps by name; `None` if they could not be read.
     pub(in crate::preset) change: Option<Vec<NamedFormula>>,
     pub(in crate::preset) about: String,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
@@ -27,7 +27,7 @@ pub(in crate::preset) struct DraftEvent {
     pub(in crate::preset) when: Option<Formula>,
     pub(in crate::preset) direction: Option<Spanned<String>>,
     pub(in crate::preset) action: Option<Spanned<String>>,
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

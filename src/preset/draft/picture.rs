@@ -1,4 +1,4 @@
-//! Views and the shapes of the picture in space, as written.
+//! The views and the shapes of the picture in space, as written.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -12,28 +12,29 @@ use crate::instrument::{Axis, INSTRUMENTS, Instrument, NOT_YET, listed, named};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
-    /// Its kind; `None` where the format has it and this version does not: it is read and left out.
+    /// The kind, or `None` if the format has it but this version does not; such a view is read and
+    /// dropped.
     pub(in crate::preset) kind: Option<&'static dyn Instrument>,
     pub(in crate::preset) title: String,
-    /// What is written for each axis of the kind.
+    /// The expressions for each axis of the kind.
     pub(in crate::preset) axes: Vec<Vec<Formula>>,
-    /// From which frame the picture in space is seen.
+    /// The frame from which the picture in space is seen.
     pub(in crate::preset) frame: Option<Spanned<String>>,
-    /// What is drawn in place of the shapes of `[space]`.
+    /// The shapes drawn in place of those of `[space]`.
     pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
 }
 
 /// A shape as written.
 pub(in crate::preset) struct DraftShape {
-    /// Where it stands.
+    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
-    /// What it is.
+    /// The kind of shape.
     pub(in crate::preset) kind: DraftShapeKind,
 }
 
-/// What a shape is; parts that could not be read are missing.
+/// A kind of shape; parts that could not be read are `None`.
 pub(in crate::preset) enum DraftShapeKind {
     Line {
         from: Option<Formulas>,
@@ -117,7 +118,7 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     Some(DraftView { place, kind: Some(kind), title, axes, frame, shapes })
 }
 
-/// What is written for an axis: one expression, or a list of them where it takes several.
+/// The expressions of an axis: one, or a list if the axis takes several.
 fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Vec<Formula> {
     let key = axis.key;
     let Some((_, found)) = table.require(key, &format!("write {key} = \"...\"")) else {
@@ -135,14 +136,14 @@ fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Ve
     }
 }
 
-/// What a name stands for.
+/// The kind that a name denotes.
 enum Kind {
     Drawn(&'static dyn Instrument),
-    /// The format has it and this version does not.
+    /// The format has it, but this version does not.
     LeftOut,
 }
 
-/// The kind of a name.
+/// The kind that a name denotes.
 fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Kind> {
     let name = written.get_ref().as_str();
     if let Some(kind) = named(name) {
@@ -239,7 +240,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
     Some(DraftShape { place, kind })
 }
 
-/// A number or expression that has to be there.
+/// A required number or expression.
 fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Diagnostics) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
     value::formula(found, &format!("`{key}`"), mistakes)

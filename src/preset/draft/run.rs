@@ -1,4 +1,4 @@
-//! How the file wants to be run, as written.
+//! The settings of a run, as written.
 
 use toml::Spanned;
 

@@ -8,7 +8,7 @@ use super::{Formula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{COORDINATE, PARAMETER, VARIABLE};
 
-/// A name with its expression, if there is one that can be read.
+/// A name with its expression, if that could be read.
 pub(in crate::preset) type NamedFormula = (Spanned<String>, Option<Formula>);
 
 /// A coordinate as written.
@@ -17,15 +17,15 @@ pub(in crate::preset) struct DraftCoordinate {
     pub(in crate::preset) symbol: String,
     pub(in crate::preset) unit: String,
     pub(in crate::preset) initial: Option<Formula>,
-    /// The key's place and the value.
+    /// The range of the key, and the value.
     pub(in crate::preset) velocity: Option<(SourceRange, Formula)>,
-    /// The key's place and the value.
+    /// The range of the key, and the value.
     pub(in crate::preset) momentum: Option<(SourceRange, Formula)>,
     pub(in crate::preset) period: Option<Formula>,
 }
 
 impl DraftCoordinate {
-    /// One of which nothing is read but its name.
+    /// A coordinate of which only the name is read.
     fn unread(name: Spanned<String>) -> DraftCoordinate {
         DraftCoordinate {
             name,
@@ -51,13 +51,13 @@ pub(in crate::preset) struct DraftParameter {
     pub(in crate::preset) about: String,
 }
 
-/// What moves, as written: both tables, where a file has both.
+/// The coordinates and variables as written; a file may have both tables by mistake.
 pub(in crate::preset) struct DraftMoving {
     /// The coordinates or variables in order.
     pub(in crate::preset) all: Vec<DraftCoordinate>,
-    /// Where `[coordinates]` stands.
+    /// The range of `[coordinates]`.
     pub(in crate::preset) coordinates: Option<SourceRange>,
-    /// Where `[variables]` stands.
+    /// The range of `[variables]`.
     pub(in crate::preset) variables: Option<SourceRange>,
 }
 
@@ -115,7 +115,7 @@ fn coordinate<'d>(
     coordinate
 }
 
-/// A variable of brackets: a number or an expression, or a table as a coordinate's.
+/// A variable of brackets: a number, an expression, or a table like that of a coordinate.
 fn variable<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
@@ -144,7 +144,7 @@ fn variable<'d>(
     variable
 }
 
-/// How a name is to be shown; empty where the file does not say.
+/// The display symbol of a name; empty if the file gives none.
 fn symbol(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> String {
     let Some(text) = table.text("symbol", mistakes) else { return String::new() };
     if text.get_ref().trim().is_empty() {
@@ -197,7 +197,7 @@ pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Ve
     formulas(&table, "the definition", mistakes)
 }
 
-/// A table of names with an expression each.
+/// A table of names and expressions.
 pub(super) fn formulas(
     table: &Table<'_>,
     called: &str,

@@ -1,5 +1,4 @@
-//! One table of the file while it is read: keys are asked for by name, and what nobody asked for
-//! is a mistake.
+//! A reader of one table of the file. Keys are requested by name, and a key that was never requested is a mistake.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
@@ -14,14 +13,14 @@ pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
 
 /// A table that is being read.
 pub(in crate::preset) struct Table<'d> {
-    /// What messages call it: `[run]`, `the coordinate x`.
+    /// Its name in messages: `[run]`, `the coordinate x`.
     pub(super) called: String,
-    /// Where it stands.
+    /// Its range.
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
-    /// What the format says of it; nothing of a table of which only its reader knows the keys.
+    /// Its description in the schema; `None` if only its reader knows the keys.
     section: Option<&'static Section>,
-    /// Which kind of entry it is, where kinds have different keys.
+    /// The kind of entry, if kinds have different keys.
     kind: Option<&'static str>,
     asked: Vec<&'static str>,
     passed: Vec<&'static str>,
@@ -39,17 +38,17 @@ impl<'d> Table<'d> {
         Table { called, place, entries, section: None, kind: None, asked, passed, absent }
     }
 
-    /// The same as a table of which the format says which keys it has.
+    /// Attaches the schema's description of the table.
     pub(super) fn with(self, section: &'static Section) -> Table<'d> {
         Table { section: Some(section), ..self }
     }
 
-    /// Entries of this kind have not all of its keys.
+    /// Sets the kind of the entry, which restricts its keys.
     pub(super) fn is_of_kind(&mut self, kind: &'static str) {
         self.kind = Some(kind);
     }
 
-    /// What the format says of a key.
+    /// The schema's description of a key.
     fn row(&self, key: &str) -> Option<&'static Key> {
         let mut rows = self.section?.keys.iter();
         rows.find(|row| row.name == key && self.allows(row))
@@ -59,12 +58,12 @@ impl<'d> Table<'d> {
         row.only.is_empty() || self.kind.is_none_or(|kind| row.only.contains(&kind))
     }
 
-    /// Whether the format says of a key what its reader takes it for.
+    /// Whether the schema gives a key the kind that its reader expects.
     fn agrees(&self, key: &str, fits: impl Fn(Kind) -> bool) -> bool {
         self.section.is_none() || self.row(key).is_some_and(|row| fits(row.kind))
     }
 
-    /// A value as a table; a complaint where it is none. `shape` shows how it is written.
+    /// Reads a value as a table and reports any other value. `shape` shows how the table is written.
     pub(super) fn of(
         value: &'d Value<'d>,
         called: impl Into<String>,
@@ -84,12 +83,12 @@ impl<'d> Table<'d> {
         }
     }
 
-    /// Whether a key stands here, whatever its value.
+    /// Whether the key exists, whatever its value.
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.get(key).is_some()
     }
 
-    /// A key's place and value. Where the format says that it has to be there, it is missing otherwise.
+    /// The range of a key and its value. A key that the schema requires is reported if it is missing.
     pub(in crate::preset) fn take(
         &mut self,
         key: &'static str,
@@ -111,7 +110,7 @@ impl<'d> Table<'d> {
         self.lacks(key, mistake.with_help(help));
     }
 
-    /// A key that has to be there in this case.
+    /// A key that is required in this case.
     pub(super) fn require(
         &mut self,
         key: &'static str,
@@ -124,7 +123,7 @@ impl<'d> Table<'d> {
         found
     }
 
-    /// Takes note that a key is missing; told at the end, unless it is there misspelt.
+    /// Notes that a key is missing. It is reported at the end, unless it turns out to be misspelled.
     pub(super) fn lacks(&mut self, key: &'static str, mistake: Diagnostic) {
         self.absent.push((key, mistake));
     }
@@ -140,13 +139,13 @@ impl<'d> Table<'d> {
         value::text(found, &format!("`{key}`"), mistakes)
     }
 
-    /// A text to be shown on one line, or nothing.
+    /// A text for display on one line; empty if it is missing.
     pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Diagnostics) -> String {
         let text = self.text(key, mistakes);
         text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
     }
 
-    /// The name of an entry, which has to be there; messages call the entry by it from then on.
+    /// The required name of an entry, by which messages call the entry from then on.
     pub(super) fn name(&mut self, mistakes: &mut Diagnostics) -> Option<Spanned<String>> {
         let (_, found) = self.take("name")?;
         let name = value::text(found, "`name`", mistakes)?;
@@ -198,7 +197,7 @@ impl<'d> Table<'d> {
         value::flag(found, &format!("`{key}`"), mistakes)
     }
 
-    /// The items of a list, none where the key is left out.
+    /// The items of a list; empty if the key is missing.
     pub(super) fn list(
         &mut self,
         key: &'static str,
@@ -213,7 +212,7 @@ impl<'d> Table<'d> {
         }
     }
 
-    /// A table of its own, `[key]`.
+    /// A subtable, `[key]`.
     pub(super) fn table(
         &mut self,
         key: &'static str,
@@ -227,7 +226,7 @@ impl<'d> Table<'d> {
         })
     }
 
-    /// The entries of a list of tables, of which `shape` shows how each is written; messages call it `called`.
+    /// The entries of a list of tables. `shape` shows how each is written; messages call it `called`.
     pub(super) fn items(
         &mut self,
         key: &'static str,
@@ -240,7 +239,7 @@ impl<'d> Table<'d> {
         tables.map(|table| Table { section, ..table }).collect()
     }
 
-    /// Tables of one kind, `[[key]]` each; messages call each one `called`.
+    /// Tables of one kind, one `[[key]]` each; messages call each one `called`.
     pub(super) fn tables(
         &mut self,
         key: &'static str,
@@ -269,19 +268,19 @@ impl<'d> Table<'d> {
         }
     }
 
-    /// Keys of which all is said.
+    /// Marks keys as read, because they are already reported.
     pub(super) fn pass_over(&mut self, keys: &[&'static str]) {
         self.passed.extend(keys);
     }
 
-    /// The entries in order, where the keys are names of the file's own.
+    /// The entries in order, if the keys are names chosen by the file.
     pub(super) fn entries(&self) -> impl Iterator<Item = (Spanned<String>, &'d Value<'d>)> {
         self.entries
             .iter()
             .map(|(key, value)| (Spanned::new(key.span(), key.get_ref().to_string()), value))
     }
 
-    /// Complains of every key that may not stand here, and of those that are missing. All that may has been read.
+    /// Reports every unknown key and every missing one, once all allowed keys have been read.
     pub(in crate::preset) fn finish(self, mistakes: &mut Diagnostics) {
         let read = |name: &str| self.asked.contains(&name) || self.passed.contains(&name);
         let unread = self
@@ -292,7 +291,7 @@ impl<'d> Table<'d> {
         self.finish_unread(mistakes);
     }
 
-    /// The same of a table that was given up before all of it was read.
+    /// Like [`finish`](Table::finish), for a table whose reading was abandoned.
     pub(super) fn finish_unread(mut self, mistakes: &mut Diagnostics) {
         let mut known: Vec<&'static str> = match self.section {
             Some(section) => {

@@ -1,4 +1,4 @@
-//! One value of TOML as the kind that is wanted, or a complaint that says what it is instead.
+//! Converts one value of TOML to the expected kind, or reports its actual kind.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Allowed, Model, Scope};
 use crate::printable::is_steering;
 
-/// What a value is, with its article.
+/// The kind of a value, with its article.
 pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a text in quotes",
@@ -133,7 +133,7 @@ pub(super) fn formula(
     Some(Formula::new(value.span(), written))
 }
 
-/// The decimal digits of a number of TOML, as expressions write them.
+/// The decimal digits of a TOML number, as expressions write them.
 fn digits(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option<String> {
     let written = match value.get_ref() {
         DeValue::Integer(integer) if integer.radix() == 10 => Some(integer.as_str().to_owned()),
@@ -154,12 +154,12 @@ fn digits(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option
     }
 }
 
-/// A text to be shown on one line: without the characters that steer a terminal.
+/// A text for display on one line, without terminal control characters.
 pub(super) fn one_line(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
     shown(text, |_| false, mistakes).map(|text| text.trim().to_owned())
 }
 
-/// A text to be shown on several lines.
+/// A text for display on several lines.
 pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
     shown(text, |c| matches!(c, '\n' | '\r' | '\t'), mistakes)
         .map(|text| text.trim().replace("\r\n", "\n").replace('\t', "    "))

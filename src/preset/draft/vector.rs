@@ -7,10 +7,10 @@ use super::table::{Table, Value};
 use super::{Formula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
-/// Two or three expressions, with their common place.
+/// Two or three expressions, with their common range.
 pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
 
-/// A point that has to be there; the third entry may be left out.
+/// A required point; the third component is optional.
 pub(super) fn point(
     table: &mut Table<'_>,
     key: &'static str,
@@ -21,7 +21,7 @@ pub(super) fn point(
     entries(found, key, 2, mistakes)
 }
 
-/// A point or direction that may be left out, and so may its third entry.
+/// An optional point or direction; its third component is also optional.
 pub(super) fn optional_point(
     table: &mut Table<'_>,
     key: &'static str,
@@ -41,7 +41,7 @@ pub(super) fn triple(
     entries(found, key, 3, mistakes)
 }
 
-/// A list of three expressions, or of `least`.
+/// A list of `least` to three expressions.
 fn entries(
     found: &Value<'_>,
     key: &str,

@@ -1,4 +1,4 @@
-//! A still as text with its colours: lines one after the other, without any moving about of the cursor.
+//! A still as coloured text: consecutive lines without cursor movements.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use ratatui::style::{Color, Modifier};
 
 use crate::view::sgr;
 
-/// The lines; each ends in the terminal's own colours.
+/// The lines; each ends with a reset of the colours.
 pub(super) fn write(screen: &Buffer) -> String {
     let mut out = String::new();
     let width = usize::from(screen.area.width).max(1);
@@ -34,7 +34,7 @@ fn is_plain_blank(cell: &Cell) -> bool {
     cell.symbol() == " " && (cell.modifier, cell.fg, cell.bg) == plain
 }
 
-/// What sets a cell's style, whatever was before: `0;1;38;5;214`.
+/// The parameters that set a cell's style regardless of the previous one: `0;1;38;5;214`.
 fn sequence(cell: &Cell) -> String {
     sgr::written(&sgr::afresh(cell.modifier, cell.fg, cell.bg))
 }

@@ -1,7 +1,7 @@
-//! Characters that are drawn: dots of braille, blocks, shades and the lines of frames, as shapes within a cell.
+//! Characters drawn as shapes within a cell: braille dots, blocks, shades and box-drawing lines.
 //!
-//! In: a character. Out: its dots, rectangles or strokes, in units of a cell 8 wide and 16 high. Never here: colours, or
-//! where the cell stands.
+//! In: a character. Out: its dots, rectangles or strokes, in units of a cell 8 wide and 16 high. Never here: colours,
+//! or the position of the cell.
 
 /// The width and height of a cell.
 pub(super) const CELL: (f64, f64) = (8.0, 16.0);
@@ -12,11 +12,11 @@ pub(super) const DOT: f64 = 1.45;
 /// A character as shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
-    /// Dots, by their centres.
+    /// The centres of dots.
     Dots(Vec<(f64, f64)>),
-    /// Rectangles: left, top, width, height; and how much of their colour is seen.
+    /// Rectangles as left, top, width and height; and their opacity.
     Blocks(Vec<[f64; 4]>, f64),
-    /// A stroke, as the data of a path; whether it is heavy.
+    /// A stroke as SVG path data; whether it is heavy.
     Stroke(&'static str, bool),
 }
 
@@ -60,7 +60,7 @@ fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
     };
     Some(match character {
         '▀' => vec![[0.0, 0.0, 8.0, 8.0]],
-        // from an eighth at the bottom to the whole
+        // from an eighth at the bottom to the full block
         '▁'..='█' => {
             let height = f64::from(code - 0x2580) * 2.0;
             vec![[0.0, 16.0 - height, 8.0, height]]
@@ -79,7 +79,7 @@ fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
         '▝' => quadrants(2),
         '▞' => quadrants(2 + 4),
         '▟' => quadrants(2 + 4 + 8),
-        // six parts, two across and three down; the two halves and the whole stand elsewhere
+        // sextants, two columns by three rows; the halves and the full block have other code points
         '\u{1fb00}'..='\u{1fb3b}' => {
             let n = code - 0x1fb00 + 1;
             let bits = n + u32::from(n > 20) + u32::from(n > 40);
@@ -92,7 +92,7 @@ fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
     })
 }
 
-/// The stroke of a line of a frame.
+/// The stroke of a box-drawing character.
 fn stroke(character: char) -> Option<(&'static str, bool)> {
     Some(match character {
         '─' => ("M0 8H8", false),

@@ -1,6 +1,6 @@
 //! A still as a drawing: dots, blocks and frames as shapes, words as text that fits its cells in any font.
 //!
-//! In: a screen. Out: SVG 1.1 without scripts, style sheets or fonts of its own. Never here: what the shapes are.
+//! In: a screen. Out: SVG 1.1 without scripts, style sheets or embedded fonts. Never here: what the shapes are.
 
 use std::fmt::Write;
 
@@ -11,10 +11,10 @@ use super::shape::{CELL, DOT, Shape};
 use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 
-/// Blank around the screen, in units of the drawing.
+/// The margin around the screen, in units of the drawing.
 const MARGIN: f64 = 8.0;
 
-/// What of a cell's look a drawing shows.
+/// The part of a cell's style that a drawing shows.
 #[derive(Clone, Copy, PartialEq)]
 struct GlyphStyle {
     colour: Rgb,
@@ -24,7 +24,7 @@ struct GlyphStyle {
     dim: bool,
 }
 
-/// The drawing.
+/// Writes the drawing.
 pub(super) fn write(screen: &Buffer, palette: &Palette, title: &str) -> String {
     let (columns, rows) = (screen.area.width, screen.area.height);
     let (width, height) = (f64::from(columns) * CELL.0, f64::from(rows) * CELL.1);
@@ -53,9 +53,9 @@ pub(super) fn write(screen: &Buffer, palette: &Palette, title: &str) -> String {
     out
 }
 
-// writing to a String cannot fail, so its results are passed over below
+// writing to a String cannot fail, so its results are ignored below
 
-/// The fields behind characters, one for each run of a colour.
+/// Writes the backgrounds of characters, one for each run of a colour.
 fn fields(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     let mut x = 0;
     for run in row.chunk_by(|a, b| field(a, palette) == field(b, palette)) {
@@ -72,7 +72,7 @@ fn fields(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     }
 }
 
-/// What stands behind a character, where it is not the background.
+/// The background of a character, if it is not the default.
 fn field(cell: &Cell, palette: &Palette) -> Option<Rgb> {
     if cell.modifier.contains(Modifier::REVERSED) {
         return Some(named(cell.fg).unwrap_or(palette.foreground));
@@ -104,7 +104,7 @@ fn shape(cell: &Cell) -> Option<Shape> {
     Shape::of(cell.symbol().chars().next()?)
 }
 
-/// Dots, blocks and strokes of a row, in groups of a colour.
+/// Writes the dots, blocks and strokes of a row, grouped by colour.
 fn shapes(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     let mut x = 0;
     let top = y as f64 * CELL.1;
@@ -157,7 +157,7 @@ fn one_shape(out: &mut String, (left, top): (f64, f64), shape: &Shape, colour: R
     }
 }
 
-/// The words of a row: runs of one look between blanks, each as wide as its cells.
+/// Writes the words of a row: runs of one style between blanks, each as wide as its cells.
 fn words(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     let is_word = |cell: &Cell| cell.symbol() != " " && shape(cell).is_none();
     let mut x = 0;
@@ -178,13 +178,13 @@ fn words(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
              lengthAdjust=\"spacingAndGlyphs\" fill=\"{}\"",
             hex(colour)
         );
-        let looks = [
+        let attributes = [
             (bold, " font-weight=\"bold\""),
             (italic, " font-style=\"italic\""),
             (underlined, " text-decoration=\"underline\""),
             (dim, " opacity=\"0.6\""),
         ];
-        looks.iter().filter(|(is, _)| *is).for_each(|(_, look)| out.push_str(look));
+        attributes.iter().filter(|(is, _)| *is).for_each(|(_, attribute)| out.push_str(attribute));
         let _ = writeln!(out, ">{}</text>", escaped(&text));
     }
 }
@@ -193,7 +193,7 @@ fn hex(Rgb(r, g, b): Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Text as it may stand in XML; what XML 1.0 has no place for is left out.
+/// Escapes text for XML; characters that XML 1.0 forbids are dropped.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,6 +1,6 @@
 //! The table of commands: one row for each word that a line of a script may begin with.
 //!
-//! In: the rest of the line. Out: what it says. Never here: lines and places, or doing it.
+//! In: the rest of the line. Out: its meaning. Never here: lines and ranges, or execution.
 
 use super::line::Line;
 use super::{Assert, Measure, Relation, Said, Step, SweepPath, Text, Word};
@@ -14,9 +14,9 @@ use crate::view::theme::PALETTES;
 pub struct Command {
     /// The word.
     pub name: &'static str,
-    /// How the line is written; what stands in brackets may be left out.
+    /// The syntax of the line; the parts in brackets are optional.
     pub form: &'static str,
-    /// What it does, in a sentence.
+    /// A description in one sentence.
     pub about: &'static str,
     pub(super) read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
 }
@@ -30,7 +30,7 @@ const fn row(
     Command { name, form, about, read }
 }
 
-/// All commands: first those for the whole demo.
+/// All commands; those for the whole demo come first.
 #[rustfmt::skip]
 pub const COMMANDS: &[Command] = &[
     row("Open", "Open NAME", "the preset or file the demo is about; the command line may name another", open),
@@ -69,7 +69,7 @@ fn title(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 /// The least and the greatest screen.
 const SIZES: [(u16, u16); 2] = [(40, 11), (400, 150)];
 
-/// A size of the screen, `100x30`.
+/// Reads a size of the screen, `100x30`.
 pub fn read_size(text: &str) -> Result<(u16, u16), String> {
     let sides =
         text.split_once(['x', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
@@ -123,7 +123,7 @@ fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Pace(line.time()?)))
 }
 
-/// The most times a key may be pressed in a row.
+/// The most times that a key may be pressed in a row.
 const MOST_PRESSES: usize = 1000;
 
 fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
@@ -216,7 +216,7 @@ fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Marker(name.text)))
 }
 
-/// What an `Assert` claims, as it is written.
+/// The forms of an `Assert`, with descriptions.
 pub const CLAIMS: [(&str, &str); 10] = [
     (
         "EXPR = EXPR within EPS",
@@ -236,7 +236,7 @@ pub const CLAIMS: [(&str, &str); 10] = [
     ("screen \"TEXT\"", "the text stands on the screen"),
 ];
 
-/// Words of a claim before a name.
+/// The words for measures in front of a name.
 const MEASURES: [(&str, Measure); 5] = [
     ("drift", Measure::Drift),
     ("greatest", Measure::Greatest),
@@ -245,7 +245,7 @@ const MEASURES: [(&str, Measure); 5] = [
     ("time", Measure::Time),
 ];
 
-/// The words for how an experiment stands.
+/// The words for the status of an experiment.
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 /// The first words of verdicts.
@@ -284,7 +284,7 @@ fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Assert(Assert::Number { measure, of, relation, with, within })))
 }
 
-/// Numbers that are to be equal say within what, counts are equal or not.
+/// `=` needs a tolerance, except between counts; `<` and `>` must not have one.
 fn exactness(
     line: &Line<'_>,
     measure: Measure,

@@ -1,6 +1,6 @@
-//! One line of a script: words, quoted texts, times and what is left of it, each with its place.
+//! One line of a script: words, quoted texts, times and the rest, each with its range.
 //!
-//! In: the line. Out: its pieces, or what was expected where something else stands. Never here: what they mean.
+//! In: the line. Out: its pieces, or what was expected in place of something else. Never here: what they mean.
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
@@ -10,9 +10,9 @@ use crate::record::clock::{Micros, SECOND};
 
 /// A line that is read from left to right.
 pub(in crate::record) struct Line<'a> {
-    /// Without its comment and what is blank at its end.
+    /// The line without its comment and trailing blanks.
     text: &'a str,
-    /// Where the line begins in the script.
+    /// The offset of the line in the script.
     start: usize,
     at: usize,
 }
@@ -23,7 +23,7 @@ impl<'a> Line<'a> {
         Line { text: text.trim_end(), start, at: 0 }
     }
 
-    /// Where reading stands, as a byte of the script.
+    /// The current position, as a byte offset in the script.
     pub(super) fn here(&self) -> usize {
         self.start + self.at
     }
@@ -54,7 +54,7 @@ impl<'a> Line<'a> {
         Some(self.piece(from, self.at))
     }
 
-    /// The next word if it is this one.
+    /// Consumes the next word if it is this one.
     pub(super) fn take(&mut self, word: &str) -> bool {
         let before = self.at;
         let taken = self.word().is_some_and(|next| next.text == word);
@@ -64,7 +64,7 @@ impl<'a> Line<'a> {
         taken
     }
 
-    /// The next word, which must be there.
+    /// The next word, which is required.
     pub(super) fn need(&mut self, what: &str) -> Result<Text, Diagnostic> {
         self.word().ok_or_else(|| self.missing(what))
     }
@@ -75,18 +75,18 @@ impl<'a> Line<'a> {
         Diagnostic::error(end..end, format!("here {what} is missing"))
     }
 
-    /// Whether a text in quotes comes next.
+    /// Whether a quoted text comes next.
     pub(super) fn is_quoted(&mut self) -> bool {
         self.skip();
         self.text[self.at..].starts_with('"')
     }
 
-    /// A text in quotes, or a single word without.
+    /// A quoted text, or a single word without quotes.
     pub(super) fn name(&mut self, what: &str) -> Result<Text, Diagnostic> {
         if self.is_quoted() { self.quoted(what) } else { self.need(what) }
     }
 
-    /// A text in quotes; `\"` and `\\` stand for themselves.
+    /// A quoted text; `\"` and `\\` are the escapes.
     pub(super) fn quoted(&mut self, what: &str) -> Result<Text, Diagnostic> {
         self.skip();
         let (from, rest) = (self.at, &self.text[self.at..]);
@@ -123,7 +123,7 @@ impl<'a> Line<'a> {
         Err(Diagnostic::error(place, "this text has no end").with_help("put a \" behind it"))
     }
 
-    /// What is left of the line up to one of these words, which stand between blanks; at least one character.
+    /// The text up to one of these words, which must be surrounded by blanks; at least one character.
     pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<Text, Diagnostic> {
         self.skip();
         let from = self.at;
@@ -187,7 +187,7 @@ impl<'a> Line<'a> {
         })
     }
 
-    /// Nothing more stands on the line.
+    /// Requires that the line is finished.
     pub(super) fn end(&mut self, form: &str) -> Result<(), Diagnostic> {
         if self.is_over() {
             return Ok(());
@@ -198,7 +198,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Where the comment of a line begins: at a `#` outside quotes.
+/// The start of a comment: a `#` outside quotes.
 fn comment(text: &str) -> usize {
     let (mut quoted, mut escaped) = (false, false);
     for (at, character) in text.char_indices() {

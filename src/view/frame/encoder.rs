@@ -31,7 +31,7 @@ pub(super) struct Encoder {
     /// Whether the screen must be cleared first.
     clear: bool,
     /// Cells that did not fit in earlier frames, by row and column.
-    owed: BTreeMap<(u16, u16), Cell>,
+    pending: BTreeMap<(u16, u16), Cell>,
     /// The first of them to be written in the next frame.
     next: (u16, u16),
     cursor: Option<Position>,
@@ -47,7 +47,7 @@ impl Encoder {
             size: Size::default(),
             most: 0,
             clear: false,
-            owed: BTreeMap::new(),
+            pending: BTreeMap::new(),
             next: (0, 0),
             cursor: None,
         }
@@ -65,8 +65,8 @@ impl Encoder {
     }
 
     /// Whether cells remain to be written.
-    pub(super) fn owes(&self) -> bool {
-        !self.owed.is_empty()
+    pub(super) fn has_pending(&self) -> bool {
+        !self.pending.is_empty()
     }
 
     /// The position of the cursor, or `None` if it is hidden.
@@ -102,17 +102,17 @@ impl Encoder {
     }
 
     /// Writes the remaining cells, starting where the last frame stopped and wrapping around.
-    fn pay(&mut self) -> io::Result<()> {
-        let behind = self.owed.split_off(&self.next);
-        let before = std::mem::take(&mut self.owed);
+    fn write_pending(&mut self) -> io::Result<()> {
+        let behind = self.pending.split_off(&self.next);
+        let before = std::mem::take(&mut self.pending);
         for (place, cell) in behind.into_iter().chain(before) {
-            if self.owed.is_empty() && self.put(place, &cell)? {
+            if self.pending.is_empty() && self.put(place, &cell)? {
                 continue;
             }
-            if self.owed.is_empty() {
+            if self.pending.is_empty() {
                 self.next = place;
             }
-            self.owed.insert(place, cell);
+            self.pending.insert(place, cell);
         }
         Ok(())
     }
@@ -128,19 +128,19 @@ impl Backend for Encoder {
         if self.clear {
             self.pen()?;
         }
-        if self.owes() {
-            self.owed.extend(cells.map(|(x, y, cell)| ((y, x), cell.clone())));
-            return self.pay();
+        if self.has_pending() {
+            self.pending.extend(cells.map(|(x, y, cell)| ((y, x), cell.clone())));
+            return self.write_pending();
         }
         for (x, y, cell) in cells {
             let place = (y, x);
-            if self.owed.is_empty() && self.put(place, cell)? {
+            if self.pending.is_empty() && self.put(place, cell)? {
                 continue;
             }
-            if self.owed.is_empty() {
+            if self.pending.is_empty() {
                 self.next = place;
             }
-            self.owed.insert(place, cell.clone());
+            self.pending.insert(place, cell.clone());
         }
         Ok(())
     }
@@ -174,7 +174,7 @@ impl Backend for Encoder {
 
     fn clear_region(&mut self, region: ClearType) -> io::Result<()> {
         if region == ClearType::All {
-            self.owed.clear();
+            self.pending.clear();
             self.clear = true;
             return Ok(());
         }

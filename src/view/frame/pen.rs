@@ -53,7 +53,7 @@ impl Pen {
     /// Writes a cell of a screen with `width` columns.
     pub(super) fn put(&mut self, out: &mut Vec<u8>, (x, y): (u16, u16), cell: &Cell, width: u16) {
         self.go(out, x, y);
-        self.dip(out, cell);
+        self.set_style(out, cell);
         let symbol = cell.symbol();
         out.extend(symbol.as_bytes());
         // Terminals disagree on the width of symbols with several characters, and on the cursor's position after the last
@@ -86,15 +86,15 @@ impl Pen {
         let mut ways = vec![place(x, y)];
         if (row..=row + FEEDS).contains(&y) {
             let feeds = vec![b'\n'; usize::from(y - row)];
-            let aside = if x >= column { forward(x - column) } else { back(column - x) };
-            ways.push([feeds.clone(), aside].concat());
+            let sideways = if x >= column { forward(x - column) } else { back(column - x) };
+            ways.push([feeds.clone(), sideways].concat());
             ways.push([b"\r".to_vec(), feeds, forward(x)].concat());
         }
         out.extend(ways.into_iter().min_by_key(Vec::len).unwrap_or_default());
     }
 
     /// Switches to the style of a cell.
-    fn dip(&mut self, out: &mut Vec<u8>, cell: &Cell) {
+    fn set_style(&mut self, out: &mut Vec<u8>, cell: &Cell) {
         let mut ink = CellStyle { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
         if let (" ", Some(now)) = (cell.symbol(), self.ink) {
             let seen = ink.modifier & ON_BLANKS;
@@ -148,14 +148,14 @@ fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
 /// The SGR parameters that change one style into another.
 fn change(from: CellStyle, to: CellStyle) -> Vec<u16> {
     let mut numbers = Vec::new();
-    let mut kept = from.modifier;
+    let mut remaining = from.modifier;
     for (modifier, _, off) in MODIFIERS {
-        if (kept - to.modifier).contains(modifier) {
+        if (remaining - to.modifier).contains(modifier) {
             numbers.push(off);
-            MODIFIERS.iter().filter(|m| m.2 == off).for_each(|m| kept.remove(m.0));
+            MODIFIERS.iter().filter(|m| m.2 == off).for_each(|m| remaining.remove(m.0));
         }
     }
-    numbers.extend(sgr::weights(to.modifier - kept));
+    numbers.extend(sgr::weights(to.modifier - remaining));
     for (old, new, ground) in [(from.fg, to.fg, FOREGROUND), (from.bg, to.bg, BACKGROUND)] {
         if old != new {
             numbers.extend(sgr::colour(new, ground));

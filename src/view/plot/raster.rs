@@ -111,7 +111,7 @@ struct Cell {
 pub struct Raster {
     area: Rect,
     glyphs: Glyphs,
-    spots: Vec<Cell>,
+    cells: Vec<Cell>,
 }
 
 impl Raster {
@@ -119,19 +119,19 @@ impl Raster {
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let area =
             Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
-        let cells = usize::from(area.width) * usize::from(area.height);
-        Self { area, glyphs, spots: vec![Cell::default(); cells] }
+        let count = usize::from(area.width) * usize::from(area.height);
+        Self { area, glyphs, cells: vec![Cell::default(); count] }
     }
 
     /// The number of dots set.
     pub fn count(&self) -> usize {
-        self.spots.iter().map(|spot| spot.dots.count_ones() as usize).sum()
+        self.cells.iter().map(|cell| cell.dots.count_ones() as usize).sum()
     }
 
     /// Adds the dots of another raster of the same area; styles are ignored.
     pub fn absorb(&mut self, other: &Self) {
-        for (spot, other) in self.spots.iter_mut().zip(&other.spots) {
-            spot.dots |= other.dots;
+        for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
+            cell.dots |= other.dots;
         }
     }
 
@@ -143,15 +143,15 @@ impl Raster {
             let column = i % wide;
             let reach = usize::from(self.glyphs.is_ascii());
             let [from, to] = [i - column.min(reach), i + reach.min(wide - 1 - column)];
-            other.spots[from..=to].iter().any(|spot| spot.dots != 0)
+            other.cells[from..=to].iter().any(|cell| cell.dots != 0)
         };
-        let inked = || (0..self.spots.len()).filter(|i| self.spots[*i].dots != 0);
+        let inked = || (0..self.cells.len()).filter(|i| self.cells[*i].dots != 0);
         inked().filter(|i| near(*i)).count() as f64 / inked().count().max(1) as f64
     }
 
     /// Whether a dot is set; `[0, 0]` is at the upper left.
     pub fn is_set(&self, [x, y]: [i32; 2]) -> bool {
-        self.place([x, y]).is_some_and(|(cell, bit)| self.spots[cell].dots & bit != 0)
+        self.place([x, y]).is_some_and(|(index, bit)| self.cells[index].dots & bit != 0)
     }
 
     /// The number of dots: columns, rows.
@@ -207,7 +207,7 @@ impl Raster {
     pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
         let size = self.size();
         for point in points {
-            let place = spot_of(frame, point, size);
+            let place = position(frame, point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
                 self.dot(std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1)), pen);
             }
@@ -227,63 +227,63 @@ impl Raster {
 
     /// Draws a marker in the cell of a point, above the dots of its own layer and of all layers below.
     pub fn marker(&mut self, frame: &Frame, point: [f64; 2], marker: Marker, pen: &Pen) {
-        let Some(cell) = frame.cell(point) else { return };
+        let Some(at) = frame.cell(point) else { return };
         let sign = marker.symbol(self.glyphs);
-        let (column, row) = (cell.x.wrapping_sub(self.area.x), cell.y.wrapping_sub(self.area.y));
+        let (column, row) = (at.x.wrapping_sub(self.area.x), at.y.wrapping_sub(self.area.y));
         if column >= self.area.width || row >= self.area.height {
             return;
         }
-        let spot =
-            &mut self.spots[usize::from(row) * usize::from(self.area.width) + usize::from(column)];
+        let cell =
+            &mut self.cells[usize::from(row) * usize::from(self.area.width) + usize::from(column)];
         let rank = (pen.layer, true, pen.fresh);
-        if rank >= spot.rank {
-            *spot = Cell { sign: Some(sign), rank, style: pen.style, ..*spot };
+        if rank >= cell.rank {
+            *cell = Cell { sign: Some(sign), rank, style: pen.style, ..*cell };
         }
     }
 
     /// Copies the dots to the screen. Cells without dots do not change, and neither does the background.
     pub fn draw(&self, buffer: &mut Buffer) {
         let width = usize::from(self.area.width);
-        for (index, spot) in self.spots.iter().enumerate() {
-            let symbol = match (spot.sign, self.glyphs) {
+        for (index, cell) in self.cells.iter().enumerate() {
+            let symbol = match (cell.sign, self.glyphs) {
                 (Some(sign), _) => sign,
-                (None, _) if spot.dots == 0 => continue,
-                (None, Glyphs::Braille) => braille(spot.dots),
-                (None, Glyphs::HalfBlock) => half_block(spot.dots),
-                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(spot.dots & 0xf)],
-                (None, Glyphs::Sextant) => SEXTANTS[usize::from(spot.dots & 0x3f)],
-                (None, Glyphs::Octant) => OCTANTS[usize::from(spot.dots)],
-                (None, Glyphs::Ascii) => letter(spot.upper),
+                (None, _) if cell.dots == 0 => continue,
+                (None, Glyphs::Braille) => braille(cell.dots),
+                (None, Glyphs::HalfBlock) => half_block(cell.dots),
+                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(cell.dots & 0xf)],
+                (None, Glyphs::Sextant) => SEXTANTS[usize::from(cell.dots & 0x3f)],
+                (None, Glyphs::Octant) => OCTANTS[usize::from(cell.dots)],
+                (None, Glyphs::Ascii) => letter(cell.upper),
             };
             let x = u32::from(self.area.x) + (index % width) as u32;
             let y = u32::from(self.area.y) + (index / width) as u32;
             let (Ok(x), Ok(y)) = (u16::try_from(x), u16::try_from(y)) else { continue };
-            if let Some(cell) = buffer.cell_mut((x, y)) {
+            if let Some(shown) = buffer.cell_mut((x, y)) {
                 // The old modifiers are removed with the old character.
-                let background = cell.bg;
-                cell.reset();
-                cell.set_char(symbol).set_bg(background).set_style(spot.style);
+                let background = shown.bg;
+                shown.reset();
+                shown.set_char(symbol).set_bg(background).set_style(cell.style);
             }
         }
     }
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
-        let Some((cell, bit)) = self.place(dot) else { return };
+        let Some((index, bit)) = self.place(dot) else { return };
         // A character in ASCII is drawn whole or not at all; its parts are not thinned.
         let [wide, high] = if self.glyphs.is_ascii() { self.cell() } else { [1, 1] };
         if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
             return;
         }
-        let spot = &mut self.spots[cell];
-        spot.dots |= bit;
+        let cell = &mut self.cells[index];
+        cell.dots |= bit;
         let rank = (pen.layer, false, pen.fresh);
-        if pen.layer >= spot.rank.0 {
-            spot.upper = if pen.layer > spot.rank.0 { bit } else { spot.upper | bit };
+        if pen.layer >= cell.rank.0 {
+            cell.upper = if pen.layer > cell.rank.0 { bit } else { cell.upper | bit };
         }
-        if rank >= spot.rank {
-            spot.rank = rank;
-            spot.style = pen.style;
-            spot.sign = sign;
+        if rank >= cell.rank {
+            cell.rank = rank;
+            cell.style = pen.style;
+            cell.sign = sign;
         }
     }
 
@@ -299,16 +299,16 @@ impl Raster {
         if !(0..wide).contains(&x) || !(0..high).contains(&y) {
             return None;
         }
-        let (across, down) = self.glyphs.dots();
-        let (across, down) = (usize::from(across), usize::from(down));
+        let (columns, rows) = self.glyphs.dots();
+        let (columns, rows) = (usize::from(columns), usize::from(rows));
         let (x, y) = (x as usize, y as usize);
-        let cell = y / down * usize::from(self.area.width) + x / across;
-        Some((cell, 1 << (y % down * across + x % across)))
+        let cell = y / rows * usize::from(self.area.width) + x / columns;
+        Some((cell, 1 << (y % rows * columns + x % columns)))
     }
 }
 
 /// The position of a point in dots, with y downwards; NaN if a coordinate is not finite.
-fn spot_of(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
+fn position(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
     let fraction = |scale: &Scale, value: f64| {
         if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
     };

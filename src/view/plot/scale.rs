@@ -165,7 +165,7 @@ fn usable(lo: f64, hi: f64) -> (f64, f64) {
 pub struct Frame {
     /// The horizontal axis.
     pub x: Scale,
-    /// The vertical axis, growing upwards.
+    /// The vertical axis; values increase towards the top.
     pub y: Scale,
     /// The cells that they cover.
     pub area: Rect,

@@ -125,8 +125,8 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
         step = step.next();
         (first, last) = span(step);
     }
-    // A coarse step may leave only one tick in the range, which does not show its scale. Then the ticks of a finer step are
-    // used: every one, or every second or third.
+    // A coarse step may leave only one tick in the range, which does not show its scale. Then the ticks of a finer
+    // step are used: every one, or every second or third.
     let fewest = most.min(2) as f64;
     while last - first + 1.0 < fewest && first.abs() < 1e15 {
         step = step.previous();

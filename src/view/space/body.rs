@@ -57,7 +57,7 @@ impl Outline {
         let inertia = body.names.inertia.map(|symbol| DoubleDouble::from(now.at(symbol)));
         let (_, axes) = principal(&inertia);
         outline.axes = axes.map(|axis| vec![[0.0; 3], axis.map(|n| reach * n)]).to_vec();
-        Some(outline.standing(q))
+        Some(outline.rotated(q))
     }
 
     /// The distance of the farthest part from the centre of mass.
@@ -68,18 +68,18 @@ impl Outline {
     }
 
     /// Rotates the outline from the body's axes to those of space, by the transpose of A.
-    fn standing(self, q: &Quantities<'_>) -> Self {
+    fn rotated(self, q: &Quantities<'_>) -> Self {
         let channels = q.lab.loaded.system.channels();
         let entry = |i: usize| {
             let place = channels.iter().position(|c| c.kind == ChannelKind::Attitude(i));
             place.map(|place| q.value(place))
         };
         let Some(a) = (0..9).map(entry).collect::<Option<Vec<f64>>>() else { return self };
-        let stand = |b: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|i| a[3 * i + k] * b[i]).sum());
+        let rotate = |b: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|i| a[3 * i + k] * b[i]).sum());
         let all = |lines: Vec<Line>| {
-            lines.into_iter().map(|line| line.into_iter().map(stand).collect()).collect()
+            lines.into_iter().map(|line| line.into_iter().map(rotate).collect()).collect()
         };
-        let points = self.points.into_iter().map(stand).collect();
+        let points = self.points.into_iter().map(rotate).collect();
         Self { edges: all(self.edges), axes: all(self.axes), points }
     }
 }

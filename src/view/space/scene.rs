@@ -24,8 +24,8 @@ type Span3 = [[f64; 3]; 2];
 impl Scene {
     /// The scene of a lab.
     ///
-    /// A rod (a line of constant length) may swing around one of its ends. The box contains its whole circle from the start,
-    /// so that the picture does not shrink during the first swing.
+    /// A rod (a line of constant length) may swing around one of its ends. The box contains its whole circle from the
+    /// start, so that the picture does not shrink during the first swing.
     pub(super) fn of(
         q: &Quantities<'_>,
         eye: CameraPose,
@@ -34,7 +34,7 @@ impl Scene {
         let mut scene = Self { bounds: Bounds::EMPTY };
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {
-            scene.hold(q, shape, rod, &mut reached);
+            scene.include(q, shape, rod, &mut reached);
         }
         if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
             scene.bounds = Bounds::around(reference_frame.around(q, ends));
@@ -56,7 +56,7 @@ impl Scene {
         scene
     }
 
-    fn hold(
+    fn include(
         &mut self,
         q: &Quantities<'_>,
         shape: &Shape,
@@ -168,7 +168,7 @@ fn grown([low, high]: Span3, by: f64, flat: bool) -> Span3 {
 /// The points of a circle about an axis.
 pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
     let sides = 96;
-    let [u, v] = across(normal);
+    let [u, v] = perpendicular(normal);
     let point = |side: i32| {
         let (sin, cos) = math::sin_cos(f64::from(side) * TAU / f64::from(sides));
         [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
@@ -178,7 +178,7 @@ pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f6
 
 /// The outline of a square with the given normal and edge.
 pub(super) fn square(centre: [f64; 3], normal: [f64; 3], edge: f64) -> Vec<[f64; 3]> {
-    let [u, v] = across(normal);
+    let [u, v] = perpendicular(normal);
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
     let corner =
         |(a, b): (f64, f64)| [0, 1, 2].map(|k| centre[k] + edge / 2.0 * (a * u[k] + b * v[k]));
@@ -186,7 +186,7 @@ pub(super) fn square(centre: [f64; 3], normal: [f64; 3], edge: f64) -> Vec<[f64;
 }
 
 /// Two unit vectors orthogonal to a normal and to each other; for a zero normal, those of the x–y plane.
-fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
+fn perpendicular(normal: [f64; 3]) -> [[f64; 3]; 2] {
     let length = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
     if !length.is_finite() || length == 0.0 {
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

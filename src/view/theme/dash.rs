@@ -54,8 +54,8 @@ impl Dash {
         dots[place.rem_euclid(dots.len() as i32) as usize] == b'#'
     }
 
-    /// The character for the line in ASCII, in which patterns cannot be drawn; `None` for the solid line, which is drawn by
-    /// its shape.
+    /// The character for the line in ASCII, in which patterns cannot be drawn; `None` for the solid line, which is
+    /// drawn by its shape.
     pub fn letter(self) -> Option<char> {
         match self {
             Self::Full => None,

@@ -1,4 +1,4 @@
-//! What a file says of brackets, true and false.
+//! A file's claims about brackets, true and false.
 
 use phaselab::claims::false_claims;
 use phaselab::mechanics::derive;
@@ -14,7 +14,7 @@ fn claim(model: &mut Model, f: &str, g: &str, is: &str) {
     model.expect.brackets.push(ExpectedBracket { f, g, is, written, source, place });
 }
 
-/// What is reported of one claim; empty where it holds.
+/// The report on one claim; empty if the claim is true.
 fn told(mut model: Model, f: &str, g: &str, is: &str) -> String {
     claim(&mut model, f, g, is);
     let equations = derive(&model).expect("derivable");
@@ -52,7 +52,7 @@ fn what_no_proof_is_found_for_is_held_against_twenty_points() {
     assert_eq!(told(oscillator(), "x", "p_x*exp(ln(1 + x^2))", "1 + x^2"), "");
     let wrong = told(oscillator(), "x", "p_x*exp(ln(1 + x^2))", "1 + x^2 + 1e-8*y");
     assert!(wrong.contains("is not what this says"), "{wrong}");
-    // out of the domain of the whole phase space there is nothing to see
+    // outside the domain of both expressions nothing can be evaluated
     let nowhere = told(oscillator(), "x*ln(-1 - x^2)", "p_x*ln(-1 - y^2)", "3");
     assert!(nowhere.contains("it has no value near the start"), "{nowhere}");
 }

@@ -1,4 +1,4 @@
-//! Questions typed by a person: brackets and conserved quantities, against what the textbook says of them.
+//! Questions typed by the user: brackets and conserved quantities, compared with textbooks.
 
 use phaselab::analysis::{Answer, Inquiry};
 use phaselab::expr::{Symbol, Zero};
@@ -67,12 +67,12 @@ fn one_expression_alone_asks_whether_it_is_conserved() {
     let momentum = at(symbol("p_x")) / at(symbol("m"));
     let value = inquiry.value(&at).unwrap();
     assert!([velocity, momentum].contains(&value), "{value} {}", names(symbol("x'")));
-    // friction takes the energy, though [H, H] = 0
+    // friction dissipates the energy, though [H, H] = 0
     let slowed = system("[lagrangian]\nL = \"m/2*(x'^2 + y'^2)\"\ndissipation = \"k/2*x'^2\"\n");
     assert_eq!(class(&slowed, "H"), Class::Changing);
     assert_eq!(class(&slowed, "p_y"), Class::Proved);
     assert_eq!(ask(&slowed, "H, H").answer.vanishes(), Zero::Proved);
-    // a constraint keeps what its bracket with H does not
+    // a constraint can conserve a quantity whose bracket with H does not vanish
     let held = system(
         "[lagrangian]\nL = \"m/2*(x'^2 + y'^2) - k*y\"\n[[constraints]]\nname = 'rod'\n\
          expression = 'x^2 + y^2 - 1'\n",

@@ -5,7 +5,7 @@ use phaselab::system::Form;
 
 use crate::hand::loaded;
 
-/// The landscape of a preset about a motion, with some parameters set.
+/// The landscape of a preset with some parameters set, around a given range of the motion.
 fn survey(name: &str, set: &[(&str, f64)], form: Form, motion: [[f64; 2]; 2]) -> Landscape {
     let loaded = loaded(name, 1);
     let mut parameters = loaded.model.parameter_values();
@@ -24,7 +24,7 @@ fn greatest(curves: &[Vec<[f64; 2]>], axis: usize) -> f64 {
 
 #[test]
 fn the_pendulum_turns_over_beyond_its_separatrix() {
-    // The upright position is the saddle, and 2 m l √(g l) the greatest momentum of the curve through it.
+    // The upright position is the saddle, and 2 m l √(g l) is the greatest momentum of the curve through it.
     let (m, l, g) = (1.5, 0.8, 9.81);
     let set = [("m", m), ("l", l), ("g", g)];
     for (form, top) in

@@ -1,4 +1,4 @@
-//! Level curves: on the level, closed where they should be, through what is not a number nowhere.
+//! Level curves: they lie on the level, close where they should, and never cross a NaN.
 
 use phaselab::analysis::Grid;
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ fn a_circle_is_one_closed_curve_of_its_radius() {
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].first(), found[0].last());
     for [x, y] in &found[0] {
-        // Linear interpolation of a parabola with cells of 0.1 errs by at most h²/8 in the value.
+        // Linear interpolation of a parabola on cells of 0.1 has an error of at most h²/8 in the value.
         assert!((x * x + y * y - 1.0).abs() < 0.1 * 0.1 / 4.0, "{x} {y}");
     }
     let length: f64 =

@@ -1,4 +1,4 @@
-//! Verdicts on made-up drifts of every kind.
+//! Verdicts on artificial drifts of every kind.
 
 use phaselab::analysis::{Growth, History, Verdict, rounding_floor};
 
@@ -26,7 +26,7 @@ fn secular(verdict: &Verdict) -> Option<f64> {
     }
 }
 
-/// Even noise in [−1, 1), the same in every run (a linear congruence by Knuth's constants).
+/// Uniform noise in [−1, 1), the same in every run (a linear congruential generator with Knuth's constants).
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
     move || {
@@ -74,13 +74,13 @@ fn what_swings_is_bounded_at_any_rate_and_shape() {
     }
     // short spikes, as at the pericentre of a narrow ellipse
     assert_eq!(verdict(6000, |t| 1e-3 / (1.0 + 400.0 * t.sin().powi(2))), Verdict::Bounded);
-    // two rates that never meet, and noise above the floor
+    // two incommensurable frequencies, and noise above the floor
     assert_eq!(verdict(6000, |t| 1e-6 * (t.sin() + (2_f64.sqrt() * t).sin())), Verdict::Bounded);
     let mut white = noise();
     assert_eq!(verdict(6000, |_| 1e-9 * white()), Verdict::Bounded);
 }
 
-/// A value that was lost once is not bounded: it does not swing, and it does not come back.
+/// A value that moves to another level once is not bounded: it neither oscillates nor returns.
 #[test]
 fn what_leaves_for_another_level_is_secular() {
     for start in [3.0, 100.0, 300.0, 500.0] {
@@ -91,7 +91,7 @@ fn what_leaves_for_another_level_is_secular() {
         assert_eq!(secular(&verdict(6000, uneven)).is_some(), start > 50.0, "{start}");
     }
     assert!(secular(&verdict(6000, |t| -1e-5 * (1.0 - (-t / 10.0).exp()))).unwrap() < 0.0);
-    // an uneven loss: much, a little, much
+    // a loss that alternates between much and little
     let lost = |t: f64| {
         [(40.0, 3.0), (220.0, 0.3), (430.0, 4.0)]
             .iter()
@@ -103,7 +103,7 @@ fn what_leaves_for_another_level_is_secular() {
     assert!(secular(&verdict(6000, uneven)).is_some_and(|rate| rate < 0.0));
 }
 
-/// What swings unevenly about a level is bounded, however it begins.
+/// An uneven oscillation about a level is bounded, whatever its beginning.
 #[test]
 fn what_begins_at_its_extreme_and_stays_away_is_bounded() {
     let swing = |t: f64| 1.0 + 0.5 * t.sin() + 0.3 * (2.7 * t).sin() * (0.31 * t).cos();
@@ -129,7 +129,7 @@ fn a_trend_is_found_under_a_swing_ten_times_its_size() {
     let found = verdict(6000, |t| 1e-8 * t + 6e-5 * (2.0 * t).sin());
     let slope = secular(&found).expect("600 time units of 1e-8 against 6e-5");
     assert!((slope / 1e-8 - 1.0).abs() < 0.05, "{slope}");
-    // the same swing without the trend has none
+    // the same oscillation without the trend has none
     assert_eq!(verdict(6000, |t| 6e-5 * (2.0 * t).sin()), Verdict::Bounded);
 }
 
@@ -175,7 +175,7 @@ fn the_floor_rises_like_brouwers_walk() {
     assert!((9.0..10.1).contains(&ratio), "{ratio}");
 }
 
-/// The verdict on 8192 values, 64 to a stretch: what changes its sign with every value has no mean there.
+/// The verdict on 8192 values, 64 to an interval: values that alternate in sign have zero mean in it.
 fn alternating(swing: f64, of: impl Fn(f64) -> f64) -> Verdict {
     let mut sign = -1.0;
     verdict(8192, |t| {
@@ -184,7 +184,7 @@ fn alternating(swing: f64, of: impl Fn(f64) -> f64) -> Verdict {
     })
 }
 
-/// A mean rises by 0.75 s from the first quarter to the last; within a quarter the values swing by 2 + 0.25 s.
+/// The mean rises by 0.75 s from the first quarter to the last; within a quarter the values vary by 2 + 0.25 s.
 #[test]
 fn a_rise_of_a_hundredth_of_the_swing_is_a_trend() {
     let total = |share: f64| 2.0 * share / (0.75 - 0.25 * share);
@@ -192,7 +192,7 @@ fn a_rise_of_a_hundredth_of_the_swing_is_a_trend() {
     assert_eq!(alternating(1.0, |t| total(0.0095) * t), Verdict::Bounded);
 }
 
-/// The means of stretches lie one up, one down: six of their standard errors in a quarter of 31 are 1.08.
+/// The means of the intervals alternate: six of their standard errors in a quarter of 31 are 1.08.
 #[test]
 fn a_rise_clears_the_scatter() {
     let scattered = |rise: f64| {
@@ -207,7 +207,7 @@ fn a_rise_clears_the_scatter() {
     assert_eq!(scattered(0.9), Verdict::Bounded);
 }
 
-/// The least values rise by 0.3, the greatest by a part of that.
+/// The minima rise by 0.3, the maxima by a fraction of that.
 #[test]
 fn both_extremes_rise_with_a_trend() {
     let drawn = |part: f64| {
@@ -222,7 +222,7 @@ fn both_extremes_rise_with_a_trend() {
     assert_eq!(drawn(0.09), Verdict::Bounded);
 }
 
-/// In the middle half the rise is a part of what it is at the ends.
+/// In the middle half the rise is a fraction of what it is at the ends.
 #[test]
 fn a_trend_does_not_rest() {
     let resting = |part: f64| {
@@ -236,7 +236,7 @@ fn a_trend_does_not_rest() {
     assert_eq!(resting(0.13), Verdict::Bounded);
 }
 
-/// A jump in the middle of a swing of 2.
+/// A jump in the middle of an oscillation of 2.
 #[test]
 fn a_level_that_is_left_lies_more_than_a_swing_away() {
     let jump = |height: f64| alternating(1.0, move |t| if t < 0.5 { 0.0 } else { height });
@@ -259,7 +259,7 @@ fn seventeen_stretches_are_enough() {
     assert_ne!(verdict(17, |t| t), Verdict::Open);
 }
 
-/// What is looked at a thousand times as often in one part of the time weighs no more there.
+/// A thousand times as many samples in one part of the time do not give that part more weight.
 #[test]
 fn stretches_are_of_time_and_not_of_looks() {
     let mut history = History::new();

@@ -1,4 +1,4 @@
-//! The editor: a text, keys, the text after them.
+//! The editor: a text, keys, and the resulting text.
 
 use phaselab::app::{Caret, Editor};
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use crate::hand::key;
 
 const LIMIT: usize = 1 << 20;
 
-/// Presses keys written as words; `|` in a text is where the cursor stands.
+/// Presses keys written as words; `|` marks the cursor in a text.
 fn check(before: &str, keys: &str, after: &str) {
     let mut editor = at(before);
     for word in keys.split_whitespace() {
@@ -155,7 +155,7 @@ const KEYS: [&str; 22] = [
 ];
 
 proptest! {
-    /// Whatever was done can all be taken back, and done again; nothing panics on the way.
+    /// Every edit can be undone and redone, and nothing panics.
     #[test]
     fn everything_is_taken_back(
         text in "[aé\n ]{0,12}(\r\n)?",

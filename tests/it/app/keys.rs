@@ -1,4 +1,4 @@
-//! The table of keys: no twins, and nothing in it that does nothing.
+//! The table of keys: no duplicates, and no key without an action.
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -32,7 +32,7 @@ fn every_place_is_in_a_chain_and_in_the_help() {
     }
 }
 
-/// Some states in which the keys of a place hold; between them every key there finds something to do.
+/// States in which a context's keys are active; each key has an effect in at least one of them.
 fn states(place: Place) -> &'static [App] {
     static STATES: OnceLock<Vec<Vec<App>>> = OnceLock::new();
     let states = STATES.get_or_init(|| Place::ALL.into_iter().map(states_made).collect());
@@ -90,7 +90,7 @@ fn states_made(place: Place) -> Vec<App> {
     }
 }
 
-/// The ball on the merry-go-round, its first picture focused.
+/// The ball on the merry-go-round, with its first picture focused.
 fn with_frame() -> App {
     let loaded = loaded("merry-go-round", 1);
     let mut app = in_lab();
@@ -101,7 +101,7 @@ fn with_frame() -> App {
     app
 }
 
-/// What a person sees of an application, fact by fact.
+/// The visible facts about an application.
 fn facts(app: &App) -> Vec<(String, String)> {
     let mut facts = Vec::new();
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
@@ -166,7 +166,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     facts
 }
 
-/// What a key does to an application: what is asked for, and which facts change.
+/// The outcome of a key: the effects requested and the facts changed.
 fn outcome(app: &mut App, act: impl FnOnce(&mut App) -> Vec<Effect>) -> String {
     let before = facts(app);
     let effects = act(app);
@@ -180,8 +180,8 @@ fn outcome(app: &mut App, act: impl FnOnce(&mut App) -> Vec<Effect>) -> String {
     asked.chain(changed).collect::<Vec<_>>().join("; ")
 }
 
-/// The table of keys beside what each of them does in a state where it means something, in `tests/screens/keys.txt`.
-/// `PHASELAB_BLESS=1 cargo test app::keys` writes it anew; look at what changed before you commit it.
+/// The table of keys with the effect of each in a state where it has one, in `tests/screens/keys.txt`.
+/// `PHASELAB_BLESS=1 cargo test app::keys` rewrites it; review the changes before you commit them.
 #[test]
 fn every_key_in_the_table_does_what_is_written() {
     let mut table = String::new();
@@ -193,7 +193,7 @@ fn every_key_in_the_table_does_what_is_written() {
                 outcome(&mut app, |app| app.update(Event::Key(key)))
             });
             let found: Vec<String> = outcomes.filter(|outcome| !outcome.is_empty()).collect();
-            // A state in which it can do something says more than one in which it says that it cannot.
+            // An outcome with an effect is preferred to a message that there is none.
             let done = found.iter().find(|outcome| !outcome.starts_with("told "));
             done.or(found.first()).cloned().unwrap_or_default()
         };
@@ -215,7 +215,7 @@ fn every_key_in_the_table_does_what_is_written() {
     assert!(table == meant, "a key has changed what it does: {wrong:?}");
 }
 
-/// The palette of an application.
+/// Opens the palette of an application.
 fn palette(app: &App) -> (App, Menu) {
     let mut app = app.clone();
     press(&mut app, ":");

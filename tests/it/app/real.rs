@@ -1,4 +1,4 @@
-//! The application on a real experiment: what a key asks for is done, and what then is seen is reported.
+//! The application with a real experiment: requests are carried out, and their results are sent back.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use ratatui::layout::Rect;
 use crate::cases;
 use crate::hand::{catalog, key, loaded};
 
-/// A frame, in seconds.
+/// The length of a frame in seconds.
 const FRAME: f64 = 1.0 / 60.0;
 
-/// A lab and the experiment it looks at.
+/// A lab and its experiment.
 pub(crate) struct Real {
     pub(crate) app: App,
     pub(crate) experiment: Experiment,
@@ -27,7 +27,7 @@ impl Real {
         Self::with(loaded(name, 1))
     }
 
-    /// The lab of a system with an experiment on it.
+    /// Opens the lab of a system with an experiment.
     pub(crate) fn with(loaded: Loaded) -> Self {
         let setup = Setup::of(&loaded.model);
         let Loaded { model, equations, system, .. } = &loaded;
@@ -44,7 +44,7 @@ impl Real {
         self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
     }
 
-    /// Does what was asked for.
+    /// Carries out the requested effects.
     pub(crate) fn execute(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             if let Effect::Tell(command) = effect {
@@ -73,14 +73,14 @@ impl Real {
         self.app.snapshot().unwrap()
     }
 
-    /// Goes on by some frames.
+    /// Advances by some frames.
     pub(crate) fn run(&mut self, frames: u32) {
         let time = self.experiment.time() + f64::from(frames) * FRAME * self.experiment.speed();
         self.experiment.advance(time, u64::MAX);
         self.look();
     }
 
-    /// All that can be undone, as text.
+    /// Everything that can be undone, as text.
     fn state(&self) -> String {
         let (lab, seen) = (self.lab(), self.seen());
         let values: Vec<_> = (0..lab.count(ValueId::Parameter))
@@ -99,11 +99,11 @@ impl Real {
         )
     }
 
-    /// Everything that is seen of the motion from its beginning to a second later, as text.
+    /// Everything visible of the motion from its beginning to a second later, as text.
     fn motion(mut self) -> String {
         self.press("r");
         self.run(60);
-        // `auto` chose this method; it is the same one by its own name.
+        // `auto` chose this method; it is the same one under its own name.
         format!("{:?}", self.seen()).replace("method: \"auto\"", "method: \"taylor\"")
     }
 }
@@ -149,7 +149,7 @@ fn a_reset_keeps_the_parameters_and_a_full_one_does_not() {
 
 #[test]
 fn a_new_reference_measures_drift_from_here_and_says_so() {
-    // Its energy drifts at once, so that there is something to be taken back.
+    // Its energy drifts at once, so that there is something to undo.
     let mut real = Real::of("pendulum");
     real.press(": m e t h o d Space r k 4 Enter s . 2 Enter");
     assert_eq!(real.seen().method.name, "rk4");
@@ -159,7 +159,7 @@ fn a_new_reference_measures_drift_from_here_and_says_so() {
     real.press("e");
     let gauge = &real.seen().gauges[0];
     assert_eq!((gauge.drift, gauge.max_drift, gauge.reference_time), (0.0, 0.0, time));
-    // The notice goes by itself; what the gauges measure from stays to be read.
+    // The notification disappears by itself; the reference time of the gauges remains visible.
     real.app.notice = None;
     for size in [(80, 24), (120, 40)] {
         let area = Rect::new(0, 0, size.0, size.1);
@@ -190,7 +190,7 @@ fn the_method_its_step_and_its_tolerance_are_taken_back() {
 
 #[test]
 fn a_value_given_back_follows_the_parameters_again() {
-    // What the file gives may depend on parameters; once a change is taken back it does so again.
+    // A file's value may depend on parameters; it does so again once a change is undone.
     let mut real = Real::of("pendulum");
     real.press("Tab Right u");
     assert!(real.seen().setup.overrides.is_empty(), "{:?}", real.seen().setup.overrides);
@@ -239,7 +239,7 @@ fn undo_and_redo_tell_what_went_where() {
     );
 }
 
-/// Edits of every kind, and the keys between them that lead there.
+/// Edits of every kind, and the keys that lead to them.
 const EDITS: [&str; 24] = [
     "Right",
     "Left",

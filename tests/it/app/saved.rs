@@ -1,4 +1,4 @@
-//! A session as data: the application goes on as it was left, and a rebuilt system is looked at as before.
+//! Sessions as data: the application is restored as it was left, and so is the view of a rebuilt system.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use phaselab::experiment::Command;
 
 use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
 
-/// A session as its file has it, read back.
+/// A session after writing and reading.
 fn kept(app: &App) -> Saved {
     let saved = app.saved().expect("a lab is open");
     let text = toml::to_string(&saved).expect("it can be written");
@@ -27,7 +27,7 @@ fn resumed(saved: Saved) -> (App, Vec<Effect>) {
 #[test]
 fn what_was_looked_at_is_looked_at_again() {
     let mut app = in_lab();
-    // a phase plot, looked at closer and from another place, with a cursor
+    // a phase plot, zoomed and panned, with a cursor
     press(&mut app, "Tab Tab Tab");
     press(&mut app, "+ + x Right c g z");
     let saved = kept(&app);
@@ -40,7 +40,7 @@ fn what_was_looked_at_is_looked_at_again() {
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
 }
 
-/// Who leaves by the list of systems goes on with the system that was left for it.
+/// A user who leaves by the list of systems can continue with the previous system.
 #[test]
 fn the_list_of_systems_keeps_what_was_left() {
     let mut app = in_lab();
@@ -48,7 +48,7 @@ fn the_list_of_systems_keeps_what_was_left() {
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Picker);
     assert_eq!(kept(&app), left);
-    // a system that is only previewed there is none of it
+    // a system that is only previewed is not part of it
     press(&mut app, "Down");
     app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
     assert_eq!(kept(&app), left);
@@ -88,7 +88,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     let mut app = opened(FILE);
     press(&mut app, "Tab Tab Tab + + x");
     let before = app.lab.as_ref().unwrap().clone();
-    // two observables more: the channels have other places now
+    // with two more observables the channels have other indices
     let text = format!("{FILE}[[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n");
     let effects = app.update(Event::Rebuilt(lowered(&text)));
     let lab = app.lab.as_ref().unwrap();

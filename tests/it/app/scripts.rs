@@ -1,4 +1,4 @@
-//! Scripts: keys pressed in the lab or the picker, where one then is, and what was asked for.
+//! Scripts: keys pressed in the lab or the picker, the resulting focus, and the effects requested.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use phaselab::experiment::Command;
 
 use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
 
-/// Where the keys go, in a few words.
+/// A short description of the focus.
 fn place(app: &App) -> String {
     let over = match &app.overlay {
         None => String::new(),
@@ -58,7 +58,7 @@ fn asked(effects: &[Effect]) -> String {
 
 #[test]
 fn scripts_in_the_lab() {
-    // Keys; where one then is; what the last word asked for.
+    // The keys, the resulting focus, and the effect of the last key.
     let scripts = [
         ("", "lab parameter 0", ""),
         ("Down", "lab parameter 1", ""),
@@ -124,7 +124,7 @@ fn scripts_in_the_lab() {
         ("Ctrl-l", "lab parameter 0", "Repaint"),
         (": m e t h o d Space r k 4 Enter s 0 . 5 Enter", "lab parameter 0", "StepSize(0.5)"),
         ("a Ctrl-u 1 e - 9 Enter", "lab parameter 0", "Tolerance(1e-9)"),
-        // The axes of a plot: time across, then θ̇ upwards; then p against θ again.
+        // The axes of a plot: time horizontally, then θ̇ vertically; then p against θ again.
         ("Tab Tab Tab v", "lab space + menu \"Along the axis\"", ""),
         ("Tab Tab Tab v Down Down Enter", "lab space + menu \"Upwards, against t\"", ""),
         ("Tab Tab Tab v Down Down Enter Down Enter", "lab time [1]", ""),
@@ -245,7 +245,7 @@ fn a_page_of_text_does_not_scroll_beyond_its_end() {
     assert_eq!(app.scroll, 0);
 }
 
-/// The lab with a free particle that so many impulses wait for, beside one that falls by itself.
+/// The lab with a free particle and one impulse per name applied on command, beside a scheduled one.
 pub(super) fn with_impulses(names: &[&str]) -> App {
     let impulse = |name: &&str| {
         format!("[[impulses]]\nname = '{name}'\nchange = {{ p_x = '1' }}\nabout = 'a {name}'\n")
@@ -273,12 +273,12 @@ fn an_impulse_is_struck_by_its_key_or_by_its_name() {
     assert_eq!(asked(&press(&mut app, "b")), "");
     assert!(app.notice.is_some_and(|notice| notice.text.contains("by themselves")));
     let mut app = with_impulses(&["push"]);
-    assert_eq!(asked(&press(&mut app, "b")), "Strike(1)");
+    assert_eq!(asked(&press(&mut app, "b")), "ApplyImpulse(1)");
     let mut app = with_impulses(&["push", "kick"]);
     assert_eq!(asked(&press(&mut app, "b")), "");
     assert!(place(&app).ends_with("+ menu \"Strike\""), "{}", place(&app));
-    assert_eq!(asked(&press(&mut app, "Down Enter")), "Strike(2)");
-    assert_eq!(asked(&press(&mut app, ": k i c k Enter")), "Strike(2)");
+    assert_eq!(asked(&press(&mut app, "Down Enter")), "ApplyImpulse(2)");
+    assert_eq!(asked(&press(&mut app, ": k i c k Enter")), "ApplyImpulse(2)");
 }
 
 #[test]

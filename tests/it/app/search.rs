@@ -1,10 +1,10 @@
-//! Searching: what is found among the systems and among the actions, and in which order.
+//! Searching: the systems and actions found, and their order.
 
 use phaselab::app::{App, Event, Overlay};
 
 use crate::hand::{at_picker, in_lab, press};
 
-/// The names of the systems that a search among them leaves.
+/// The names of the systems that match a search.
 fn systems(query: &str) -> Vec<String> {
     let mut app = at_picker();
     press(&mut app, "/");
@@ -13,7 +13,7 @@ fn systems(query: &str) -> Vec<String> {
     shown.into_iter().map(|index| app.picker.entries[index].name.clone()).collect()
 }
 
-/// The palette's lines for a search.
+/// The palette's items for a search.
 fn lines(app: &App, query: &str) -> Vec<String> {
     let mut app = app.clone();
     press(&mut app, ":");

@@ -5,7 +5,7 @@ use phaselab::experiment::Command;
 
 use crate::hand::{in_lab, press};
 
-/// Types a text into the field of the first parameter and accepts it: what was asked for, or what is wrong.
+/// Types a text into the field of the first parameter and accepts it; returns the effects and the error.
 fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
     let mut app = in_lab();
     press(&mut app, "Enter Ctrl-u");
@@ -66,7 +66,7 @@ fn steps_and_tolerances_must_be_positive() {
     }
 }
 
-/// Of what a method has no use for nothing is asked, and it is said what it has use for.
+/// A method asks only for the settings that it uses, and the others are refused with an explanation.
 #[test]
 fn a_method_is_asked_only_for_what_it_uses() {
     for (keys, told) in [

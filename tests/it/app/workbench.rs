@@ -1,4 +1,4 @@
-//! The workbench: keys, what is asked of the shell, and what its answers change. The answers are given by hand.
+//! The workbench: keys, the requests to the shell, and the results of its answers. The tests construct the answers.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ fn sheet(app: &App) -> &SourceBuffer {
     app.open_buffer().expect("the editor is open")
 }
 
-/// What the shell would answer to a check.
+/// The shell's answer to a check.
 fn checked(app: &App, effect: &Effect) -> Event {
     let Effect::Check { ticket, title, text } = effect else { panic!("{effect:?}") };
     assert!(app.awaits(*ticket));
@@ -33,7 +33,7 @@ fn checked(app: &App, effect: &Effect) -> Event {
     Event::Checked(Box::new(Checked { ticket: *ticket, outcome, took }))
 }
 
-/// Lets typing rest, answers the check that follows, and returns what is asked for then.
+/// Waits until typing pauses, answers the resulting check, and returns the effects that follow.
 fn rest(app: &mut App) -> Vec<Effect> {
     let effects = app.update(Event::Tick(Duration::from_millis(200)));
     let [effect @ Effect::Check { .. }] = effects.as_slice() else { panic!("{effects:?}") };
@@ -47,7 +47,7 @@ fn edited() -> App {
     app
 }
 
-/// Types in the place of the first of these words.
+/// Replaces the first occurrence of these words by typing.
 fn replace(app: &mut App, words: &str, with: &str) {
     press(app, "Ctrl-Home Ctrl-f Ctrl-u");
     app.update(Event::Paste(words.to_owned()));
@@ -104,7 +104,7 @@ fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
         line.chars().skip(flaw.from.column).take(flaw.to.column - flaw.from.column).collect();
     assert_eq!((word.as_str(), sheet(&app).state), ("thet", SheetState::Wrong));
     assert!(flaw.help.as_deref().is_some_and(|help| help.contains("theta")), "{flaw:?}");
-    // while the editor is closed a line tells of it
+    // while the editor is closed, a line reports it
     press(&mut app, "Esc");
     let banner = app.banner().expect("a banner");
     assert!(banner.contains("pendulum.toml:") && banner.contains("thet"), "{banner}");
@@ -177,7 +177,7 @@ fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back
     press(&mut app, "E");
     let again = app.update(Event::Tick(Duration::from_millis(1)));
     assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
-    // in the list of systems nothing is checked, and in the lab it goes on
+    // in the list of systems nothing is checked; in the lab, checks continue
     assert_eq!(press(&mut app, "Esc Esc"), []);
     assert_eq!(app.page, Page::Picker);
     assert_eq!(app.update(Event::Tick(Duration::from_millis(1))), [Effect::StopCheck]);
@@ -205,11 +205,11 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     assert!(!app.awaits(old.ticket));
     app.update(late);
     assert_eq!((sheet(&app).flaws.len(), sheet(&app).state), (0, SheetState::Changed));
-    // its own answer is still to come, and comes
+    // its own answer is still to come
     let own = checked(&app, &asked[0]);
     app.update(own);
     assert_eq!(sheet(&app).state, SheetState::Wrong);
-    // back at the first system, whose text is as it was left and is checked anew
+    // back at the first system, whose text is unchanged and is checked again
     app.update(Event::Loaded(Ok(pendulum())));
     press(&mut app, "E");
     assert!(sheet(&app).is_modified());
@@ -249,7 +249,7 @@ fn a_name_that_is_taken_is_asked_for_again() {
     assert!(app.overlay.is_none());
 }
 
-/// A file of one's own in the lab.
+/// A user's file in the lab.
 fn own_file() -> App {
     let text = &catalog().find("pendulum").unwrap().text;
     let (mut app, _) = App::new(catalog(), Some("./my.toml"));
@@ -341,7 +341,7 @@ fn what_is_not_saved_of_another_system_is_kept() {
     assert_eq!(sheet(&app).state, SheetState::Changed, "the system was loaded anew meanwhile");
 }
 
-/// Another start of the program, with the texts that were kept, and what is asked for once the system is there.
+/// Starts the program again with the saved texts; returns the effects once the system is there.
 fn started_again(app: &App, resumed: bool) -> (App, Vec<Effect>) {
     let (mut again, _) = App::new(catalog(), Some("pendulum"));
     again.workbench.put(app.unsaved());
@@ -362,7 +362,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     let left = app.saved().unwrap();
     assert!(left.edited);
     let (mut again, effects) = started_again(&app, true);
-    // the motion is that of the text, so it waits for it; and a session that ends now is the same
+    // the motion belongs to the text and waits for it; a session that ends now is unchanged
     assert_eq!(effects, []);
     assert_eq!(again.saved().unwrap().moment, left.moment);
     assert_eq!(rest(&mut again), [Effect::Tell(Command::TakeUp(Box::new(left.moment)))]);
@@ -393,7 +393,7 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     assert!(again.notice.as_ref().unwrap().text.contains("E goes to them"));
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
     assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");
-    // what is watched is the file, not the text
+    // the file is watched, not the text
     let text = again.lab.as_ref().unwrap().loaded.document.text.clone();
     again.update(Event::FileRead { text, asked: false });
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
@@ -419,7 +419,7 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
     let mut app = edited();
     press(&mut app, "x Backspace");
     let first = rest(&mut app);
-    // a snapshot of the new system from before it took the motion up
+    // a snapshot of the new system from before the motion was restored
     let early = Snapshot { epoch: 2, taken_up: false, ..snapshot(&pendulum(), 0.0) };
     app.update(Event::Snapshot(Arc::new(early)));
     assert!(app.snapshot().is_none(), "it is not shown");
@@ -458,7 +458,7 @@ fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
         assert!(app.notice.as_ref().unwrap().text.ends_with(lost));
         assert_eq!(press(&mut app, "q"), [Effect::Quit]);
     }
-    // it was to be kept, and could not
+    // saving it failed
     kept.stay();
     assert!(kept.notice.as_ref().unwrap().text.ends_with(lost));
     assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
@@ -489,7 +489,7 @@ fn saving_what_has_a_mistake_says_so() {
     let with = told(&app);
     assert!(with.starts_with("Saved: ./my.toml, with 1 mistake: "), "{with}");
     assert!(with.contains("thet"), "{with}");
-    // one that was saved before it was looked at
+    // one that was saved before it was checked
     replace(&mut app, "thet)", "thetta)");
     saved(&mut app);
     assert_eq!(told(&app), "Saved: ./my.toml");

@@ -1,4 +1,4 @@
-//! `bracket`: what it prints, for people and for programs.
+//! `bracket`: its output for people and for programs.
 
 use serde_json::json;
 

@@ -1,4 +1,4 @@
-//! `check`: mistakes of the text, and claims that are false.
+//! `check`: mistakes in the text, and false claims.
 
 use super::{PENDULUM, phaselab, with_file};
 
@@ -179,7 +179,7 @@ fn what_can_start_is_passed() {
     let l = |law: &str| format!("[lagrangian]\nL = \"{law}\"");
     let at_zero = "x = { initial = 0, velocity = 1 }";
     for law in [
-        // finite on the side that the motion takes, and at the start itself
+        // finite on the side that the motion takes, and at the start
         l("1/2*x'^2 - abs(x)"),
         l("1/2*x'^2 - 1/(x + 1e-3)"),
         l("-sqrt(1 - x'^2/1.0001)"),
@@ -193,7 +193,7 @@ fn what_can_start_is_passed() {
     }
 }
 
-/// A claim that would take for ever is given up after so many steps, with what it led to.
+/// A claim that would take forever is abandoned after a limited number of steps, with the result so far.
 #[test]
 fn a_claim_has_a_budget() {
     let stiff = "[lagrangian]\nL = \"1/2*x'^2 - 1e12*x^2\"\n[run]\nuntil = 1e6\n\
@@ -228,7 +228,7 @@ fn a_root_that_is_squared_away_is_reported() {
     assert!(!with_file(&kept, &["check", "system.toml"]).text().contains(said));
 }
 
-/// A claim is not true because the run ends before what makes it false; nor is its denial false.
+/// A claim is not true because the run ends before it becomes false; nor is its denial false.
 #[test]
 fn a_claim_that_holds_by_a_short_run_only_is_false() {
     let barrier = |rest: &str| {

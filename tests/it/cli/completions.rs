@@ -1,4 +1,4 @@
-//! Completions: scripts that their shells can read, and in bash what they then offer.
+//! Completions: scripts that their shells can read, and the completions that bash then offers.
 
 use std::fs;
 use std::process::Command;
@@ -22,7 +22,7 @@ fn every_shell_has_a_script_with_commands_and_options() {
     phaselab(&["completions", "csh"]).fails(2, &["csh", "bash"]);
 }
 
-/// Each shell that is here reads its script without a complaint.
+/// Every installed shell reads its script without an error.
 #[test]
 fn the_scripts_are_right_in_their_shells() {
     let folder = tempfile::tempdir().unwrap();
@@ -38,7 +38,7 @@ fn the_scripts_are_right_in_their_shells() {
     assert!(read > 0, "not even bash is here");
 }
 
-/// What bash offers for the last of these words.
+/// The completions that bash offers for the last of these words.
 fn offered(words: &[&str]) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     let script = folder.path().join("completion");

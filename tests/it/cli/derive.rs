@@ -1,4 +1,4 @@
-//! `derive`: the keys and the syntax that other programs read.
+//! `derive`: the keys and the syntax for other programs.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! `doctor`: what the terminal is taken for, and the card of glyphs.
+//! `doctor`: the detected abilities of the terminal, and the card of glyphs.
 
 use super::{done, phaselab, program};
 

@@ -1,4 +1,4 @@
-//! Exit codes: each row of the table has a case, and no other code comes.
+//! Exit codes: each row of the table has a case, and there are no other codes.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -8,10 +8,10 @@ use phaselab::cli::EXITS;
 
 use super::{PENDULUM, done, phaselab, program};
 
-/// Codes that a program without a terminal does not come to: `terminal::lab` and `terminal::page` have their cases.
+/// Codes that only occur on a terminal; `terminal::lab` and `terminal::page` test them.
 const ON_A_TERMINAL: [&str; 3] = ["101", "129", "131"];
 
-/// Runs on and on until it is told to end.
+/// Runs until it receives a signal.
 fn signalled(signal: &str) -> i32 {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
@@ -22,7 +22,7 @@ fn signalled(signal: &str) -> i32 {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    // the partial file is there once signals are watched for
+    // the partial file exists once signals are handled
     let deadline = Instant::now() + Duration::from_secs(60);
     while fs::read_dir(home.path()).unwrap().count() < 2 {
         assert!(Instant::now() < deadline, "no output within a minute");

@@ -1,7 +1,7 @@
-//! Help: what each command says of itself, word for word; and that its examples are right.
+//! Help: the text of each command, word for word, and the correctness of its examples.
 //!
-//! `tests/help` holds the text of each command at 80 columns; with `UPDATE_EXPECT=1` the texts are written anew, to
-//! be read and judged.
+//! `tests/help` contains the text of each command at 80 columns. `UPDATE_EXPECT=1` rewrites the texts; review them
+//! afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use phaselab::preset::Catalog;
 
 use super::phaselab;
 
-/// Every command with its words, the program itself first, each as wide as that.
+/// Every command with its words, the program itself first, with help of this width.
 fn commands(width: usize) -> Vec<(Vec<String>, Command)> {
     let mut whole = phaselab::cli::command().term_width(width);
     whole.build();
@@ -66,7 +66,7 @@ fn each_argument_says_what_it_is_for() {
     }
 }
 
-/// The lines below `Examples:`, for each command that does something by itself.
+/// The lines below `Examples:`, for each command without subcommands.
 fn examples() -> Vec<(Vec<String>, String)> {
     let mut all = Vec::new();
     for (words, command) in commands(80) {
@@ -74,14 +74,14 @@ fn examples() -> Vec<(Vec<String>, String)> {
         let lines = help.lines().skip_while(|line| *line != "Examples:").skip(1);
         let lines: Vec<String> =
             lines.take_while(|line| line.starts_with("  ")).map(|l| l.trim().to_owned()).collect();
-        // the commands below `config` have theirs in the help of `config`
+        // the subcommands of `config` have theirs in the help of `config`
         assert!(words.len() > 1 || !lines.is_empty(), "{words:?} has no examples");
         all.extend(lines.into_iter().map(|line| (words.clone(), line)));
     }
     all
 }
 
-/// A command line's words, up to where the shell takes over or a remark begins.
+/// A command line's words, up to a shell operator or a comment.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quote) = (Vec::new(), None::<String>, None);
     let mut characters = line.chars().peekable();

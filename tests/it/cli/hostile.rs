@@ -1,4 +1,4 @@
-//! Strangers' files, names and arguments: whatever they hold, no character that steers a terminal comes out of any command.
+//! Untrusted files, names and arguments: no command ever writes a character that controls a terminal.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,8 +10,8 @@ use phaselab::printable::is_steering;
 
 use super::{PENDULUM, program, with_file};
 
-/// One of each kind: a title set, a clipboard written, C1's CSI and DCS, DEL, an override and an isolate, what has no width,
-/// a separator of lines, the byte order mark, a tag.
+/// One of each kind: setting a title, writing the clipboard, C1's CSI and DCS, DEL, an override and an isolate, a
+/// character without width, a line separator, the byte order mark, a tag.
 const STEERING: &str = "\u{1b}]0;x\u{7}\u{1b}]52;c;eA\u{7}\u{9b}2J\u{90}q\u{9c}\u{7f}\u{8}\u{202e}\u{2066}\u{200b}\u{200d}\u{2028}\
                         \u{feff}\u{e0041}";
 
@@ -21,7 +21,7 @@ fn command(home: &Path) -> Command {
     command
 }
 
-/// Runs it and holds that nothing steers what it writes anywhere. It ends with one of these codes.
+/// Runs a command and asserts that its output contains no control characters and that it exits with one of these codes.
 #[track_caller]
 fn harmless(home: &Path, arguments: &[&OsStr], codes: &[i32]) -> Output {
     let output = command(home).args(arguments).output().unwrap();
@@ -43,12 +43,12 @@ fn words<'w>(words: &'w [&'w str]) -> Vec<&'w OsStr> {
     words.iter().map(OsStr::new).collect()
 }
 
-/// TOML's escapes for a text.
+/// Escapes a text for TOML.
 fn escaped(text: &str) -> String {
     text.chars().fold(String::new(), |text, c| text + &format!("\\U{:08x}", c as u32))
 }
 
-/// A file in which a text stands for each thing a person may write, in turn.
+/// Files in which the text appears in each possible place in turn.
 fn files(hostile: &str) -> Vec<String> {
     let place = |old: &str, new: &str| {
         assert!(FULL.contains(old), "{old}");
@@ -129,7 +129,7 @@ fn no_text_of_a_file_steers_the_terminal() {
     }
 }
 
-/// What a comment holds is nobody's business, until its line is shown for something else.
+/// The content of a comment does not matter until its line is shown because of another mistake.
 #[test]
 fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_place() {
     let home = tempfile::tempdir().unwrap();
@@ -195,7 +195,7 @@ fn no_name_of_a_file_steers_the_terminal() {
         &["script", "check"],
         &["config", "check"],
     ];
-    // it is not there; it is a folder's; it is wrong; it is right
+    // the file is missing, or a folder, or wrong, or correct
     for before in commands {
         call(before, &name, &[2]);
     }
@@ -250,7 +250,7 @@ fn no_argument_steers_the_terminal() {
     ] {
         harmless(home.path(), &words(arguments), &[2]);
     }
-    // a column may be called as one likes
+    // a column may have any name
     let named = format!("{hostile}=2*theta");
     for format in ["csv", "json", "jsonl"] {
         let arguments = ["run", "pendulum", "--at", "0", "--format", format, "--observe", &named];
@@ -321,7 +321,7 @@ fn no_cast_script_or_configuration_steers_the_terminal() {
         write("config.toml", &config);
         harmless(home.path(), &words(&["config", "check", "config.toml"]), &[65]);
     }
-    // what is said in a cast is said in JSON, and a title of a script is one of a cast
+    // captions in a cast are JSON, and a script's title is a cast's
     write(
         "my.demo",
         &format!(
@@ -372,7 +372,7 @@ fn nothing_is_reported_at_any_length() {
     }
 }
 
-/// A name with bytes that are no UTF-8 is a name like any other.
+/// A name with bytes that are not UTF-8 is a valid name.
 #[test]
 fn a_name_that_is_no_text_is_accepted() {
     let home = tempfile::tempdir().unwrap();

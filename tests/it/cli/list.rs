@@ -20,8 +20,8 @@ fn every_preset_stands_in_the_list() {
     }
 }
 
-/// Every chapter once, in the order of the notes; every topic once in a chapter; every preset below
-/// the chapter its section belongs to.
+/// Every chapter appears once, in the order of the notes; every topic appears once in a chapter; every preset is below
+/// the chapter of its section.
 #[test]
 fn presets_stand_below_their_chapters_and_topics() {
     let text = phaselab(&["list"]).success();

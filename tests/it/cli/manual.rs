@@ -1,4 +1,4 @@
-//! The manual: all that the tables say stands in it, and `man` can show it.
+//! The manual: it contains everything in the tables, and `man` can display it.
 
 use std::fs;
 use std::process::Command;
@@ -9,7 +9,7 @@ use phaselab::shell::options::rows;
 
 use super::phaselab;
 
-/// A page as `man` shows it, each run of spaces as one.
+/// A page as `man` displays it, with runs of spaces collapsed.
 fn shown(page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("page.1");
@@ -25,7 +25,7 @@ fn shown(page: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A text as roff writes it, without its escapes.
+/// A roff text without its escapes.
 fn plain(page: &str) -> String {
     let page = page.replace("\\fB", "").replace("\\fR", "").replace("\\fI", "").replace("\\-", "-");
     page.replace("\\*(Aq", "'").replace("\\&", "").replace("\\\\", "\\")

@@ -112,7 +112,7 @@ fn what_is_played_is_a_cast_or_a_script() {
     check(&format!("{head}nonsense"), 65, "it.cast: line 2: this is no event");
     check("Wiat 1s", 65, "did you mean `Wait`?");
     check("Wait 1s", 65, "does not say which system");
-    // all is well, but there is no terminal
+    // everything is correct, but there is no terminal
     check(&format!("{head}[1, \"o\", \"hello\"]"), 2, "terminal");
     check("Open pendulum\nWait 1s", 2, "terminal");
 }

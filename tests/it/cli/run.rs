@@ -1,17 +1,17 @@
-//! `run`: which rows, which columns, which numbers.
+//! `run`: its rows, columns and numbers.
 
 use serde_json::Value;
 
 use super::{Done, PENDULUM, phaselab, with_file};
 
-/// Runs the pendulum thrown from the bottom.
+/// Runs the pendulum started from the bottom.
 fn run(arguments: &[&str]) -> Done {
     let mut all = vec!["run", "system.toml"];
     all.extend(arguments);
     with_file(PENDULUM, &all)
 }
 
-/// The rows of CSV, without its head.
+/// The rows of CSV without the header.
 fn csv(text: &str) -> Vec<Vec<f64>> {
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     rows.map(|row| row.split(',').map(|x| x.parse().unwrap_or(f64::NAN)).collect()).collect()
@@ -219,7 +219,7 @@ fn numbers_read_back_to_the_same_bits_in_every_format() {
     assert_eq!(json, csv);
 }
 
-/// Numbers that no short decimal has, as every format writes them.
+/// Numbers without a short decimal form, in every format.
 #[test]
 fn a_number_read_back_has_the_bits_it_had() {
     let known = [2.0_f64.sqrt(), 1.0 / 3.0, 5e-324, f64::MAX, -1e-300 / 3.0];
@@ -230,7 +230,7 @@ fn a_number_read_back_has_the_bits_it_had() {
     let bits: Vec<u64> = known.iter().map(|x| x.to_bits()).collect();
     let given: Vec<u64> = last(&csv(&run(&arguments).success())[0]);
     assert_eq!(given, bits, "CSV");
-    // the digits themselves: readers of JSON are not all exact
+    // the digits themselves are compared, because not all JSON readers are exact
     for format in ["json", "jsonl"] {
         let text = run(&[&arguments[..], &["--format", format]].concat()).success();
         let text: String = text.split_whitespace().collect();
@@ -272,7 +272,7 @@ fn friction_breaks_the_energy_and_the_ledger_keeps_it() {
 
 #[test]
 fn a_fault_on_the_way_keeps_the_rows_before_it() {
-    // falls into the centre at π/(2√2) = 1.1107…
+    // reaches the centre at π/(2√2) = 1.1107…
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 + 1/x\"\n";
     let run = |format: &str| {
@@ -303,15 +303,15 @@ fn a_motion_that_cannot_begin_is_a_fault() {
         assert_eq!(object["status"], "faulted");
         (rows(&object).len(), done.stderr)
     };
-    // there is a state at the start, but nothing follows from it
+    // there is a state at the start, but the motion cannot continue
     let (count, told) = run(&[]);
     assert!(count == 1 && told.contains("the mass matrix is singular at t = 0"), "{told}");
-    // there is not even a state
+    // there is not even an initial state
     let (count, told) = run(&["--init", "p_x=1"]);
     assert!(count == 0 && told.contains("singular"), "{told}");
 }
 
-/// A particle that runs into a wall at x = 2, at t = 2, pushed on its way.
+/// A particle that hits a wall at x = 2 at t = 2 and receives an impulse on its way.
 const WALL: &str = r#"
 title = "wall"
 [coordinates]
@@ -380,7 +380,7 @@ fn a_clock_that_cannot_tell_rows_or_steps_apart_is_refused_before_the_first_row(
     assert_eq!(csv(&run(&["--until", "1.4e-15", "--every", "2e-16"]).success()).len(), 8);
     let steps = ["--method", "rk4", "--until", "1e-13", "--step", "2e-16", "--at", "1e-13"];
     assert_eq!(csv(&run(&steps).success()).len(), 1);
-    // a free particle is followed in one step, however far
+    // a free particle takes a single step, whatever the time
     let free = "title = 'free'\n[coordinates]\nx = { initial = 0, velocity = 1 }\n\
                 [lagrangian]\nL = \"1/2*x'^2\"\n";
     let far = with_file(free, &["run", "system.toml", "--at", "1e38"]).success();
@@ -432,7 +432,7 @@ fn a_run_tells_of_the_singular_configurations_it_passed() {
         "{passed}"
     );
 }
-/// One line on what has left its value, and its words; others may say why.
+/// Finds the one line that reports a lost quantity, and checks its words; other lines may explain why.
 fn told(done: &Done, words: &[&str]) {
     let mut lines = done.stderr.lines().filter(|line| line.contains("of what moves"));
     let line = lines.next().unwrap_or_default();
@@ -483,7 +483,7 @@ fn looks_at_steps_stay_on_the_branch_of_the_velocity() {
     }
 }
 
-/// The drift of an energy is the same whatever constant is added to the potential.
+/// The drift of an energy does not depend on a constant added to the potential.
 #[test]
 fn a_constant_in_the_potential_hides_no_drift() {
     let drift = |constant: &str| {
@@ -535,7 +535,7 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
 
 #[test]
 fn a_step_beyond_what_is_stable_is_reported() {
-    // small swings of frequency 1: the leapfrog's limit is 2
+    // small oscillations of frequency 1: the leapfrog's limit is 2
     let run = |step: &str| run(&["--until", "20", "--method", "leapfrog", "--step", step]);
     let done = run("2.5");
     assert_eq!(done.code, 0);

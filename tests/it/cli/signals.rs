@@ -1,6 +1,6 @@
-//! Signals: every command ends in a fifth of a second with 128 + n, wherever it is; a run with its rows so far.
+//! Signals: every command ends within a fifth of a second with 128 + n; a run keeps its rows so far.
 //!
-//! Times are measured; what a loaded machine adds to one of them is told from what the program takes by trying again.
+//! Times are measured; retries separate delays of a loaded machine from those of the program.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -13,13 +13,13 @@ use rustix::process::{Pid, Signal, kill_process};
 
 use super::PENDULUM;
 
-/// How long an end may take.
+/// The greatest time that termination may take.
 const BAR: Duration = Duration::from_millis(200);
 
-/// How often something is tried that has to be done in time.
+/// The number of attempts for an operation with a time limit.
 const TRIES: usize = 6;
 
-/// How long anything is waited for at all.
+/// The greatest time to wait for anything.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 const SIGNALS: [(Signal, i32); 4] =
@@ -37,7 +37,7 @@ fn signal(child: &Child, signal: Signal) {
     kill_process(Pid::from_raw(id).unwrap(), signal).unwrap();
 }
 
-/// Waits for a child's end; how it ended.
+/// Waits for a child and returns its exit status.
 fn end(child: &mut Child) -> Option<i32> {
     let deadline = Instant::now() + PATIENCE;
     loop {
@@ -52,7 +52,7 @@ fn end(child: &mut Child) -> Option<i32> {
     }
 }
 
-/// Starts something, waits until `ready`, and has a signal end it in time. Returns the child of the last try.
+/// Starts a program, waits until `ready`, and asserts that a signal ends it in time. Returns the child of the last try.
 #[track_caller]
 fn ends(
     mut start: impl FnMut() -> Child,
@@ -76,12 +76,12 @@ fn ends(
     panic!("never within {BAR:?}: {times:?}");
 }
 
-/// A pipe in a folder.
+/// Creates a named pipe in a folder.
 fn pipe(home: &Path, name: &str) {
     assert!(Command::new("mkfifo").arg(home.join(name)).status().unwrap().success());
 }
 
-/// Until signals are watched for: the thread that does has its name.
+/// Waits until signals are handled: the thread that does so has its name.
 fn watching(child: &mut Child) {
     let tasks = format!("/proc/{}/task", child.id());
     let deadline = Instant::now() + PATIENCE;
@@ -121,13 +121,13 @@ fn a_command_that_waits_for_its_file_is_ended() {
     drop(open);
 }
 
-/// A run whose output nobody takes, until nothing more can be written.
+/// Starts a run whose output is not read, and waits until it can write no more.
 fn stalled(home: &Path, format: &str) -> Child {
     let arguments = ["run", "system.toml", "--until", "1e9", "--every", "0.01", "--format", format];
     command(home, &arguments).stdout(Stdio::piped()).spawn().unwrap()
 }
 
-/// Until it waits for its reader: it sleeps, and goes on sleeping.
+/// Waits until the child blocks on its reader: it sleeps, and continues to sleep.
 fn waiting(child: &mut Child) {
     watching(child);
     let stat = format!("/proc/{}/stat", child.id());
@@ -163,11 +163,11 @@ fn a_run_into_a_pipe_without_a_reader_is_ended() {
     ends(start, waiting, Signal::TERM, 143).wait().unwrap();
 }
 
-/// Reads all that comes, so that nothing stalls.
+/// Reads all output, so that nothing stalls.
 fn with_reader(home: &Path, format: &str) -> (Child, thread::JoinHandle<String>) {
     let mut child = stalled(home, format);
     let mut out = child.stdout.take().unwrap();
-    // what comes first says that rows are being written
+    // the first bytes show that rows are being written
     let mut text = vec![0; 10_000];
     out.read_exact(&mut text).unwrap();
     let reader = thread::spawn(move || {
@@ -206,7 +206,7 @@ fn a_run_that_is_ended_has_written_its_rows_and_its_end() {
     }
 }
 
-/// Whoever starts it under `nohup` wants it to go on when the terminal hangs up.
+/// Under `nohup` the program must continue when the terminal hangs up.
 #[test]
 fn nohup_is_heeded() {
     let home = tempfile::tempdir().unwrap();
@@ -233,7 +233,7 @@ fn nohup_is_heeded() {
 fn a_signal_wins_over_a_full_disk() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
-    // few rows come, so that nothing is written before the signal
+    // there are few rows, so that nothing is written before the signal
     let long = ["run", "system.toml", "--until", "1e9", "--every", "1e8"];
     let full = || File::options().write(true).open("/dev/full").unwrap();
     let start = || command(home.path(), &long).stdout(full()).spawn().unwrap();
@@ -267,7 +267,7 @@ fn a_signal_leaves_no_half_of_a_file_and_a_kill_leaves_one_that_is_swept() {
     let short = ["run", "system.toml", "--at", "0", "-o", "out.csv"];
     assert_eq!(end(&mut command(home.path(), &short).spawn().unwrap()), Some(0));
     assert_eq!(names(), ["out.csv", "system.toml"]);
-    // two signals: it is ended at once, and cleans up
+    // after two signals it exits at once, and cleans up
     fs::remove_file(home.path().join("out.csv")).unwrap();
     let mut child = command(home.path(), &long).spawn().unwrap();
     partial(&mut child);

@@ -1,4 +1,4 @@
-//! Where output goes: files that appear whole, readers that leave early, disks that are full.
+//! Output: files that appear atomically, readers that close early, full disks.
 
 use std::fs;
 use std::io::Read;
@@ -6,7 +6,7 @@ use std::process::Stdio;
 
 use super::{PENDULUM, done, program};
 
-/// A folder with the pendulum in it.
+/// A folder that contains the pendulum.
 fn folder() -> tempfile::TempDir {
     let home = tempfile::tempdir().expect("a temporary folder");
     fs::write(home.path().join("system.toml"), PENDULUM).expect("a file can be written there");
@@ -41,7 +41,7 @@ fn what_is_replaced_is_reported() {
     assert_eq!(told(run()), (0, String::new(), String::new()));
     let replaced = "phaselab: out.csv is replaced\n".to_owned();
     assert_eq!(told(run()), (0, String::new(), replaced));
-    // a device is no file with something in it
+    // a device is not a file with content
     let null = ["run", "system.toml", "-o", "/dev/null"];
     assert_eq!(done(program(home.path()).args(null)).stderr, "");
 }
@@ -125,7 +125,7 @@ fn a_signal_ends_a_run_with_its_rows_written() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the program can be started");
-    // the partial file is there once the signals are watched for
+    // the partial file exists once signals are handled
     let deadline = std::time::Instant::now() + std::time::Duration::from_secs(60);
     while fs::read_dir(home.path()).expect("the folder").count() < 2 {
         assert!(std::time::Instant::now() < deadline, "no output within a minute");

@@ -1,4 +1,4 @@
-//! What is no longer wanted is stopped, on whatever stage it is.
+//! Work that is no longer wanted is stopped at whatever stage it is.
 
 use std::fmt::Write as _;
 use std::sync::mpsc::channel;
@@ -10,7 +10,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
 use phaselab::expr::{Pool, Zero};
 
-/// A chain of pendulums, which takes minutes to derive where it has many links.
+/// A chain of pendulums, which takes minutes to derive if it has many links.
 fn chain(links: usize) -> Document {
     let mut text = "title = \"Chain\"\n[coordinates]\n".to_owned();
     for k in 1..=links {

@@ -1,11 +1,11 @@
-//! Moments: a motion left here and taken up there is the same to the last bit; in a changed system, as far as names go.
+//! Checkpoints: a motion restored from one is the same to the last bit; in a changed system, as far as names match.
 
 use phaselab::experiment::{Checkpoint, Command, Experiment, Status};
 use phaselab::preset::Catalog;
 
 use super::{PLENTY, build, gauge, run, shipped, value};
 
-/// A moment as it is kept in a file, and read back.
+/// A checkpoint after writing and reading.
 fn kept(experiment: &Experiment) -> Checkpoint {
     let moment = Checkpoint::of(experiment.model(), experiment.system(), &experiment.snapshot());
     let text = toml::to_string(&moment).expect("it can be written");
@@ -14,7 +14,7 @@ fn kept(experiment: &Experiment) -> Checkpoint {
     read
 }
 
-/// Everything that is to be seen of the present, bit by bit.
+/// Everything visible of the current state, bit by bit.
 fn present(experiment: &Experiment) -> (u64, Vec<u64>, Vec<(String, u64, u64, u64)>, Status) {
     let snapshot = experiment.snapshot();
     let gauges = snapshot.gauges.iter().map(|g| {
@@ -40,7 +40,7 @@ fn every_preset_is_taken_up_to_the_last_bit() {
     }
 }
 
-/// What was off before is not forgotten, whatever the gauge is of: a quantity, a constraint or an attitude.
+/// The greatest drift so far is retained for every kind of gauge: a quantity, a constraint or an attitude.
 #[test]
 fn the_greatest_drift_is_taken_up() {
     for name in ["pendulum", "turning-wire", "free-rigid-body", "swinging-atwood", "heavy-top"] {
@@ -98,7 +98,7 @@ fn a_constraint_that_was_let_go_stays_so() {
     }
 }
 
-/// What impulses have added stays told as that, and drift stays relative to what it was relative to.
+/// Changes by impulses remain separate from drift, and drift remains relative to the same reference.
 #[test]
 fn a_gauge_goes_on_from_its_own_beginning() {
     for (preset, method, time) in
@@ -155,7 +155,7 @@ m = 1.0
 L = "1/2*m*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
 "#;
 
-/// The spring at t = 0.8 with k turned to 5, taken up by a changed file.
+/// The spring at t = 0.8 with k changed to 5, restored in a changed file.
 fn carried(change: impl FnOnce(String) -> String) -> (Experiment, Experiment) {
     let mut left = build(SPRING, |_| ());
     let index = left.model().parameter("k").expect("it is there");
@@ -177,7 +177,7 @@ fn a_changed_law_keeps_the_state_and_measures_anew() {
     let energy = gauge(&taken.snapshot(), "energy");
     assert_eq!((energy.reference, energy.drift), (energy.value, 0.0));
     assert!(energy.value != value(&left, "energy"));
-    // what was turned by hand is kept, also for the next reset
+    // a value set by the user is retained, also for the next reset
     let parameters = taken.snapshot().parameters;
     assert_eq!(parameters[0], 5.0);
     assert_eq!(taken.snapshot().initial[1], 3.0);
@@ -255,7 +255,7 @@ fn a_method_that_is_refused_leaves_the_one_that_runs_with_its_settings() {
     assert!(after.notices.iter().any(|notice| notice.contains("leapfrog")), "{:?}", after.notices);
 }
 
-/// A spring that has moved for a while, taken up with its past by the system of a changed text.
+/// A spring that has moved for a while, restored with its past in the system of a changed text.
 fn recalled(change: impl Fn(String) -> String) -> (Experiment, Experiment) {
     let mut left = build(SPRING, |_| ());
     run(&mut left, 2.0);
@@ -267,7 +267,7 @@ fn recalled(change: impl Fn(String) -> String) -> (Experiment, Experiment) {
     (left, taken)
 }
 
-/// What was recorded of a channel: times and values as bits.
+/// The record of a channel: times and values as bits.
 fn recorded(experiment: &Experiment, name: &str) -> Vec<(u64, u64)> {
     let channels = experiment.system().channels();
     let place = channels.iter().position(|channel| channel.name == name).expect("a channel");
@@ -285,12 +285,12 @@ fn what_was_drawn_stays_where_the_coordinates_are_the_same() {
         assert!(whole > 50 && after.len() > whole, "{name}: {whole} of {}", after.len());
         assert_eq!(before[..whole], after[..whole], "{name}");
     }
-    // of what is new nothing is known before
+    // a new channel has no past
     let new = recorded(&taken, "new");
     assert!(f64::from_bits(new[0].1).is_nan() && f64::from_bits(new[new.len() - 1].1).is_finite());
     let bounds = taken.snapshot().bounds;
     assert!(bounds.iter().all(|(least, most)| least.is_finite() && most.is_finite()));
-    // and the rows that follow come in order
+    // and the following rows are in order
     run(&mut taken, 3.0);
     let times: Vec<f64> =
         recorded(&taken, "x").iter().map(|(time, _)| f64::from_bits(*time)).collect();

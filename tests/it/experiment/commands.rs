@@ -1,4 +1,4 @@
-//! What each command does.
+//! The effect of each command.
 
 use phaselab::experiment::{Command, Experiment, Status};
 use phaselab::system::InitialOverride;
@@ -171,7 +171,7 @@ fn a_reference_is_taken_when_asked_for() {
     assert!(gauge(&pendulum.snapshot(), "energy").drift > 1e-3);
 }
 
-/// Falls into the centre at π/(2√2) = 1.1107… where k = 1; never where it is negative.
+/// Reaches the centre at π/(2√2) = 1.1107… if k = 1; never if k is negative.
 const FALL: &str = r#"
 title = "A fall"
 [coordinates]
@@ -209,7 +209,7 @@ fn a_fault_is_data_and_a_reset_goes_on() {
 
 #[test]
 fn a_parameter_can_lead_out_of_a_fault() {
-    // pushed ever harder towards x = k, behind which there is nothing
+    // pushed ever harder towards x = k, beyond which the force is undefined
     let mut system = build(&FALL.replace("+ k/x", "- sqrt(k - x/2)"), |_| ());
     system.advance(9.0, u64::MAX);
     let time = fault(&system).expect("it comes to the wall");

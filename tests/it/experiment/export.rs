@@ -1,4 +1,4 @@
-//! The present as a file: what is written begins where the motion is, and says what was changed.
+//! The current state as a file: it starts at the state of the motion and lists the changes.
 
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Experiment, Export, Prepared};
@@ -37,12 +37,12 @@ fn every_preset_goes_on_from_its_file() {
             left.system().channels().iter().zip(left.values().iter().zip(written.values()))
         {
             let same = match channel.kind {
-                // what begins under constraints is put on them to the last digit
+                // an initial state under constraints is projected on them to the last digit
                 ChannelKind::Position(_) if left.system().constraints() > 0 => {
                     (a - b).abs() <= 1e-15 * a.abs().max(1.0)
                 }
                 ChannelKind::Position(_) => a.to_bits() == b.to_bits(),
-                // of a Hamiltonian the velocity follows from the momentum, and the other way round
+                // in a Hamiltonian system the velocity follows from the momentum, and vice versa
                 ChannelKind::Velocity(_) | ChannelKind::Momentum(_) | ChannelKind::Energy => {
                     (a - b).abs() <= 1e-12 * a.abs().max(1.0)
                 }
@@ -70,7 +70,7 @@ fn every_changed_value_is_in_it_and_the_rest_is_as_it_was_written() {
     assert_eq!(again.parameters[index], 1.62);
     assert_eq!((again.speed, again.method.name, again.time), (2.0, "dop853", 1.25));
     assert_eq!(again.method.tolerance, Some(1e-9));
-    // lines that say nothing of these are untouched
+    // unrelated lines are unchanged
     let about = document.text.lines().filter(|line| line.contains("about")).count();
     assert!(about > 0);
     let kept = document.text.lines().filter(|line| export.text.contains(*line)).count();
@@ -118,7 +118,7 @@ fn what_is_expected_and_still_holds_is_kept() {
     assert_eq!(export.missing, Vec::<String>::new(), "as it is written nothing is wrong");
     let export = export.with_what_holds(&document).expect("it can be opened");
     let kept = &export.text;
-    // the same system passes the turning point all the same, and its stiffness is what it was
+    // the same system still passes the turning point, and its stiffness is unchanged
     assert!(kept.contains("turn") && kept.contains("stiffness"), "{kept}");
     left.execute(Command::Parameter { index: 0, value: 9.0 });
     let export = exported(&document, &left);
@@ -127,7 +127,7 @@ fn what_is_expected_and_still_holds_is_kept() {
     assert!(kept.contains("conserves = [\"energy\"] # always"), "{kept}");
     assert!(!kept.contains("turn") && !kept.contains("stiffness"), "{kept}");
     assert_eq!(export.missing.len(), 1);
-    // what lies before the new beginning can no longer be asked
+    // times before the new start can no longer be queried
     run(&mut left, 0.75);
     let export = exported(&document, &left);
     assert!(!export.text.contains("stiffness"), "{}", export.text);

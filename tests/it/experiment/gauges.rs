@@ -1,4 +1,4 @@
-//! What gauges watch and say.
+//! Gauges and their verdicts.
 
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::integrate::Settings;
@@ -76,7 +76,7 @@ fn a_long_law_is_given_in_its_general_form() {
 
 #[test]
 fn drift_is_measured_by_the_size_of_the_terms() {
-    // at rest on top of the hill E = 0 is the difference of two terms of size 1e6
+    // in equilibrium on top of the hill, E = 0 is the difference of two terms of size 1e6
     let text = "title = \"T\"\n[coordinates]\nx = { initial = 1e3, velocity = 1e3 }\n\
                 [lagrangian]\nL = \"1/2*x'^2 + 1/2*x^2*1.0\"\n\
                 [[observables]]\nname = \"nothing\"\nexpression = \"x' - x\"\n";
@@ -104,7 +104,7 @@ fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     assert!(wrong.history.len() >= 64 && wrong.history.iter().all(|x| x.is_finite()));
 }
 
-/// A shipped preset under a method with a fixed step, carried to a time; its gauge of the energy.
+/// The energy gauge of a shipped preset, after a run to a time by a method with a fixed step.
 fn energy_under(preset: &str, method: &str, step: f64, time: f64) -> Gauge {
     let document = Catalog::with_folder(None).find(preset).expect("it is shipped");
     let mut system = build(&document.text, |setup| {
@@ -115,8 +115,8 @@ fn energy_under(preset: &str, method: &str, step: f64, time: f64) -> Gauge {
     gauge(&system.snapshot(), "energy")
 }
 
-/// A step far too long leads into close encounters that are none, and loses energy unevenly. Neither is bounded, and
-/// great terms for a moment are no measure of it.
+/// A step far too long leads to spurious close encounters, and energy is lost unevenly. Neither is bounded, and
+/// briefly large terms are not a scale for it.
 #[test]
 fn what_a_method_ruins_is_neither_bounded_nor_small() {
     for (preset, time, least) in [
@@ -153,8 +153,8 @@ fn what_a_symplectic_method_swings_is_bounded() {
     }
 }
 
-/// Rounding is relative to the greatest terms a motion has met, and so is its drift: a comet's energy at its perihelion
-/// is the difference of terms a thousand times as large as those where it began.
+/// Rounding, and thus drift, is relative to the greatest terms in a motion so far: a comet's energy at perihelion
+/// is the difference of terms a thousand times as large as those at its start.
 #[test]
 fn terms_may_grow_while_a_value_is_kept() {
     let text = "title = \"Comet\"\n[coordinates]\nr = { initial = 1 }\n\
@@ -167,7 +167,7 @@ fn terms_may_grow_while_a_value_is_kept() {
     assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
 }
 
-/// What an impulse gives is no drift, and the value at the start is reported as it was.
+/// A change by an impulse is no drift, and the reported initial value does not change.
 #[test]
 fn an_impulse_moves_the_reference_and_not_the_initial_value() {
     let mut rotor = shipped("kicked-rotor");

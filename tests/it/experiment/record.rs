@@ -1,4 +1,4 @@
-//! What is recorded, and that it depends on nothing but the commands.
+//! The record, which depends on nothing but the commands.
 
 use phaselab::experiment::{Command, Experiment, Progress};
 
@@ -36,7 +36,7 @@ fn small_slices_give_the_same_rows_as_one_large_one() {
     }
     assert!(slices > 100);
     assert_eq!(rows(&whole), rows(&sliced));
-    // and looking on the way changes nothing either
+    // and taking snapshots on the way changes nothing either
     let mut watched = shipped("henon-heiles");
     for k in 1..=2000 {
         run(&mut watched, 0.01 * f64::from(k));

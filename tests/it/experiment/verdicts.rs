@@ -1,21 +1,22 @@
-//! Labelled runs: what a verdict must be is known without the program, by what is known of the method and the system.
+//! Runs with known verdicts, which follow from the properties of the method and the system.
 //!
-//! The oscillator under a Runge–Kutta method of order four loses (hω)⁶/72 of its energy a step (Hairer, Lubich, Wanner,
-//! *Geometric Numerical Integration*, § IX); symplectic methods swing with a power of the step and without trend, and
-//! keep momenta of rotation; Gauss methods keep quadratic invariants (§ IV.2). A series to the last digit keeps all.
+//! The oscillator under a Runge–Kutta method of order four loses (hω)⁶/72 of its energy per step (Hairer, Lubich,
+//! Wanner, *Geometric Numerical Integration*, § IX). Under symplectic methods the energy oscillates by a power of the
+//! step without trend, and angular momenta are conserved; Gauss methods conserve quadratic invariants (§ IV.2). A
+//! Taylor series to the last digit conserves everything.
 
 use phaselab::experiment::Experiment;
 use phaselab::integrate::Settings;
 
 use super::{build, gauge, run};
 
-/// How long, in periods: whole and not, short and long.
+/// The lengths in periods: integer and not, short and long.
 const LENGTHS: [f64; 4] = [10.0, 10.3, 100.0, 97.31];
 
-/// A method and its step in parts of a period (an adaptive one has none), and the word for the energy by the length.
+/// A method, its step as a fraction of a period (none if adaptive), and the verdict on the energy by the length.
 type Label = (&'static str, f64, fn(f64) -> &'static str);
 
-/// Runs it as `phaselab run` does: a thousand rows.
+/// Runs a file as `phaselab run` does, with a thousand rows.
 fn carried(text: &str, method: &str, step: Option<f64>, time: f64) -> Experiment {
     let mut experiment = build(text, |setup| {
         method.clone_into(&mut setup.method);
@@ -27,7 +28,7 @@ fn carried(text: &str, method: &str, step: Option<f64>, time: f64) -> Experiment
     experiment
 }
 
-/// Holds every label at every length for a file of this period; returns how many runs that were.
+/// Asserts every verdict at every length for a file of this period; returns the number of runs.
 fn hold(text: &str, period: f64, labels: &[Label], gauges: &[(&str, Option<&str>)]) -> usize {
     let mut wrong = Vec::new();
     for &(method, part, word) in labels {
@@ -50,11 +51,11 @@ fn hold(text: &str, period: f64, labels: &[Label], gauges: &[(&str, Option<&str>
     labels.len() * LENGTHS.len()
 }
 
-/// Units: the mass, the frequency and the amplitude of an oscillator.
+/// The mass, the frequency and the amplitude of an oscillator in different units.
 const UNITS: [(f64, f64, f64); 3] =
     [(1.0, 1.0, 1.0), (9.1e-31, 4.1e16, 5.3e-11), (2.0e30, 7.9e-16, 3.1e20)];
 
-/// An oscillator, with a constant in V that is so many times its energy.
+/// An oscillator, with a constant in V given as a multiple of its energy.
 fn oscillator((m, w, x): (f64, f64, f64), offset: f64) -> String {
     let (k, v) = (m * w * w, x * w * 0.8);
     let constant = offset * 0.5 * k * x * x;
@@ -86,7 +87,7 @@ fn an_oscillator_in_any_units() {
     assert_eq!(runs, 84);
 }
 
-/// A constant in V changes no word: not a large one, nor one beside which the energy is small.
+/// A constant in V changes no verdict: neither a large one, nor one beside which the energy is small.
 #[test]
 fn an_oscillator_with_a_constant_in_its_potential() {
     let labels: [Label; 5] = [
@@ -129,7 +130,7 @@ fn a_pendulum_from_rest() {
             "title = \"Pendulum\"\n[coordinates]\ntheta = {{ initial = {from} }}\n\
              [lagrangian]\nL = \"1/2*theta'^2 + cos(theta) - {constant}\"\n"
         );
-        // beside a constant of a million what gauss4 swings by is rounding
+        // beside a constant of a million the oscillation under gauss4 is within rounding
         let told = |label: &&Label| constant == 0.0 || label.0 != "gauss4";
         let labels: Vec<Label> = labels.iter().filter(told).copied().collect();
         runs += hold(&text, period_of_pendulum(from), &labels, &[("energy", None)]);
@@ -165,7 +166,7 @@ fn friction_breaks_the_energy_under_any_method() {
     assert_eq!(runs, 8);
 }
 
-/// Looks at whole periods only would take these swings for nothing, or for a trend.
+/// Samples at whole periods only would miss these oscillations, or see a trend in them.
 #[test]
 fn a_swing_is_as_great_whenever_rows_are_written() {
     let period = std::f64::consts::TAU;
@@ -178,7 +179,7 @@ fn a_swing_is_as_great_whenever_rows_are_written() {
     assert!((whole / other - 1.0).abs() < 0.01, "{whole:e} and {other:e}");
 }
 
-/// Two particles that move freely: G = y' + a x leaves its value evenly, and so does what moves of it grow.
+/// Two free particles: G = y' + a x changes steadily, and so does the scale of its changing part.
 fn leaving(a: f64) -> phaselab::experiment::Gauge {
     let text = format!(
         "title = \"Free\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\n\
@@ -188,7 +189,7 @@ fn leaving(a: f64) -> phaselab::experiment::Gauge {
     gauge(&carried(&text, "taylor", None, 1.0).snapshot(), "G")
 }
 
-/// a/(1 + a) of what moves is a tenth at a = 1/9.
+/// The changing part a/(1 + a) is a tenth at a = 1/9.
 #[test]
 fn beyond_a_tenth_of_what_moves_a_quantity_is_lost() {
     let (kept, lost) = (leaving(0.1100), leaving(0.1122));
@@ -206,7 +207,7 @@ fn beyond_a_millionth_of_what_moves_it_is_reported() {
     assert_eq!(left.reason, "declared; contradicted by the run");
 }
 
-/// At rest nothing moves, and nothing is off.
+/// In equilibrium nothing moves, and nothing drifts.
 #[test]
 fn an_equilibrium_is_exact() {
     let text = "title = \"Rest\"\n[coordinates]\nx = { initial = 0 }\n\

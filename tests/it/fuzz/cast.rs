@@ -1,4 +1,4 @@
-//! Casts: a mistake has its line; what is read is the same after it was written, in both versions; and it can be shown.
+//! Casts: mistakes have lines; a cast is read back equal after writing, in both versions; and it can be played.
 
 use std::time::Duration;
 
@@ -40,7 +40,7 @@ pub(crate) const WORDS: &[&str] = &[
     "-",
 ];
 
-/// How often it is looked at, and what is larger is not shown: an emulator takes its time for each line.
+/// The number of frames drawn, and the largest screen drawn, because a terminal emulator takes time for every line.
 const FRAMES: u32 = 4;
 const SHOWN: u16 = 200;
 
@@ -73,7 +73,7 @@ pub(crate) fn check(bytes: &[u8]) {
     for version in [Version::Two, Version::Three] {
         let again = written(&cast, version);
         assert_eq!((again.size, again.end), (cast.size, cast.end), "{version:?}");
-        // it begins by hiding the cursor, and ends by giving it back
+        // it begins by hiding the cursor, and ends by showing it again
         assert_eq!(again.events[1..again.events.len() - 1], cast.events, "{version:?}");
     }
     if cast.size.0.max(cast.size.1) > SHOWN {

@@ -1,4 +1,4 @@
-//! Configurations: mistakes lie in the text, and what is asked for can be written and read again.
+//! Configurations: mistakes lie in the text, and settings can be written and read back.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! Expressions: a mistake lies in the text; what is read is the same after it was printed, and has a derivative.
+//! Expressions: mistakes lie in the text; an expression is read back equal after printing, and has a derivative.
 
 use phaselab::expr::{Expr, Pool, Resolve, Span, SyntaxError, parse};
 
@@ -35,10 +35,10 @@ pub(crate) const WORDS: &[&str] = &[
     "θ",
 ];
 
-/// What is larger is not worked with: it is read in no time, but a hundred times over.
+/// The most nodes of an expression that is worked with: reading it is fast, but it is read hundreds of times.
 const LARGEST: usize = 400;
 
-/// Every name is a variable; mistakes are kept.
+/// A scope in which every name is a variable; it collects mistakes.
 #[derive(Default)]
 struct AnyName(Vec<SyntaxError>);
 
@@ -61,7 +61,7 @@ fn is_placed(text: &str, error: &SyntaxError) {
     assert!(!error.to_string().is_empty());
 }
 
-/// Whether the values agree, where numbers have more digits than are read exactly.
+/// Whether the values agree if numbers have more digits than can be read exactly.
 fn is_near(pool: &Pool, e: Expr, again: Expr, printed: &str) -> bool {
     let long = printed.split(|c: char| !c.is_ascii_digit()).any(|digits| digits.len() > 15);
     let [(a, size), (b, _)] = [e, again].map(|e| pool.evaluate_with_size(e, &|_| 0.7));

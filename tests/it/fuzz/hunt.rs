@@ -1,4 +1,4 @@
-//! A hunt: the inputs of a target as they are kept, then changes of them, each within its time.
+//! The fuzzing loop: the seed inputs of a target, then mutations of them, each within a time limit.
 
 use std::fs;
 use std::panic::catch_unwind;
@@ -11,21 +11,21 @@ use super::dice::Dice;
 use super::mutation::{mutant, shrunk};
 use super::target::Target;
 
-/// What takes longer hangs: the slowest takes a hundredth of it.
+/// The time after which an input counts as hanging; the slowest takes a hundredth of it.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// How many inputs are tried for a shorter one that fails.
+/// The number of attempts to shrink a failing input.
 const LOOKS: u32 = 400;
 
-/// As large as that of the thread on which the laboratory loads files.
+/// The stack size, equal to that of the thread on which the laboratory loads files.
 const STACK: usize = 64 << 20;
 
-/// How long a hunt goes on.
+/// The length of a fuzzing run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Length {
-    /// So many changed inputs.
+    /// A number of mutated inputs.
     Cases(u64),
-    /// So long.
+    /// A duration.
     Time(Duration),
 }
 
@@ -38,10 +38,10 @@ impl Length {
     }
 }
 
-/// An input and where it comes from.
+/// An input's origin and bytes.
 type Input = (String, Vec<u8>);
 
-/// Looks at a target; how many changed inputs it was given, or what failed.
+/// Tests a target; returns the number of mutated inputs, or a description of the failure.
 pub(crate) fn hunt(target: &'static Target, seed: u64, length: Length) -> Result<u64, String> {
     let (sender, inputs) = channel();
     let hunter = thread::Builder::new().stack_size(STACK);
@@ -78,7 +78,7 @@ fn look(target: &Target, seed: u64, length: Length, tell: &Sender<Input>) -> Res
         let bytes = mutant(&mut Dice::of(seed, case), &inputs, target.words);
         let name = format!("case {case} of seed {seed}");
         tell.send((name.clone(), bytes.clone())).ok();
-        // where the whole process ends by it, this is all that is left
+        // if the input ends the whole process, this file is all that is left
         fs::write(place(target), &bytes).unwrap();
         if fails(&bytes) {
             return Err(failure(target, &name, "it panics", &shrunk(bytes, LOOKS, &fails)));
@@ -89,12 +89,12 @@ fn look(target: &Target, seed: u64, length: Length, tell: &Sender<Input>) -> Res
     Ok(case)
 }
 
-/// Where the present input is kept until it has been answered.
+/// The file of the current input until its check is finished.
 fn place(target: &Target) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.input", target.name))
 }
 
-/// Keeps what fails where it can be taken up into the corpus, and tells of it.
+/// Saves a failing input for the corpus and describes it.
 fn failure(target: &Target, name: &str, why: &str, bytes: &[u8]) -> String {
     let place = place(target);
     fs::write(&place, bytes).unwrap();

@@ -1,11 +1,11 @@
-//! Inputs changed at random: bytes replaced, pieces cut, copied, repeated and mixed, words of the format put anywhere.
+//! Random mutations: bytes replaced, pieces cut, copied, repeated and mixed, keywords of the format inserted.
 
 use super::dice::Dice;
 
-/// No changed input is longer, in bytes.
+/// The greatest length of a mutated input, in bytes.
 const LONGEST: usize = 16 * 1024;
 
-/// What stands at the edges of what a number or a text may be.
+/// Boundary cases of numbers and texts.
 const EDGES: [&str; 18] = [
     "0",
     "-1",
@@ -27,7 +27,7 @@ const EDGES: [&str; 18] = [
     "👩‍🔬",
 ];
 
-/// One of the inputs, changed in one to six places.
+/// One of the inputs, mutated in one to six places.
 pub(crate) fn mutant(dice: &mut Dice, inputs: &[Vec<u8>], words: &[&str]) -> Vec<u8> {
     let mut bytes = inputs[dice.below(inputs.len())].clone();
     for _ in 0..=dice.below(6) {
@@ -74,7 +74,7 @@ fn change(dice: &mut Dice, bytes: &mut Vec<u8>, inputs: &[Vec<u8>], words: &[&st
     }
 }
 
-/// The same failure in fewer bytes: pieces are left out as long as it stays, in at most so many looks.
+/// Shrinks a failing input: pieces are left out as long as it fails, in at most `looks` attempts.
 pub(crate) fn shrunk(mut bytes: Vec<u8>, mut looks: u32, fails: &dyn Fn(&[u8]) -> bool) -> Vec<u8> {
     let mut length = bytes.len() / 2;
     while length > 0 {

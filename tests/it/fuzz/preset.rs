@@ -1,4 +1,4 @@
-//! Presets: mistakes lie in the text; what can be run runs or says why not, and is a right file again when it is written.
+//! Presets: mistakes lie in the text; a valid file runs or reports why not, and is still valid after it is written.
 
 use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::experiment::{Export, Prepared};
@@ -39,11 +39,11 @@ pub(crate) const WORDS: &[&str] = &[
     "\\",
 ];
 
-/// One of so many is also run, if it is right and short.
+/// One of this many valid short inputs is also run.
 const RUN: u64 = 4;
 const SHORT: usize = 3000;
 
-/// Mistakes are some, each in the text, and each is shown.
+/// Asserts that there are mistakes, and that each lies in the text and can be rendered.
 pub(super) fn are_placed(document: &Document, mistakes: &[Diagnostic]) {
     assert!(!mistakes.is_empty());
     for mistake in mistakes {

@@ -1,4 +1,4 @@
-//! Scripts of demos: mistakes lie in the text, and what is read is read the same again.
+//! Scripts of demos: mistakes lie in the text, and a script is read back equal.
 
 use phaselab::diagnostic::Document;
 use phaselab::record::Script;

@@ -1,4 +1,4 @@
-//! Sessions: what is read is the same after it was written, and is taken up or left without harm.
+//! Sessions: a session is read back equal after writing, and can be restored or ignored without a panic.
 
 use std::sync::{Arc, OnceLock};
 
@@ -37,7 +37,7 @@ pub(crate) const WORDS: &[&str] = &[
     "e300",
 ];
 
-/// The application before the pendulum is there.
+/// The application before the pendulum is loaded.
 fn opened() -> App {
     static OPENED: OnceLock<App> = OnceLock::new();
     OPENED.get_or_init(|| App::new(catalog(), Some("pendulum")).0).clone()
@@ -67,7 +67,7 @@ pub(crate) fn check(bytes: &[u8]) {
     };
     let written = toml::to_string(&saved).expect("it can be written");
     let again: Saved = toml::from_str(&written).unwrap_or_else(|why| panic!("{written}: {why}"));
-    // not a number is no equal of itself, but looks the same
+    // NaN is not equal to itself, but its text is
     assert_eq!(format!("{again:?}"), format!("{saved:?}"), "{written}");
 
     let loaded = pendulum();

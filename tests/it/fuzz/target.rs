@@ -1,4 +1,4 @@
-//! What takes inputs of strangers: one row each, with what must hold of every input.
+//! The targets of untrusted input: one row each, with the properties that every input must satisfy.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,17 +9,17 @@ use super::{cast, configuration, expression, preset, script, session, terminal};
 
 /// One kind of input.
 pub(crate) struct Target {
-    /// Its name, and that of its folder in `tests/corpus`.
+    /// Its name, and the name of its folder in `tests/corpus`.
     pub(crate) name: &'static str,
-    /// Folders whose files are inputs too, from the root of the package.
+    /// Folders whose files are also inputs, relative to the root of the package.
     folders: &'static [&'static str],
-    /// Inputs that the program writes itself.
+    /// Inputs that the program itself writes.
     own: fn() -> Vec<String>,
-    /// What its inputs are made of.
+    /// Keywords of its inputs.
     pub(crate) words: &'static [&'static str],
-    /// How many changed inputs are looked at in every run of the tests.
+    /// The number of mutated inputs in every run of the tests.
     pub(crate) cases: u64,
-    /// Takes an input; panics where something does not hold.
+    /// Checks an input; panics if a property is violated.
     pub(crate) check: fn(&[u8]),
 }
 
@@ -83,7 +83,7 @@ pub(crate) const TARGETS: [Target; 7] = [
 ];
 
 impl Target {
-    /// Its inputs, each with the place of its file.
+    /// Its seed inputs and the paths of their files.
     pub(crate) fn corpus(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let own = format!("tests/corpus/{}", self.name);

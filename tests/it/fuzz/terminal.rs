@@ -1,4 +1,4 @@
-//! Bytes of a terminal: the same in whatever pieces they come, and the laboratory can be drawn after whatever they say.
+//! Terminal bytes: the result does not depend on how they are split, and the laboratory can be drawn after any of them.
 
 use std::sync::OnceLock;
 

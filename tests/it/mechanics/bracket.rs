@@ -1,4 +1,4 @@
-//! Brackets against the tables of textbooks, their own algebra, and the motion.
+//! Brackets compared with the tables of textbooks, their own algebra, and the motion.
 
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Zero};
@@ -17,7 +17,7 @@ fn observe(model: &mut Model, name: &str, text: &str) {
     model.observables.push(Observable { name, expression, conserved: None, place: 0..0 });
 }
 
-/// Kepler's problem in space, with its angular momentum and Runge–Lenz vector; L or H.
+/// Kepler's problem in space, with its angular momentum and Runge–Lenz vector, by L or by H.
 fn kepler(by_velocities: bool) -> Model {
     let (names, r) = (["x", "y", "z"], "sqrt(x^2 + y^2 + z^2)");
     let mut model = if by_velocities {
@@ -36,13 +36,13 @@ fn kepler(by_velocities: bool) -> Model {
     model
 }
 
-/// An expression in what was derived.
+/// Reads an expression in the names of a model.
 fn look(model: &Model, equations: &mut Equations, text: &str) -> Expr {
     let mut scope = Scope::new(model, Allowed::Observable, "a test");
     scope.read(&mut equations.pool, text).unwrap_or_else(|| panic!("{text}: {:?}", scope.mistakes))
 }
 
-/// What the bracket of two observables is told to be, `text` and how sure.
+/// The bracket of two observables as text, and how its form was established.
 fn told(model: &Model, equations: &mut Equations, f: &str, g: &str) -> (String, Zero) {
     let (f, g) = (look(model, equations, f), look(model, equations, g));
     let e = bracket(model, equations, f, g).expect("a closed form");
@@ -92,7 +92,7 @@ fn what_a_bracket_is_called_by_parameters_and_names() {
     assert_eq!(told(&model, &mut e, "spread", "energy").0, "2*w*D");
     assert_eq!(told(&model, &mut e, "D", "energy").0, "2*energy");
     assert_eq!(told(&model, &mut e, "D", "spread^2").0, "-4*spread^2");
-    // nothing that has a name: as it is
+    // an expression without a name is written out
     assert_eq!(told(&model, &mut e, "L", "x").0, "y");
     assert_eq!(told(&model, &mut e, "x", "p_x^3"), ("3*p_x^2".to_owned(), Zero::No));
 }
@@ -106,7 +106,7 @@ fn a_bracket_needs_velocities_in_terms_of_momenta_or_a_point() {
         ["x*x'", "y'^2*x", "p_x", "x^3", "action"].map(|text| look(&model, &mut e, text));
     let why = bracket(&model, &mut e, f, g).expect_err("no closed form").to_string();
     assert!(why.starts_with("q̇ is not known in terms of p: "), "{why}");
-    // but what is written in q and p has a bracket
+    // but an expression in q and p has a bracket
     let e_text = bracket(&model, &mut e, x, h).expect("a function of q and p");
     assert_eq!(e.pool.text(e_text), "3*x^2");
     assert!(bracket(&model, &mut e, x, action).is_err());
@@ -188,7 +188,7 @@ fn the_chain_rule_agrees_where_both_ways_are_open() {
     assert_eq!(e.pool.is_zero(conserved), Zero::Proved, "I₃ω₃ = p_ψ commutes with p_θ");
 }
 
-/// Functions of (x, y, p_x, p_y, t): sums and products of what mechanics is made of.
+/// Functions of (x, y, p_x, p_y, t): sums and products of terms common in mechanics.
 fn function() -> impl Strategy<Value = String> {
     let leaf = prop::sample::select(vec![
         "x",
@@ -330,7 +330,7 @@ fn the_bracket_with_h_is_the_rate_seen_along_the_motion() {
             observer.observe(&now, &mut values).expect("values");
             values
         };
-        // a difference of sixth order round a time that one step holds
+        // a difference of sixth order around a time within one step
         stepper.step(start + 10.0).expect("a step");
         let (middle, h) =
             (0.5 * (start + stepper.time()), (0.02 * (stepper.time() - start)).min(0.01));

@@ -1,5 +1,5 @@
-//! What is conserved, what is not, and what is not known: by proof, whatever the units, wherever a
-//! force hides.
+//! What is conserved, what is not, and what is unknown: by proof, in any units, and wherever a
+//! force is hidden.
 
 use phaselab::diagnostic::Document;
 use phaselab::mechanics::{self, Class, Equations, Reason};
@@ -15,7 +15,7 @@ fn derived(text: &str) -> (Model, Equations) {
     (model, equations)
 }
 
-/// A file: coordinates from these starts, the rest as written, and one observable.
+/// A file with coordinates from these starts, the rest as written, and one observable.
 fn file(starts: &str, rest: &str, observable: &str) -> String {
     format!(
         "title = \"T\"\n[coordinates]\n{starts}\n{rest}\n\
@@ -42,8 +42,8 @@ fn l(law: &str) -> String {
     format!("[lagrangian]\nL = \"{law}\"")
 }
 
-/// A force that is nowhere near the start, too small to be seen beside others, or in units in which
-/// everything is small.
+/// A force that acts nowhere near the start, is small beside others, or is in units in which everything
+/// is small.
 #[test]
 fn what_changes_is_never_called_conserved() {
     for (starts, rest, observable) in [
@@ -95,8 +95,8 @@ fn what_changes_is_never_called_conserved() {
     }
 }
 
-/// A kink on whose other side nobody was is not evidence of anything; a root without real values
-/// is not either.
+/// A kink whose other side was never evaluated is no evidence, and neither is a root without real
+/// values.
 #[test]
 fn what_nobody_saw_is_not_known() {
     let narrow = l("1/2*x'^2 - 1e-3*max(0, 1e-30 - abs(x - 5.123456))");
@@ -112,7 +112,7 @@ fn what_nobody_saw_is_not_known() {
     assert_eq!(class(LINE, &nowhere, "x'"), Class::Unknown);
 }
 
-/// Constants of the motion in odd forms: all of them are proved.
+/// Constants of the motion in unusual forms: all of them are proved.
 #[test]
 fn what_is_conserved_is_proved() {
     let kepler = l("1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)");
@@ -173,7 +173,7 @@ fn what_is_conserved_is_proved() {
     }
 }
 
-/// What holds at the file's values of the parameters and not at others is said to.
+/// A quantity conserved only at the file's parameter values is reported as such.
 #[test]
 fn a_symmetry_of_the_numbers_is_told_from_one_of_the_law() {
     let springs = |stiffness: f64| {
@@ -193,8 +193,8 @@ fn reason(text: &str, name: &str) -> Reason {
     found.unwrap_or_else(|| panic!("{name} is not conserved in {text}")).reason.clone()
 }
 
-/// A reason names what was proved: the bracket only where the motion is Hamilton's, ∂L/∂t = 0 only
-/// where nothing drives or dissipates, a translation only of lengths.
+/// A reason names what was proved: the bracket only if the motion is Hamilton's, ∂L/∂t = 0 only
+/// if nothing drives or dissipates, a translation only for lengths.
 #[test]
 fn reasons_are_true() {
     let damped = format!("{}\ndissipation = \"1/2*0.3*x'^2\"", l("1/2*x'^2"));
@@ -222,7 +222,7 @@ fn reasons_are_true() {
     assert_eq!(reason(&angles("m"), name), Reason::Translation("φ₁, φ₂".to_owned()));
 }
 
-/// With a constraint that may be let go, only what holds whatever force it exerts is conserved.
+/// With a constraint that may be released, only what is conserved under any force of it is conserved.
 #[test]
 fn what_a_constraint_conserves_ends_with_it() {
     let released = |observable: &str| {
@@ -237,7 +237,7 @@ fn what_a_constraint_conserves_ends_with_it() {
     assert!(released("x*p_y - y*p_x + 1"));
 }
 
-/// A law too large is counted before anything is made of it.
+/// The size of a law is computed before the law is expanded.
 #[test]
 fn a_law_too_large_is_refused_before_it_is_expanded() {
     let mut rest = String::from("[definitions]\na0 = \"x + 1\"\n");

@@ -1,4 +1,4 @@
-//! Apparent forces: against the closed form of uniform rotation, and against Newton's law where nobody exerts a force.
+//! Apparent forces, compared with the closed form of uniform rotation and with Newton's law for a free particle.
 
 use phaselab::expr::{Expr, Symbol};
 use phaselab::mechanics::{Apparent, Equations, derive};
@@ -49,7 +49,7 @@ fn in_uniform_rotation_they_are_those_of_the_textbook() {
 
 #[test]
 fn they_account_for_every_bend_of_a_path_that_is_straight() {
-    // about an axis askew, unevenly, the origin driven about: m dv'/dt is their sum
+    // uneven rotation about an oblique axis with a moving origin: m dv'/dt is their sum
     let frame = "axis = ['1', '2', '2']\nangle = 'w*t + sin(t) + t^2'\norigin = ['3*t', '1 - t^2', 'sin(2*t)']";
     let (mut equations, apparent) = seen(frame);
     let mut seeds: Vec<(Symbol, Expr)> = vec![(equations.symbols.time, Expr::ONE)];

@@ -1,4 +1,4 @@
-//! Where p = ∂L/∂q̇ is not one-to-one: a motion stays on the branch its velocity is on.
+//! Systems for which p = ∂L/∂q̇ is not one-to-one: a motion stays on the branch of its velocity.
 
 use phaselab::integrate::Settings;
 use phaselab::system::{Form, InitialOverride, MotionErrorKind};
@@ -69,7 +69,7 @@ fn momenta_that_belong_to_several_velocities_are_refused() {
             let v = only.values[1];
             assert!((v * v * v - v - 0.386).abs() < 1e-15, "{v}");
         }
-        // from rest the iteration is caught where the branches end, and says that it found nothing
+        // from rest the iteration is trapped where the branches end, and reports that it found nothing
         Err(fault) => assert_eq!(fault.kind, MotionErrorKind::NoVelocities),
     }
 }

@@ -1,4 +1,4 @@
-//! What a method cannot do, and how it says so.
+//! What a method cannot do, and how it reports that.
 
 use phaselab::integrate::{METHODS, Settings, Stepping};
 use phaselab::system::{Form, MotionErrorKind};
@@ -7,7 +7,7 @@ use crate::build::{dissipative, hamiltonian, lagrangian};
 
 use super::{Case, case, double_pendulum, fixed, named, pendulum, quartic};
 
-/// Why a method refuses a system.
+/// The reason why a method refuses a system.
 fn refusal(case: &Case, name: &str) -> String {
     let method = named(name);
     let why = (method.fits)(&case.system).expect_err("does not fit");
@@ -71,7 +71,7 @@ fn settings_without_sense_are_refused() {
     );
 }
 
-/// What a method says when it cannot go on; the state before is kept, and finite.
+/// The message of a method that cannot continue; the previous state is retained and finite.
 fn fault(case: &Case, name: &str, step: f64, until: f64) -> String {
     let mut stepper = case.stepper(named(name), step);
     let mut steps = 0;
@@ -177,7 +177,7 @@ fn steps_that_cannot_be_counted_to_the_end_are_refused_at_once() {
             "{}: {message}",
             method.name
         );
-        // 2⁵³ can be counted
+        // integers up to 2⁵³ are exact
         let step = 10.0 / 9.0e15;
         pendulum().stepper(method, step).step(10.0).expect("goes on");
         let step = 10.0 / 9.1e15;
@@ -187,7 +187,7 @@ fn steps_that_cannot_be_counted_to_the_end_are_refused_at_once() {
 
 #[test]
 fn steps_do_not_vanish_before_a_singularity() {
-    // a particle falls into the centre at t = π/√8; the step is that of the way there
+    // a particle reaches the centre at t = π/√8; the step fits the motion up to there
     let fall = case(hamiltonian(&["x"], &[], "p_x^2/2 - 1/x"), Form::Momentum, &[1.0, 0.0]);
     let stepper = fall.stepper_with(named("rk4"), Settings::default());
     assert!(stepper.step_size() > 1e-7, "{:e}", stepper.step_size());

@@ -1,17 +1,17 @@
-//! Kepler's problem of eccentricity 0.6 in equal steps from the pericentre: energy errors against
+//! Kepler's problem of eccentricity 0.6 in equal steps from the pericentre: energy errors compared with
 //! an independent computation with the same methods.
 
 use phaselab::system::State;
 
 use super::{kepler, named};
 
-/// What happens over some periods.
+/// Errors over some periods.
 struct Drift {
     /// max |ΔE/E| over all steps.
     energy: f64,
     /// |ΔL| at the end.
     momentum: f64,
-    /// By how much the direction of the pericentre turned.
+    /// The rotation of the direction of the pericentre.
     turn: f64,
 }
 
@@ -37,14 +37,14 @@ fn spin(state: &State) -> f64 {
     x * py - y * px
 }
 
-/// The angle of the vector of Runge and Lenz.
+/// The angle of the Runge–Lenz vector.
 fn pericentre(state: &State) -> f64 {
     let [x, y, px, py] = state.values[..4] else { panic!("four numbers") };
     let (l, r) = (spin(state), x.hypot(y));
     (-px * l - y / r).atan2(py * l - x / r)
 }
 
-/// Equal to the digits given.
+/// Asserts equality to the digits given.
 fn check(found: f64, digits: &str) {
     let expected: f64 = digits.parse().expect("a number");
     let places = digits.split('e').next().map_or(0, |mantissa| mantissa.len() - 2);
@@ -67,7 +67,7 @@ fn four_hundred_steps_a_period() {
     let leapfrog = drift("leapfrog", 400, 1000);
     check(leapfrog.energy, "1.831e-3");
     assert!(leapfrog.momentum < 1.2e-13);
-    // a right energy is not a right orbit
+    // a correct energy does not imply a correct orbit
     assert!((leapfrog.turn + 1.61).abs() < 0.01, "{}", leapfrog.turn);
     let fourth = drift("yoshida4", 400, 1000);
     check(fourth.energy, "6.074e-6");

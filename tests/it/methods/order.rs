@@ -1,5 +1,5 @@
-//! Orders, on problems that are not linear, with a lower and an upper bound: a method that is
-//! better than it says has not been understood.
+//! Orders of convergence on nonlinear problems, with a lower and an upper bound: a method that is
+//! better than stated has not been understood.
 
 use phaselab::integrate::{METHODS, Method, Settings, Stepping};
 
@@ -23,7 +23,7 @@ fn check(case: &Case, method: &Method, step: f64, time: f64) {
     }
 }
 
-/// A step at which the errors stand clear of rounding and of chance.
+/// A step at which the errors are well above rounding.
 fn step_for(method: &Method) -> f64 {
     match method.order.expect("an order") {
         2 => 0.02,

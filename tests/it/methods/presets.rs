@@ -1,9 +1,10 @@
-//! `dop853` beside an independent program of the same method, on every shipped preset: its error is at most ten times as
-//! large, at every tolerance.
+//! `dop853` compared with an independent program of the same method on every shipped preset: its error is at most ten
+//! times as large, at every tolerance.
 //!
-//! The other one is the plain method of Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.4 and II.5:
-//! one tolerance for absolute and relative errors, mean square norm, step controller h (0.9 err^(−1/8)) within (1/3, 6),
-//! no memory of rounding. Only the coefficients are the program's, which other tests hold against the order conditions.
+//! The independent program is the plain method of Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I,
+//! II.4 and II.5: one tolerance for absolute and relative errors, mean square norm, step controller h (0.9 err^(−1/8))
+//! within (1/3, 6), no compensated summation. Only the coefficients are shared; other tests check them against the order
+//! conditions.
 
 use phaselab::experiment::Setup;
 use phaselab::integrate::{METHODS, Propagator, Reached, Settings, method_named};
@@ -17,17 +18,17 @@ mod tableau;
 
 use tableau::{FIFTH, METHOD_STAGES, STAGES, THIRD};
 
-/// Steps of the default method over which a motion is followed: short enough that none becomes chaotic.
+/// The number of steps of the default method over which a motion is followed, so few that none becomes chaotic.
 const STEPS: u32 = 6;
 
-/// What rounding may do on the way.
+/// The error allowed for rounding.
 const FLOOR: f64 = 2e-12;
 
 fn sum(terms: &[(usize, f64)], slopes: &[Vec<f64>], i: usize) -> f64 {
     terms.iter().map(|&(stage, a)| a * slopes[stage][i]).sum()
 }
 
-/// The numbers at a time; `None` where a stage has no rates, or after very many steps.
+/// The numbers at a time, or `None` if a stage has no rates or there are very many steps.
 fn plain(rates: &mut Rates, start: &State, end: f64, tolerance: f64) -> Option<Vec<f64>> {
     let n = start.values.len();
     let (mut time, mut y) = (start.time, start.values.clone());
@@ -82,7 +83,7 @@ fn plain(rates: &mut Rates, start: &State, end: f64, tolerance: f64) -> Option<V
     None
 }
 
-/// The state at a time by a method, with all that happens on the way.
+/// The state at a time by a method, including impulses and events.
 fn by(
     system: &System,
     setup: &Setup,
@@ -106,11 +107,14 @@ fn by(
     }
 }
 
-/// How far two states are apart, each number by its own size and by 1, as tolerances are.
+/// The distance of two states, each number scaled as tolerances are: by its own size and by 1.
 fn apart(a: &[f64], b: &[f64], moving: usize) -> f64 {
     let parts = a.iter().zip(b).take(moving).map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
     parts.fold(0.0, f64::max)
 }
+
+/// The longest time followed: impulses multiply errors, and they may be the only thing that happens in it.
+const LONGEST: f64 = 10.0;
 
 #[test]
 fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
@@ -127,14 +131,14 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
         // in its own unit of time
         let mut ahead = (METHODS[0].make)(&system, &Settings::default()).expect("fits");
         ahead.start(&start, &setup.parameters).expect("starts");
-        let longest = setup.end.unwrap_or(f64::INFINITY).min(start.time + 100.0);
+        let longest = setup.end.unwrap_or(f64::INFINITY).min(start.time + LONGEST);
         for _ in 0..STEPS {
             ahead.step(longest).expect("goes on");
         }
         let end = ahead.time();
         let exact =
             by(&system, &setup, &start, "taylor", None, end).expect("the default method goes on");
-        // the other one knows no constraints, impulses or events; there the tolerance itself is the measure
+        // the independent program supports no constraints, impulses or events; for these the tolerance is the bound
         let discontinuities = system.discontinuities();
         let is_plain = system.constraints() == 0
             && discontinuities.events.is_empty()
@@ -151,7 +155,10 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
             rates.set_parameters(&setup.parameters);
             let other = if is_plain { plain(&mut rates, &start, end, tolerance) } else { None };
             let allowed = match other {
-                Some(other) => 10.0 * apart(&other, &exact.values, system.moving()),
+                // an error below the tolerance is what was asked for, however lucky the other program was
+                Some(other) => {
+                    (10.0 * apart(&other, &exact.values, system.moving())).max(tolerance)
+                }
                 None => 10.0 * tolerance,
             };
             if is_plain {
@@ -159,7 +166,7 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
             } else {
                 held += 1
             }
-            // written so that a number that is none is worse
+            // the negation makes NaN fail
             if !(ours <= allowed + FLOOR) {
                 worse.push(format!("{name} at {tolerance:e}, until {end:.3}: {ours:.1e} for {allowed:.1e} ({is_plain})"));
             }
@@ -169,8 +176,8 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
     assert!(compared > 200 && held < 120, "{compared} compared, {held} held");
 }
 
-/// The error of a step from one state to the next, in what is allowed: at most 1 where it was taken, and near 0.9⁸ where the
-/// step was chosen by it.
+/// The error of a step from one state to the next, relative to the tolerance: at most 1 if it was accepted, and near 0.9⁸
+/// if the step was chosen by it.
 #[test]
 fn dop853_takes_no_step_whose_error_is_more_than_is_allowed() {
     let text = "title = 'Kepler'\n[coordinates]\nx = { initial = 1 }\ny = { initial = 0, velocity = 0.4 }\n[lagrangian]\n\

@@ -1,4 +1,4 @@
-//! Fixed steps beyond what is stable: told, and only these.
+//! Fixed steps beyond the stability limit are reported, and only these.
 
 use phaselab::integrate::{Method, Settings, Stepper};
 use phaselab::system::Form;
@@ -13,7 +13,7 @@ fn oscillator(mass: f64, w: f64, a: f64) -> Case {
     case(hamiltonian(&["q"], &[], &h), Form::Momentum, &[a, 0.0])
 }
 
-/// Goes so many steps; the largest number of the state on the way.
+/// Takes a number of steps; returns the largest number of the state on the way.
 fn go(stepper: &mut dyn Stepper, steps: usize) -> f64 {
     let mut largest = 0.0_f64;
     for _ in 0..steps {

@@ -1,4 +1,4 @@
-//! What a method keeps: the symplectic form, the way back, energy. And who does not.
+//! What a method preserves (the symplectic form, reversibility, energy), and which methods do not.
 
 use nalgebra::DMatrix;
 use phaselab::integrate::{METHODS, Method, Preserves, Stepper};
@@ -132,7 +132,7 @@ fn steps_are_counted_not_summed() {
 fn energy_of_the_heavy_top_wanders_by_rounding_only() {
     let case = heavy_top();
     for name in ["gauss4", "gauss6"] {
-        // so small a step that what the method itself does to the energy is below rounding
+        // so small a step that the method's own energy error is below rounding
         let step = if name == "gauss4" { 2e-4 } else { 5e-3 };
         let mut stepper = case.stepper(named(name), step);
         let first = energy(&case, stepper.as_ref());
@@ -145,7 +145,7 @@ fn energy_of_the_heavy_top_wanders_by_rounding_only() {
     }
 }
 
-/// The energy of a canonical state of the top, which `Observer` gives to the last digit.
+/// The energy of a canonical state of the top, which `Observer` computes to the last digit.
 fn energy(case: &Case, stepper: &dyn Stepper) -> f64 {
     let mut observer = case.system.observer(&case.parameters);
     let mut seen = vec![0.0; case.system.channels().len()];

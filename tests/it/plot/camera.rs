@@ -1,4 +1,4 @@
-//! The camera: face on, round about, and never out of the picture.
+//! The camera: face on, rotated, and always with the picture in view.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

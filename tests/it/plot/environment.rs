@@ -1,9 +1,9 @@
-//! What the environment says about colours and characters.
+//! Colours and glyphs chosen from the environment.
 
 use phaselab::view::colour::ColourDepth::{self, Ansi16, Ansi256, None as Colourless, True};
 use phaselab::view::glyphs::Glyphs::{self, Ascii, Braille, HalfBlock};
 
-/// Looks a variable up in `NAME=value` words.
+/// Looks up a variable in `NAME=value` words.
 fn environment(words: &str) -> impl Fn(&str) -> Option<String> {
     let pairs: Vec<(String, String)> = words
         .split_whitespace()
@@ -44,7 +44,7 @@ fn colour_depth() {
         ("TERM=linux", Ansi16),
         ("TERM=ansi", Ansi16),
         ("TERM=stuff", Ansi16),
-        // GNU screen inherits COLORTERM and garbles what it promises; tmux translates it.
+        // GNU screen inherits COLORTERM but garbles 24-bit colour; tmux translates it.
         ("TERM=screen COLORTERM=truecolor", Ansi16),
         ("TERM=screen-256color STY=1.pts COLORTERM=truecolor", Ansi256),
         ("TERM=screen-256color TMUX=/tmp/t COLORTERM=truecolor", True),

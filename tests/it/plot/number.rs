@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers formatted for people.
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::number::{brief, drift, readable};

@@ -1,4 +1,4 @@
-//! Dots: united where lines cross, thin, round, and styled by the highest layer.
+//! Dots: combined where lines cross, thin, round, and styled by the highest layer.
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{Frame, Marker, Pen, Raster, Scale};
@@ -140,7 +140,7 @@ fn a_circle_is_round_with_equal_units() {
                 let along = dots.iter().map(|dot| dot[axis]);
                 f64::from(along.clone().max().unwrap() - along.min().unwrap())
             };
-            // A cell is twice as high as wide; so many dots share each side of it.
+            // A cell is twice as high as it is wide; this many dots are along each of its sides.
             let (across, down) = glyphs.dots();
             let width = extent(0) / f64::from(across);
             let height = 2.0 * extent(1) / f64::from(down);
@@ -297,7 +297,7 @@ fn in_ascii_a_curve_is_a_curve() {
     let points = (0..=500).map(|i| f64::from(i) / 500.0).map(|x| [x, wave(x)]);
     let buffer = drawn(area, Glyphs::Ascii, |raster| raster.polyline(&unit(area), points, &PLAIN));
     let seen = rows(&buffer);
-    // in each column something, and from column to column no hole
+    // every column contains something, and there are no gaps between columns
     let row = |x: usize| seen.iter().position(|line| line.chars().nth(x).is_some_and(|c| c != ' '));
     let heights: Vec<usize> = (0..24).map(|x| row(x).expect("a character")).collect();
     assert!(heights.windows(2).all(|pair| pair[0].abs_diff(pair[1]) <= 1), "{seen:#?}");

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Color;
 use ratatui::widgets::Widget;
 
-/// Every bit pattern, with the troublesome ones often.
+/// Every bit pattern, with frequent special values.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => any::<u64>().prop_map(f64::from_bits),
@@ -42,7 +42,7 @@ fn depth() -> impl Strategy<Value = ColourDepth> {
     prop::sample::select(vec![None, Ansi16, Ansi256, True])
 }
 
-/// A size, mostly small, and an area that may stick out of a screen of that size.
+/// A size, mostly small, and an area that may extend beyond a screen of that size.
 fn screen() -> impl Strategy<Value = (Rect, Rect)> {
     let side = || prop_oneof![3 => 0_u16..40, 1 => 0_u16..=250];
     (side(), side(), side(), side(), side(), side())
@@ -131,7 +131,7 @@ fn every_size_up_to_250_by_250_can_be_drawn() {
     let theme = Theme::dark(ColourDepth::Ansi256);
     let scales = (Scale::turn(), Scale::linear(-2.0, 2.0));
     let points: Vec<[f64; 2]> = (0..40).map(|i| f64::from(i) * 0.3).map(|t| [t, t.sin()]).collect();
-    // All small sizes, then ever larger strides.
+    // All small sizes, then increasing strides.
     let sides = || (0..24).chain((24..=250).step_by(37)).chain([249, 250]);
     for (wide, high) in sides().flat_map(|w| sides().map(move |h| (w, h))) {
         let area = Rect::new(0, 0, wide, high);

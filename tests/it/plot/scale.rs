@@ -1,4 +1,4 @@
-//! Scales and frames: there and back.
+//! Scales and frames: round trips.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Strips: histories and range bars, with and without numbers in them.
+//! Sparklines: histories and range bars, with numbers and with NaN.
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::Scale;

@@ -1,4 +1,4 @@
-//! Themes: readable, told apart, and colourless where asked.
+//! Themes: legible, distinguishable, and colourless if requested.
 
 use phaselab::view::colour::{ColourDepth, Rgb};
 use phaselab::view::theme::{CURVES, PALETTES, Palette, Role, Shade, Theme};
@@ -17,7 +17,7 @@ fn styles(theme: &Theme) -> Vec<Style> {
     all
 }
 
-/// The background a palette meets: its own, or plain black or white where the terminal brings its sixteen colours.
+/// The background of a palette: its own, or plain black or white if it uses the terminal's sixteen colours.
 fn background(palette: &Palette, depth: ColourDepth) -> Rgb {
     match depth {
         ColourDepth::Ansi16 if palette.background.luminance() > 0.5 => Rgb(255, 255, 255),
@@ -26,7 +26,7 @@ fn background(palette: &Palette, depth: ColourDepth) -> Rgb {
     }
 }
 
-/// The foreground of a style; the terminal's own is taken to be the palette's.
+/// The foreground of a style; the terminal's default is assumed to be the palette's.
 fn colour(palette: &Palette, style: Style) -> Rgb {
     style.fg.and_then(Rgb::of).unwrap_or(palette.foreground)
 }
@@ -42,7 +42,7 @@ fn text_has_the_contrast_to_be_read() {
                 let least = if role.is_text() { 4.5 } else { 2.0 };
                 assert!(contrast >= least, "{} {depth:?} {role:?}: {contrast:.2}", palette.name);
             }
-            // Curves are lines; WCAG asks 3 to 1 of graphics.
+            // Curves are lines; WCAG requires 3 to 1 for graphics.
             for series in (0..CURVES).filter(|_| theme.depth() != ColourDepth::Ansi16) {
                 let contrast = colour(palette, theme.curve(series)).contrast(ground);
                 assert!(
@@ -167,7 +167,7 @@ fn without_colour_there_is_none_and_weights_tell_roles_apart() {
     }
 }
 
-/// What people see who lack one kind of cones, from sRGB in linear light.
+/// Simulated colours for people who lack one kind of cones, from sRGB in linear light.
 /// Source: F. Viénot, H. Brettel and J. D. Mollon, "Digital video colourmaps for checking the legibility of displays by
 /// dichromats", Color Res. Appl. 24 (1999) 243.
 const DICHROMATS: [[[f64; 3]; 3]; 2] = [
@@ -208,7 +208,7 @@ fn high_contrast_is_high() {
         let theme = Theme::named("contrast", depth).unwrap();
         for role in Role::ALL {
             let contrast = colour(theme.palette(), theme[role]).contrast(Rgb(0, 0, 0));
-            // What the terminal's own sixteen look like is for the terminal to say.
+            // The terminal defines its own sixteen colours.
             let strong = role.is_text() && depth != ColourDepth::Ansi16;
             assert!(contrast >= if strong { 7.0 } else { 4.5 }, "{role:?} {contrast:.2}");
         }

@@ -1,4 +1,4 @@
-//! Ticks: round numbers, in few digits, all told apart.
+//! Ticks: round numbers in few digits, all distinct.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,7 +22,7 @@ fn linear() {
     check(Scale::linear(0.03, 0.13), 6, 0, &["0.04", "0.06", "0.08", "0.10", "0.12"]);
     check(Scale::linear(0.0, 20_000.0), 3, 0, &["0", "10000", "20000"]);
     check(Scale::linear(0.0, 1.0), 1, 0, &["0"]);
-    // one mark would not tell how long the axis is
+    // one tick would not show the scale of the axis
     check(Scale::linear(-0.45, 0.45), 3, 0, &["−0.4", "0", "0.4"]);
     check(Scale::linear(-0.45, 0.45), 2, 0, &["−0.4", "0.4"]);
     check(Scale::linear(0.9, 2.9), 2, 0, &["1", "2"]);

@@ -1,4 +1,4 @@
-//! Trails: they fade, thin out without colour, and split where an angle wraps.
+//! Trails: they fade, thin out without colour, and are split where an angle wraps.
 
 use std::f64::consts::{PI, TAU};
 
@@ -72,7 +72,7 @@ fn a_single_point_is_new() {
     assert_eq!(Some(buffer[(0, 0)].fg), theme.trail(2).last().unwrap().style.fg);
 }
 
-/// The longest run of dots in a row of dots, and the number of dots.
+/// The longest run of dots in any row, and the number of dots.
 fn longest_run(raster: &Raster) -> (usize, usize) {
     let [wide, high] = raster.size();
     let mut longest = 0;
@@ -91,7 +91,7 @@ fn a_rotating_pendulum_leaves_no_stroke_across_the_plot() {
     let turns = (0..4000).map(|i| f64::from(i) * TAU / 1000.0);
     let right: Vec<_> = turns.map(|q: f64| [q, (2.0 * (3.0 + q.cos())).sqrt()]).collect();
     let left: Vec<_> = right.iter().map(|[q, p]| [-q, *p]).collect();
-    // The same orbit as another program would give it, wrapped into one turn already.
+    // The same orbit as another program would give it, already wrapped into one turn.
     let wrapped: Vec<_> = right.iter().map(|[q, p]| [(q + PI).rem_euclid(TAU) - PI, *p]).collect();
     for points in [right, left, wrapped] {
         let mut raster = Raster::new(area, Glyphs::Braille);

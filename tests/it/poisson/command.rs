@@ -1,4 +1,4 @@
-//! The command line on such files.
+//! The command line with files of Poisson systems.
 
 use serde_json::{Value, json};
 

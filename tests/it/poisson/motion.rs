@@ -1,4 +1,4 @@
-//! The motion, and what each method makes of it.
+//! The motion under each method.
 
 use phaselab::experiment::Setup;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
@@ -119,7 +119,7 @@ L = "1/2*I1*(theta'^2 + phi'^2*sin(theta)^2) + 1/2*I3*(psi' + phi'*cos(theta))^2
 #[test]
 fn a_sleeping_top_passes_through_the_pole() {
     let pole = TOP.replace("theta0 = 0.6", "theta0 = 0.0").replace("phidot = 0.2", "phidot = 0.0");
-    // fast enough to sleep: (I₃ω₃)² = 9 > 4 I₁ Mgl; pushed at θ' = 0.3 it comes back through θ = 0
+    // fast enough to sleep: (I₃ω₃)² = 9 > 4 I₁ Mgl; started at θ' = 0.3 it returns through θ = 0
     let pole = pole.replace("psidot = 5.0", "psidot = 7.5");
     let mut experiment = build(&pole, |_| ());
     let (mut lowest, mut returned) = (1.0_f64, -1.0_f64);
@@ -174,7 +174,7 @@ fn a_torque_changes_the_casimir_by_its_law() {
     let squared = gauge(&snapshot, "|L|²");
     assert_eq!(squared.reason, "Casimir; a force acts");
     assert_eq!(format!("{:?}", squared.verdict), "Broken(\"dC/dt = ⅖ L₃\")");
-    // the ledger of the energy: E less ∫ N·ω dt
+    // the energy ledger: E less ∫ N·ω dt
     assert!(gauge(&snapshot, "energy ledger").max_drift < 1e-14);
     assert!(gauge(&snapshot, "energy").max_drift > 1e-2);
     // and a force along the gradient's plane leaves it: ∇C·f = 0
@@ -219,7 +219,7 @@ fn every_method_moves_it_and_splitting_is_refused_by_name() {
 
 #[test]
 fn gauss_keeps_quadratic_casimirs_and_others_do_not() {
-    // Hairer, Lubich & Wanner, IV.2: Gauss methods keep every quadratic invariant
+    // Hairer, Lubich & Wanner, IV.2: Gauss methods conserve every quadratic invariant
     let drift = |method: &str, name: &str| {
         let by = |setup: &mut Setup| {
             setup.method = method.to_owned();
@@ -235,7 +235,7 @@ fn gauss_keeps_quadratic_casimirs_and_others_do_not() {
             let drift = drift(method.name, name);
             assert!(drift < 2e-15, "{}: {name} drifts by {drift:e}", method.name);
         }
-        // the energy is quadratic here too, but for a top with a field that is not it would swing
+        // the energy is quadratic here too; for a top in a field it is not, and would oscillate
     }
     for name in ["length", "vertical"] {
         let lost = drift("rk4", name);

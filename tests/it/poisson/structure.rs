@@ -1,11 +1,11 @@
-//! What is no Poisson structure is refused with the triple that fails; what is no Casimir, too.
+//! A table that is not a Poisson structure is refused with the triple that fails; a false Casimir is refused too.
 
 use phaselab::claims::{false_claims, flaws};
 use phaselab::{mechanics, preset};
 
 use super::{BODY, LOTKA_VOLTERRA, TOP};
 
-/// What is reported of a file's brackets and Casimirs, each with the text at its place.
+/// The reports on a file's brackets and Casimirs, each with the text at its position.
 fn told(text: &str) -> Vec<String> {
     let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = mechanics::derive(&model).expect("derivable");
@@ -24,12 +24,12 @@ fn what_is_a_structure_is_silent() {
     for text in [BODY, TOP, LOTKA_VOLTERRA] {
         assert_eq!(told(text), Vec::<String>::new());
     }
-    // two variables always are one, and any function times a structure of three
+    // any table of two variables is a structure, and so is any function times a structure of three
     assert!(told(&LOTKA_VOLTERRA.replace("\"x*y\"", "\"exp(x*y) + 3\"")).is_empty());
     let scaled = BODY.replace("\"-L3\"", "\"-L3*(1 + L1^2)\"");
     let scaled = scaled.replace("\"-L1\"", "\"-L1*(1 + L1^2)\"");
     assert!(told(&scaled.replace("\"-L2\"", "\"-L2*(1 + L1^2)\"")).is_empty());
-    // no proof is found that this is zero: numbers have to do
+    // no proof is found that this is zero, so it is decided numerically
     let hidden = BODY.replace("\"-L3\"", "\"-L3 + L1*L2*(exp(ln(2 + L3^2)) - 2 - L3^2)\"");
     assert!(told(&hidden).is_empty());
 }
@@ -44,12 +44,12 @@ fn the_triple_that_fails_is_named_where_the_brackets_stand() {
     let said = "these brackets break Jacobi's identity for L1, L2, L3; \
                 {L1, {L2, L3}} + {L2, {L3, L1}} + {L3, {L1, L2}} is −L₂, not 0";
     assert!(all[0].ends_with(said), "{all:?}");
-    // a sign in the top's table
+    // a wrong sign in the top's table
     let wrong = TOP.replace("[\"L1\", \"G3\", \"G2\"]", "[\"L1\", \"G3\", \"-G2\"]");
     let all = told(&wrong);
     assert!(all[0].contains("break Jacobi's identity for L1, "), "{all:?}");
     assert!(all[0].contains(" other threes"), "{all:?}");
-    // by numbers alone
+    // refused numerically
     let wrong = BODY.replace("\"-L3\"", "\"-L3 + 1e-8*exp(ln(2 + L1^2))\"");
     assert!(told(&wrong)[0].contains("break Jacobi's identity"), "{:?}", told(&wrong));
 }

@@ -1,5 +1,5 @@
-//! Every mistake of the corpus `tests/bad`: each file has beside it the exact report it must give.
-//! With `UPDATE_EXPECT=1` in the environment the reports are written anew, to be read and judged.
+//! Every mistake of the corpus `tests/bad`: each file has its exact expected report beside it.
+//! `UPDATE_EXPECT=1` rewrites the reports; review them afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,7 +48,7 @@ fn each_expected_report_has_its_file() {
     }
 }
 
-/// Places are within the file, on whole characters, and the report names the line and column.
+/// Positions are within the file and on whole characters, and the report names the line and column.
 #[test]
 fn places_lie_in_the_file() {
     for path in corpus() {

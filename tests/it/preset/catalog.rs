@@ -1,4 +1,4 @@
-//! The catalog: shipped presets, the user's own before them, and the way from a name to a text.
+//! The catalog: shipped presets, the user's own before them, and the lookup of a text by name.
 
 use std::fs;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn the_list_goes_by_topic_and_chapter() {
     assert_eq!(titles, ["another nine", "nine", "ten", "unplaced", "last of all"]);
     let first = &catalog.entries()[0];
     assert_eq!((first.topic(), first.name.as_str()), ("zeta", "e"));
-    // a topic stands in one piece
+    // a topic is contiguous
     let mut topics: Vec<&str> = catalog.entries().iter().map(Entry::topic).collect();
     topics.dedup();
     let mut once = topics.clone();
@@ -134,7 +134,7 @@ fn a_folder_that_is_not_there_is_no_mistake() {
     assert_eq!(catalog.entries().len(), Catalog::with_folder(None).entries().len());
 }
 
-/// A link back to its own folder does not lead round and round.
+/// A link to its own folder causes no endless loop.
 #[cfg(unix)]
 #[test]
 fn links_in_a_circle_are_followed_once() {

@@ -1,4 +1,4 @@
-//! What a file may say, and what the model then holds.
+//! The possible contents of a file, and the resulting model.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use phaselab::preset::{Catalog, Checked, Origin, read};
 
 use super::GOOD;
 
-/// Reads a text without a mistake, or fails with its report.
+/// Reads a text without mistakes, or fails with its report.
 pub(super) fn checked(text: &str) -> Checked {
     match read(text) {
         Ok(checked) => checked,
@@ -18,7 +18,7 @@ pub(super) fn checked(text: &str) -> Checked {
     }
 }
 
-/// The same, without a warning either.
+/// Reads a text without mistakes or warnings.
 pub(super) fn model(text: &str) -> Model {
     let Checked { model, warnings } = checked(text);
     assert!(warnings.is_empty(), "{}", report(text, "test.toml", &warnings, false));
@@ -59,7 +59,7 @@ fn every_shipped_preset_can_be_read() {
     assert!(names.contains("pendulum") && names.contains("heavy-top"));
 }
 
-/// FORMAT.md's own example.
+/// The example in FORMAT.md.
 #[test]
 fn the_heavy_top_of_the_format() {
     let top = model(
@@ -257,7 +257,7 @@ shapes = [
     assert_eq!(points, expected);
 }
 
-/// Inside a path `s` is the path's own, and its use there is no use of another `s`.
+/// Inside a path `s` is the path's own, and its use there does not count as a use of another `s`.
 #[test]
 fn the_parameter_of_a_path_is_its_own() {
     let text = GOOD.replace("k = 2.0", "k = 2.0\ns = 3.0")
@@ -318,7 +318,7 @@ fn what_nothing_uses_is_a_warning() {
     assert_eq!(&text[warnings[0].place.clone()], "idle");
 }
 
-/// A definition may hold what its place of use allows: here an observable, not L.
+/// A definition may contain what its place of use allows: here an observable, not L.
 #[test]
 fn a_definition_is_judged_where_it_is_used() {
     let file = model(&with(
@@ -365,7 +365,7 @@ fn the_method_keeps_its_place() {
     assert_eq!(&written[run.method_place.unwrap()], "\"rk5\"");
 }
 
-/// Every way TOML quotes a text gives the same expression, and mistakes in it their exact place.
+/// Every kind of TOML quotation gives the same expression, and mistakes in it have their exact position.
 #[test]
 fn places_pass_through_quotes_and_escapes() {
     for quoted in [
@@ -389,7 +389,7 @@ fn places_pass_through_quotes_and_escapes() {
     }
 }
 
-/// A mark of byte order before the text moves no place.
+/// A byte order mark before the text does not change any position.
 #[test]
 fn a_byte_order_mark_is_passed_over() {
     let text = format!("\u{feff}{GOOD}");
@@ -399,7 +399,7 @@ fn a_byte_order_mark_is_passed_over() {
     assert_eq!(&text[mistakes[0].place.clone()], "zzz");
 }
 
-/// Names a constraint or another coordinate would reserve are free where there is none.
+/// Names that a constraint or another coordinate would reserve are free if there is none.
 #[test]
 fn only_what_means_something_is_reserved() {
     model(&GOOD.replace('k', "lambda_k").replace("m = ", "p_m = ").replace("m*", "p_m*"));

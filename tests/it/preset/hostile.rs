@@ -1,4 +1,4 @@
-//! A stranger's file can do no harm: whatever the bytes, an answer comes soon and without a panic.
+//! An untrusted file does no damage: whatever its bytes, an answer comes soon and without a panic.
 
 use std::fmt::Write as _;
 use std::sync::LazyLock;
@@ -12,7 +12,7 @@ use proptest::sample::Index;
 use super::GOOD;
 use crate::hand::catalog;
 
-/// Reads bytes and draws whatever is wrong with them; all places lie in the text.
+/// Reads bytes and renders all mistakes in them; all positions lie in the text.
 fn survive(bytes: &[u8]) {
     let document = Document::from_bytes("hostile.toml", bytes);
     let mistakes = match document.read() {
@@ -37,7 +37,7 @@ fn shipped() -> &'static [String] {
     &TEXTS
 }
 
-/// One change of a text.
+/// A change of a text.
 #[derive(Clone, Debug)]
 enum Change {
     Put(Index, u8),
@@ -109,7 +109,7 @@ fn only(text: &str) -> Diagnostic {
     mistakes[0].clone()
 }
 
-/// A file of just 1 MiB whose Lagrangian is made of one piece again and again.
+/// A file of just 1 MiB whose Lagrangian consists of one repeated piece.
 fn filled(piece: impl Fn(usize) -> String) -> String {
     let mut law = String::new();
     for i in 0.. {
@@ -175,7 +175,7 @@ fn long_names_are_reported_shortened() {
     assert!(only(&text).message.len() < 500);
 }
 
-/// A file with so many entries of a table.
+/// A file with a number of entries in a table.
 fn many(head: &str, entry: impl Fn(usize) -> String, count: usize) -> String {
     let mut text = GOOD.replace(&format!("{head}\n"), &format!("{head}\n@"));
     let entries: String = (0..count).map(entry).collect();
@@ -209,7 +209,7 @@ fn paths_have_a_limit_together() {
     assert_eq!(message, "with this, the file's paths have more than a million nodes");
 }
 
-/// Definitions on definitions nest as deep as a text may, and no deeper.
+/// Nested definitions may be as deep as the limit for a text, and no deeper.
 #[test]
 fn opened_definitions_have_a_depth_limit() {
     let chain = |n: usize| {
@@ -228,7 +228,7 @@ fn opened_definitions_have_a_depth_limit() {
     assert!(read(&parentheses(250)).is_ok());
 }
 
-/// Sums of sums of sums: the nodes are counted, and the file refused once, before memory is full.
+/// Sums of sums of sums: the nodes are counted, and the file is refused once, before memory is full.
 #[test]
 fn expressions_may_not_outgrow_their_pool() {
     let tower = |i: usize| match i {
@@ -248,7 +248,7 @@ fn expressions_may_not_outgrow_their_pool() {
     assert_eq!(only(&text).message, message);
 }
 
-/// To prove constraints linear takes a walk through them for each velocity.
+/// A proof that constraints are linear traverses them once for each velocity.
 #[test]
 fn constraints_have_a_limit_together() {
     let mut text = "title = \"long\"\n[coordinates]\n".to_owned();

@@ -12,7 +12,7 @@ fn oscillator() -> Model {
     read(&text).unwrap().model
 }
 
-/// The messages one expression gives at a place.
+/// The messages about one expression in a context.
 fn messages(allowed: Allowed, place: &str, text: &str) -> Vec<String> {
     let mut model = oscillator();
     let mut scope = Scope::new(&model, allowed, place);
@@ -109,7 +109,7 @@ fn a_scope_tells_what_was_used() {
     assert!(scope.knows("length") && !scope.knows("width"));
 }
 
-/// A name announced is a mistake of its own kind until it is defined.
+/// A name that is announced gives a separate kind of mistake until it is defined.
 #[test]
 fn announced_names_wait_for_their_definition() {
     let mut model = oscillator();

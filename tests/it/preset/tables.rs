@@ -1,4 +1,4 @@
-//! The tables beside the law: what they may say, and what the model then holds.
+//! The tables other than the law: their contents, and the resulting model.
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
@@ -85,14 +85,14 @@ fn what_is_linear_once_simplified_is_a_constraint() {
     check("x^2 + y^2 - 2*a", "x^2 + y^2 - 2*a");
     check("x*y' - sin(y)*x' + t", "x*y' - sin(y)*x' + t");
     check("(x' + 1)^2 - x'^2 - 2*x' - 1 + a*y'", "a*y'");
-    // the velocities cancel by an identity: what is left holds at the level of positions
+    // the velocities cancel by an identity: what remains is a constraint on positions
     check("(sin(x)^2 + cos(x)^2 - 1)*x'^2 + a*x - y", "a*x - y");
     check("abs(x) - y", "abs(x) - y");
-    // real nowhere near the points at which zeros are looked for
+    // real nowhere near the sample points of the zero test
     check("sqrt(x - 1e6)*x' - y'", "sqrt(x - 1000000)*x' - y'");
 }
 
-/// A parameter `lambda_rod` is reserved only where there is such a constraint.
+/// A parameter `lambda_rod` is reserved only if there is such a constraint.
 #[test]
 fn lambda_is_a_name_like_others_without_constraints() {
     let text = with(
@@ -192,7 +192,7 @@ action = "stop"
     assert_eq!(&file[model.events[1].place.clone()], "\"lambda_no_slip\"");
 }
 
-/// An impulse before the start, or at it, is allowed, and probably not meant.
+/// An impulse at the start or before it is allowed, but probably a mistake.
 #[test]
 fn an_impulse_that_is_not_after_the_start_is_a_warning() {
     for (at, place) in [("-1", "before the start"), ("0", "the start itself")] {
@@ -269,7 +269,7 @@ fn brackets_become_an_antisymmetric_matrix() {
     assert_eq!(text(&body, body.impulses[0].change[0]), "L2 + t");
 }
 
-/// Variables may be called as momenta are: canonical brackets are brackets too.
+/// Variables may have the names of momenta, since canonical brackets are brackets too.
 #[test]
 fn a_variable_may_be_called_as_a_momentum() {
     let plane = model(
@@ -288,7 +288,7 @@ brackets = [["x", "p_x", "1"]]
     assert!(plane.pool.depends(h, p.position) && !plane.pool.depends(h, x.momentum));
 }
 
-/// A hammer that turns: a head and a handle.
+/// A rotating hammer: a head and a handle.
 const HAMMER: &str = r#"title = "Hammer"
 
 [coordinates]
@@ -488,7 +488,7 @@ brackets = [ { f = "x ", g = "x'*m", is = "1", source = "3.2.3" }, { f = "energy
     assert_eq!(&file[bracket.place.clone()], "\"1\"");
 }
 
-/// What is used in the new tables alone is used.
+/// A name that is used only in one of the new tables counts as used.
 #[test]
 fn names_used_in_new_tables_only_are_used() {
     let used = r#"title = "used"

@@ -1,10 +1,10 @@
-//! One random system with a way to run it, in natural units, and its file in any others.
+//! A random system with the settings of a run, in natural units, and its file in any units.
 
 use std::fmt::Write as _;
 
 use super::tree::{Spelling, Tree};
 
-/// How the mechanics is given.
+/// The form of the law of motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Law {
     Lagrangian,
@@ -13,22 +13,22 @@ pub(crate) enum Law {
     Poisson,
 }
 
-/// A constraint: an expression that is zero.
+/// A constraint: an expression that must be zero.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Constraint {
     pub(crate) expression: Tree,
     pub(crate) holonomic: bool,
 }
 
-/// The units a file is written in, beside the natural ones.
+/// The units in which a file is written, relative to the natural ones.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Units {
-    /// Of each coordinate.
+    /// The unit of each coordinate.
     pub(crate) positions: Vec<f64>,
     pub(crate) time: f64,
-    /// Of the energy.
+    /// The unit of the energy.
     pub(crate) energy: f64,
-    /// Whether they are parameters; else they are worked into the numbers.
+    /// Whether they are parameters; otherwise the numbers contain them.
     pub(crate) as_parameters: bool,
 }
 
@@ -37,23 +37,23 @@ pub(crate) struct Units {
 pub(crate) struct Case {
     pub(crate) law: Law,
     pub(crate) names: Vec<String>,
-    /// L is these less the potential ones; H their sum.
+    /// L is their sum less the potential terms; H is the sum of both.
     pub(crate) kinetic: Vec<Tree>,
     pub(crate) potential: Vec<Tree>,
     pub(crate) dissipation: Vec<Tree>,
     pub(crate) forces: Vec<(usize, Tree)>,
     pub(crate) constraint: Option<Constraint>,
-    /// Of a Poisson system: {a, b} = −(A x)_c, around, with a symmetric A.
+    /// For a Poisson system: {a, b} = −(A x)_c, and cyclic, with a symmetric A.
     pub(crate) structure: [[f64; 3]; 3],
     /// Whether the file claims that its energy is conserved.
     pub(crate) claims: bool,
-    /// Which velocities of the start are given as momenta, beside the file.
+    /// The initial velocities that are overridden as momenta.
     pub(crate) by_momentum: Vec<usize>,
     /// Coordinates, then velocities or momenta.
     pub(crate) start: Vec<f64>,
-    /// When, on which coordinate, and how much.
+    /// The time, the coordinate and the size.
     pub(crate) impulse: Option<(f64, usize, f64)>,
-    /// What ends the motion where it is zero.
+    /// The event function whose zero ends the motion.
     pub(crate) stop: Option<Tree>,
     pub(crate) length: f64,
     pub(crate) method: String,
@@ -76,7 +76,7 @@ impl Case {
         self.names.len()
     }
 
-    /// The numbers of a state.
+    /// The number of components of a state.
     pub(crate) fn numbers(&self) -> usize {
         if self.law == Law::Poisson { self.count() } else { 2 * self.count() }
     }
@@ -86,13 +86,13 @@ impl Case {
         2 * self.count()
     }
 
-    /// All expressions of the law of motion, but for constraints.
+    /// All expressions of the law of motion except constraints.
     pub(crate) fn trees(&self) -> impl Iterator<Item = &Tree> {
         let forces = self.forces.iter().map(|(_, tree)| tree);
         self.kinetic.iter().chain(&self.potential).chain(&self.dissipation).chain(forces)
     }
 
-    /// Whether the energy is conserved by the very form of the law.
+    /// Whether the form of the law conserves the energy.
     pub(crate) fn keeps_energy(&self) -> bool {
         let time = self.time();
         self.dissipation.is_empty()
@@ -102,7 +102,7 @@ impl Case {
             && !self.trees().any(|tree| tree.holds(time))
     }
 
-    /// Whether the momentum of a coordinate is conserved because that is in no expression.
+    /// Whether the momentum of a coordinate is conserved because the coordinate occurs in no expression.
     pub(crate) fn is_cyclic(&self, i: usize) -> bool {
         self.law == Law::Lagrangian
             && self.dissipation.is_empty()
@@ -112,7 +112,7 @@ impl Case {
             && !self.trees().any(|tree| tree.holds(i))
     }
 
-    /// The unit of each number of a state.
+    /// The unit of each component of a state.
     pub(crate) fn state_units(&self) -> Vec<f64> {
         let Units { positions, time, energy, .. } = &self.units;
         let second = |x: &f64| match self.law {
@@ -150,7 +150,7 @@ impl Case {
         names
     }
 
-    /// The file.
+    /// The text of the file.
     pub(crate) fn toml(&self) -> String {
         let (names, units) = (self.spellings(), self.state_units());
         let Units { time, energy, as_parameters, .. } = self.units;

@@ -21,7 +21,7 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// Evenly between two numbers, in so few digits that a file stays readable.
+    /// A uniform number between two bounds, with so few digits that a file remains readable.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         let even = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         let value = low + (high - low) * even;

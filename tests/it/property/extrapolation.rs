@@ -1,5 +1,5 @@
-//! A motion by extrapolated midpoint steps (Gragg 1965, Bulirsch & Stoer 1966), with kinks located to the last bit: what the
-//! program's own methods are held against.
+//! A motion by extrapolated midpoint steps (Gragg 1965, Bulirsch & Stoer 1966), with kinks located to the last bit; the
+//! program's own methods are compared with it.
 
 use super::case::Case;
 use super::oracle::{after_impulse, rates};
@@ -8,27 +8,27 @@ use super::tree::Branches;
 /// Columns of the table: the last is of order 12.
 const COLUMNS: usize = 6;
 
-/// Where a motion has come to.
+/// The end of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrival {
     pub(crate) time: f64,
     pub(crate) state: Vec<f64>,
     /// Whether the event ended it.
     pub(crate) stopped: bool,
-    /// Times and states on the way.
+    /// Times and states during the motion.
     pub(crate) way: Vec<(f64, Vec<f64>)>,
 }
 
-/// Why there is no motion to compare with.
+/// The reason why there is no motion for comparison.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Lost {
-    /// Not even a first rate.
+    /// The first rates cannot be computed.
     AtStart,
-    /// A pole or a domain's end.
+    /// A pole, or the end of a domain.
     NotFinite,
     /// It would take too long.
     TooLong,
-    /// It rests on a kink, or meets ever more of them.
+    /// The motion rests on a kink, or meets them in ever shorter intervals.
     Sticks,
 }
 
@@ -39,15 +39,15 @@ struct Walker<'a> {
     budget: u64,
 }
 
-/// One attempt at a step.
+/// An attempted step.
 struct Step {
     state: Vec<f64>,
     error: f64,
-    /// A kink lies in it.
+    /// Whether it crosses a kink.
     crossed: bool,
 }
 
-/// Follows the case to its end; `budget` counts evaluations.
+/// Follows the case to its end; `budget` is a number of evaluations.
 pub(crate) fn follow(
     case: &Case,
     start: &[f64],
@@ -85,7 +85,7 @@ impl Walker<'_> {
         })
     }
 
-    /// Takes the sides where the motion is about to be.
+    /// Chooses the branches on which the motion is about to be.
     fn choose(&mut self, time: f64, state: &[f64]) -> Result<(), Lost> {
         self.branches = Branches::default();
         let rate = self.rates(time, state)?;
@@ -95,7 +95,7 @@ impl Walker<'_> {
         let values = self.branches.values.clone();
         let mut above: Vec<Option<bool>> = values.iter().map(|v| Some(*v > 0.0)).collect();
         if values.contains(&0.0) {
-            // half a step ahead, the accelerations included
+            // half a step ahead, including accelerations
             let h = 1e-6_f64;
             let mut ahead: Vec<f64> =
                 state.iter().zip(&rate).map(|(x, r)| h.mul_add(*r, *x)).collect();
@@ -137,7 +137,7 @@ impl Walker<'_> {
                 return Err(Lost::NotFinite);
             }
             let step = self.step(*time, state, h)?;
-            // an error that is not a number is too large
+            // a NaN error is too large
             if step.error.is_nan() || step.error > 1.0 {
                 let factor = 0.9 * step.error.powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0));
                 h *= if factor.is_finite() { factor.clamp(0.1, 0.9) } else { 0.2 };

@@ -1,6 +1,6 @@
-//! Numbers with all their first and second derivatives: values in, Hessians out. Nothing of the program's own.
+//! Numbers with all their first and second derivatives: values in, Hessians out. It uses nothing of the program.
 
-/// The most variables: three coordinates, as many velocities, and the time.
+/// The greatest number of variables: three coordinates, as many velocities, and the time.
 pub(crate) const MOST: usize = 7;
 
 /// A value with its gradient and Hessian (lower triangle by rows) in the first `count` variables.
@@ -65,7 +65,7 @@ impl Jet {
         product
     }
 
-    /// f(self), of f's value and first two derivatives there.
+    /// f(self), given f's value and first two derivatives there.
     pub(crate) fn chain(&self, [f, first, second]: [f64; 3]) -> Jet {
         let mut result = Jet::constant(self.count, f);
         for i in 0..self.count {

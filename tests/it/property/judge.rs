@@ -1,4 +1,4 @@
-//! The property: a run is completed and accurate, or it ends with a fault that says where; never neither.
+//! The property: a run is completed and accurate, or it ends with a failure that has a position.
 
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,40 +17,40 @@ use super::case::{Case, Law};
 use super::extrapolation::{Arrival, Lost, follow};
 use super::oracle::{energy, momentum};
 
-/// What may be wrong.
+/// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Kind {
     Panic,
     Hang,
     /// It takes many more steps than the motion needs.
     Slow,
-    /// A file that is right is refused.
+    /// A correct file is refused.
     Refused,
-    /// `check` has something against a file that runs well.
+    /// `check` rejects a file that runs.
     CheckRefuses,
-    /// `check` accepts what cannot start.
+    /// `check` accepts a file that cannot start.
     DoesNotStart,
-    /// A motion that goes on is ended by a fault of the default method.
+    /// The default method fails though the motion continues.
     GivesUp,
-    /// A method that is not the default stops where the default goes on, and does not say so.
+    /// Another method fails where the default does not, without saying so.
     Unhelpful,
-    /// A fault that does not say what and where.
+    /// The report of a failure lacks its cause or position.
     NoPlace,
-    /// Completed, and wrong.
+    /// The run is completed, but wrong.
     Wrong,
-    /// The energy is lost, and nothing says so.
+    /// The energy is not conserved, and this is not reported.
     Silent,
-    /// The value of the energy is not that of the state.
+    /// The reported energy is not that of the state.
     EnergyWrong,
-    /// Said to be conserved, and it changes.
+    /// A quantity is reported as conserved, but changes.
     FalselyConserved,
-    /// Conserved by the form of the law, and not said to be.
+    /// A quantity is conserved by the form of the law, but not reported as such.
     NotConserved,
-    /// Another answer in other units.
+    /// The result depends on the units.
     UnitsMatter,
 }
 
-/// What is wrong with a case.
+/// A failed case.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Failure {
     pub(crate) kind: Kind,
@@ -63,16 +63,16 @@ impl fmt::Display for Failure {
     }
 }
 
-/// What came of a case.
+/// The outcome of a case.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Outcome {
     /// Completed and accurate.
     Accurate,
-    /// A fault with its place, where the motion indeed cannot go on or be reported.
+    /// A failure with a position, where the motion indeed ends or cannot be judged.
     Stopped,
-    /// The method does not fit and says so.
+    /// The method is not applicable and reports that.
     Unfit,
-    /// The judge cannot tell.
+    /// The judge cannot decide.
     Undecided(&'static str),
     Failed(Failure),
 }
@@ -81,7 +81,7 @@ fn failed(kind: Kind, message: impl Into<String>) -> Outcome {
     Outcome::Failed(Failure { kind, message: message.into() })
 }
 
-/// How much work a case may be.
+/// The limits on the work for a case.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
     /// Steps and rows of the program.
@@ -96,7 +96,7 @@ pub(crate) fn judged(case: &Case, budget: Budget) -> Outcome {
     judged_as(case, case, budget)
 }
 
-/// Judges the run of another system as if it were this case's, on a thread of its own: one that does not come back is a
+/// Judges the run of another system as if it were this case's, on a separate thread: one that does not return is a
 /// hang.
 pub(crate) fn judged_as(case: &Case, run: &Case, budget: Budget) -> Outcome {
     let (sender, receiver) = channel();
@@ -131,7 +131,7 @@ struct Gauge {
     max_drift: f64,
 }
 
-/// What the program makes of a case, in natural units.
+/// The program's results for a case, in natural units.
 struct Told {
     end: End,
     time: f64,
@@ -225,14 +225,14 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
     })
 }
 
-/// The motion as the judge sees it.
+/// The motion as computed by the judge.
 struct Known {
     arrival: Arrival,
-    /// The size of its numbers.
+    /// The magnitude of its components.
     scale: f64,
-    /// How much a small change of the start grows.
+    /// The growth of a small change of the start.
     growth: f64,
-    /// How well the judge knows it, relative to the scale.
+    /// The judge's own error, relative to the scale.
     error: f64,
 }
 
@@ -262,11 +262,11 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
         let moved = distance(&arrival.state, &pushed.state) / scale;
         growth = growth.max((moved + (arrival.time - pushed.time).abs() / case.length) / 1e-9);
     }
-    // the coarse one is known a hundred times worse
+    // the coarse solution's error is a hundred times as large
     Ok(Known { arrival, scale, growth, error: 0.01 * error + 1e-14 * growth })
 }
 
-/// How far a run may be from the truth beyond which the judge says nothing.
+/// The tolerance beyond which a case is left undecided.
 const UNREPORTED: f64 = 0.01;
 
 fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome {
@@ -375,7 +375,7 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
     failure.map_or(Outcome::Accurate, Outcome::Failed)
 }
 
-/// What is wrong with the energy at the end, and what is said of it.
+/// Checks the energy at the end, and the reports about it.
 fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     let (now, size) = energy(case, told.time, &told.state);
     let wrong = |kind, message: String| Some(Failure { kind, message });
@@ -405,7 +405,7 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     None
 }
 
-/// What the form of the law says is conserved, and the program does not.
+/// Finds a quantity that is conserved by the form of the law but not reported as such.
 fn form_failure(case: &Case, told: &Told) -> Option<Failure> {
     let wrong = |message: String| Some(Failure { kind: Kind::NotConserved, message });
     let gauge = told.gauges.iter().find(|g| g.name == "energy");
@@ -418,7 +418,7 @@ fn form_failure(case: &Case, told: &Told) -> Option<Failure> {
     missed.and_then(wrong)
 }
 
-/// Where the answer in natural units is another.
+/// Compares the result with that in natural units.
 fn twin_failure(
     case: &Case,
     told: &Told,
@@ -442,7 +442,7 @@ fn twin_failure(
     if off.is_nan() || off > 2.0 * allowed {
         return wrong(format!("off by {off:.1e} in natural units"));
     }
-    // where drifts are those of rounding a word may change with the digits
+    // if drifts are rounding errors, verdicts may depend on the digits
     let differs =
         |(a, b): &(&Gauge, &Gauge)| a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10;
     let pairs = told.gauges.iter().zip(&vakonomic.gauges);

@@ -1,5 +1,5 @@
-//! The equations of motion from the expressions alone: accelerations by the derivatives of L, the energy by its
-//! definition. Nothing of the program's own.
+//! The equations of motion from the expressions alone: accelerations from the derivatives of L, the energy from its
+//! definition. It uses nothing of the program.
 
 use super::case::{Case, Law};
 use super::jet::Jet;
@@ -25,7 +25,7 @@ fn point(case: &Case, time: f64, state: &[f64]) -> Vec<f64> {
     point
 }
 
-/// The rates of a state's numbers. What decides the kinks, and the function of the event last, is left in `branches`.
+/// The rates of a state's components. The values that decide kinks, and the event function last, are left in `branches`.
 pub(crate) fn rates(case: &Case, time: f64, state: &[f64], branches: &mut Branches) -> Vec<f64> {
     branches.values.clear();
     let n = case.count();
@@ -62,7 +62,7 @@ pub(crate) fn rates(case: &Case, time: f64, state: &[f64], branches: &mut Branch
         }
         Law::Poisson => {
             let slope = kinetic.plus(&potential).slope;
-            // {a, b} = −(A x)_c, around
+            // {a, b} = −(A x)_c, and cyclic
             let row = |i: usize| (0..3).map(|j| case.structure[i][j] * state[j]).sum::<f64>();
             let x = [row(0), row(1), row(2)];
             vec![
@@ -116,7 +116,7 @@ fn accelerations(
     solution
 }
 
-/// Gauss with pivots.
+/// Gaussian elimination with pivoting.
 fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
     assert!(n <= MOST);
@@ -140,7 +140,7 @@ fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     right
 }
 
-/// Σ q' ∂L/∂q' − L, or H; and the size of its terms.
+/// Σ q' ∂L/∂q' − L, or H; and the magnitude of its terms.
 pub(crate) fn energy(case: &Case, time: f64, state: &[f64]) -> (f64, f64) {
     let n = case.count();
     let at = point(case, time, state);
@@ -166,7 +166,7 @@ pub(crate) fn momentum(case: &Case, time: f64, state: &[f64], i: usize) -> f64 {
     kinetic.slope[n + i] - potential.slope[n + i]
 }
 
-/// The state after the momentum of a coordinate has jumped; none where the velocities are not found.
+/// The state after an impulse on a coordinate, or `None` if the velocities cannot be found.
 pub(crate) fn after_impulse(
     case: &Case,
     time: f64,

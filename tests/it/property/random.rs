@@ -7,11 +7,11 @@ use super::tree::{
     Branches, Kinked, Smooth, Tree, kinked, number, power, product, quotient, smooth, sum, variable,
 };
 
-/// Every kind of name: the ones that symmetries know, and others.
+/// Names of every kind: those with a meaning for symmetries, and others.
 const NAMES: [[&str; 3]; 4] =
     [["x", "y", "z"], ["u", "v", "w"], ["r", "theta", "phi"], ["q1", "q2", "q3"]];
 
-/// The case of a number, under a seed.
+/// The case with this index under a seed.
 pub(crate) fn case(seed: u64, index: u64) -> Case {
     let mut dice = Dice::of(seed, index);
     let law = match dice.below(20) {
@@ -97,7 +97,7 @@ fn lagrangian(case: &mut Case, dice: &mut Dice) {
         kinetic_term(case, dice, i);
     }
     if n > 1 && dice.chance(0.2) {
-        // coupled masses, and a field that turns
+        // coupled masses, and a rotating field
         let factors = [number(dice.between(-0.2, 0.2)), variable(n), variable(n + 1)];
         case.kinetic.push(product(factors));
     }

@@ -1,4 +1,4 @@
-//! The smallest case that still fails in the same way, as far as leaving parts out finds it.
+//! Shrinking: the smallest case that still fails in the same way, found by leaving out parts.
 
 use super::case::{Case, ROTATIONS, Units};
 use super::tree::Tree;
@@ -54,7 +54,7 @@ fn simpler(case: &Case) -> Vec<Case> {
     cases
 }
 
-/// Leaves out what can be left out while `fails` holds; at most so many looks.
+/// Leaves out parts while `fails` is true, in at most `looks` attempts.
 pub(crate) fn shrunk(case: &Case, mut looks: u32, fails: &dyn Fn(&Case) -> bool) -> Case {
     let mut smallest = case.clone();
     'smaller: loop {

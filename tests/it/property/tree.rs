@@ -1,5 +1,5 @@
-//! Expressions as trees: written in the file's language in any units, and valued with derivatives. Kinks take the branch
-//! they are reported.
+//! Expressions as trees: written in the file's language in any units, and evaluated with derivatives. Kinks use a
+//! prescribed branch.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,7 @@ pub(crate) enum Smooth {
     Ln,
 }
 
-/// A function of one argument that has a kink where that vanishes, in one of many spellings.
+/// A function of one argument with a kink at zero, in one of many spellings.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Kinked {
     /// |u|
@@ -54,10 +54,10 @@ pub(crate) enum Tree {
     Kinked(Kinked, Box<Tree>),
 }
 
-/// The branches of all kinks, in the order in which they are met, and the values that decide them.
+/// The branches of all kinks in the order of evaluation, and the values that decide them.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct Branches {
-    /// Above zero or not; where there is none yet, the value decides.
+    /// Whether the value is above zero; if this is `None`, the value decides.
     pub(crate) above: Vec<Option<bool>>,
     pub(crate) values: Vec<f64>,
 }
@@ -72,17 +72,17 @@ impl Branches {
         self.above[at].unwrap_or(value > 0.0)
     }
 
-    /// A function that is only watched for its zero.
+    /// Adds a function that is only watched for its zero.
     pub(crate) fn watch(&mut self, value: f64) {
         self.next(value);
     }
 }
 
-/// How a variable is written: what stands for it, and what one divides that by for its natural size.
+/// How a variable is written: its name, and the unit by which the name is divided.
 pub(crate) struct Spelling {
     pub(crate) name: String,
     pub(crate) unit: f64,
-    /// The same unit as a product of parameters, where it is written as such.
+    /// The same unit as a product of parameters, if it is written as such.
     pub(crate) symbol: Option<String>,
 }
 
@@ -153,7 +153,7 @@ impl Smooth {
 }
 
 impl Kinked {
-    /// On the branch above zero or below; beyond the kink the branch goes on.
+    /// The values on the branch above zero or below; a branch continues beyond the kink.
     fn values(self, u: f64, above: bool) -> [f64; 3] {
         let side = if above { 1.0 } else { -1.0 };
         let powers = |p: f64| {
@@ -239,7 +239,7 @@ impl Tree {
         }
     }
 
-    /// In the file's language, as a factor of a product.
+    /// Writes the tree in the file's language, as a factor of a product.
     pub(crate) fn write(&self, names: &[Spelling]) -> String {
         match self {
             Tree::Number(value) => literal(*value),
@@ -274,8 +274,8 @@ impl Tree {
         }
     }
 
-    /// A multiple of it, in the file's language: literal units are worked into the numbers of products, as one writes
-    /// physical laws.
+    /// Writes a multiple of the tree in the file's language; literal units are combined with the numbers of products,
+    /// as in physical laws.
     pub(crate) fn write_scaled(&self, scale: &Spelling, names: &[Spelling]) -> String {
         if let Some(symbol) = &scale.symbol {
             return format!("({symbol})*{}", self.write(names));
@@ -297,7 +297,7 @@ fn literal(value: f64) -> String {
     if value < 0.0 { format!("({value:?})") } else { format!("{value:?}") }
 }
 
-/// A product with its numbers taken together, the units of bare variables among them.
+/// Writes a product with its numbers combined, including the units of bare variables.
 fn write_product(mut scale: f64, factors: &[Tree], names: &[Spelling]) -> String {
     let mut rest = String::new();
     for factor in factors {
@@ -325,7 +325,7 @@ fn write_product(mut scale: f64, factors: &[Tree], names: &[Spelling]) -> String
     }
 }
 
-/// Whether the power of a unit is a number one would write.
+/// Whether the power of a unit is a number that people would write.
 fn plain(unit: f64, n: i32) -> bool {
     (1e-120..1e120).contains(&unit.powi(n))
 }

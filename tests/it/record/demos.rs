@@ -1,4 +1,4 @@
-//! The demos that are part of the program: what they claim is true, and they are the same every time.
+//! The demos that are part of the program: their claims are true, and they are the same every time.
 
 use phaselab::preset::{Catalog, demo, demos};
 use phaselab::record::play;
@@ -35,7 +35,7 @@ fn demos_show_what_they_claim() {
         let seconds = recording.end / 1_000_000;
         assert!((15..=45).contains(&seconds), "{name} lasts {seconds} s");
         replay::check(&recording);
-        // another turn of its first half, in a process that has done other things meanwhile
+        // the first half again, in a process that has done other work meanwhile
         let mut half = script(&source.text);
         half.steps.truncate(half.steps.len() / 2);
         let system = catalog.find(name).expect("a preset");

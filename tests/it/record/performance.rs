@@ -1,4 +1,4 @@
-//! Performances: the same as recordings, at the pace of whoever watches.
+//! Performances: the same as recordings, at the speed of the viewer.
 
 use phaselab::preset::Catalog;
 use phaselab::record::ScriptRunner;
@@ -18,7 +18,7 @@ fn performance(text: &str) -> (ScriptRunner, RenderStyle) {
     (ScriptRunner::watched(script, &system, "pendulum").expect("it can be opened"), look)
 }
 
-/// Goes on to a time in frames that come when they come; the screen then, if there is more to come.
+/// Advances to a time in irregular frames; returns the screen and whether there is more to come.
 fn watched(
     it: &mut ScriptRunner,
     look: &RenderStyle,
@@ -42,7 +42,7 @@ fn what_is_watched_is_what_is_recorded() {
     let (screen, more) = watched(&mut it, &look, (0..=middle).step_by(10_000).chain([middle]));
     assert!(more);
     assert_eq!(screen, recording.markers[0].screen);
-    // the rest in one stride, and beyond the end
+    // the rest in a single step, and beyond the end
     let (screen, more) =
         watched(&mut it, &look, [recording.end, recording.end + 50_000].into_iter());
     assert!(!more, "it ends by itself");

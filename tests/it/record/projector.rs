@@ -1,4 +1,4 @@
-//! The projector: casts shown at their pace, whoever made them.
+//! The projector: casts shown at their own speed, whatever their origin.
 
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ fn press(projector: &mut CastPlayer, code: KeyCode) -> ScreenRequest {
     projector.input(Event::Key(code.into()))
 }
 
-/// Lets so many milliseconds pass, in frames.
+/// Lets some milliseconds pass, in frames.
 fn pass(projector: &mut CastPlayer, milliseconds: u64) {
     for _ in 0..milliseconds / 20 {
         projector.advance(Duration::from_millis(20));
@@ -83,7 +83,7 @@ fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
     let mut it = projector(CAST);
     let last = |it: &mut CastPlayer| shown(it, (30, 3)).lines().nth(2).unwrap_or("").to_owned();
     assert!(last(&mut it).contains("▶ 0:00 of 0:02"), "{}", last(&mut it));
-    // the cast is over before they go away by themselves
+    // the cast ends before they disappear by themselves
     for _ in 0..3 {
         press(&mut it, KeyCode::Char('['));
     }
@@ -91,19 +91,19 @@ fn controls_stand_over_a_cast_as_large_as_the_window_for_a_while() {
     assert!(last(&mut it).contains("0:00 of 0:02"));
     pass(&mut it, 2000);
     assert_eq!(last(&mut it), "");
-    // any key brings them back, for a shorter time
+    // any key shows them again, for a shorter time
     press(&mut it, KeyCode::Char('x'));
     assert!(last(&mut it).contains("0:00 of 0:02"));
     pass(&mut it, 3500);
     assert_eq!(last(&mut it), "");
-    // and by `c` they stay, or stay away
+    // and `c` makes them stay, or stay away
     press(&mut it, KeyCode::Char('c'));
     pass(&mut it, 4000);
     assert!(last(&mut it).contains("of 0:02"));
     press(&mut it, KeyCode::Char('c'));
     press(&mut it, KeyCode::Char(' '));
     assert_eq!(last(&mut it), "");
-    // where there is a row below the cast they are always there
+    // if there is a row below the cast they are always there
     press(&mut it, KeyCode::Char('c'));
     assert!(shown(&mut it, (80, 4)).lines().nth(3).is_some_and(|row| row.contains("q quit")));
 }
@@ -160,7 +160,7 @@ fn colours_are_those_the_terminal_has() {
     check(ColourDepth::None, [Reset, Reset, Reset]);
 }
 
-/// What a stranger may put into a cast: letters and the pieces of sequences.
+/// Untrusted content of a cast: letters and pieces of sequences.
 fn hostile() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
         any::<char>().prop_map(String::from),

@@ -1,4 +1,4 @@
-//! Casts as others read them: by JSON alone, by vt100, by asciinema's own terminal.
+//! Casts read independently: as JSON, by vt100, and by asciinema's own terminal.
 
 use phaselab::record::Recording;
 use phaselab::record::cast_writer::{self, Version};
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::{played, schema};
 
-/// A cast as its format has it, read without the program's own reader.
+/// A cast in its own format, parsed without the program's own reader.
 pub(super) struct Read {
     head: Value,
     /// Time as written, in whole microseconds; code; data.
@@ -30,7 +30,7 @@ pub(super) fn read(recording: &Recording, version: Version) -> Read {
 
 /// A time with six decimals, as a whole number.
 fn micros(time: &str, line: &str) -> u64 {
-    // the number as the line has it: JSON's reader may have shortened it
+    // the number as written in the line, because a JSON reader may have rounded it
     let written = line[1..].split(',').next().expect("a time");
     assert_eq!(written.parse::<f64>().unwrap(), time.parse::<f64>().unwrap());
     let (whole, part) = written.split_once('.').expect("decimals");
@@ -44,7 +44,7 @@ impl Read {
     }
 }
 
-/// How a cell looks, whichever terminal shows it.
+/// The appearance of a cell, in either terminal.
 #[derive(PartialEq, Eq, Debug)]
 struct Looks {
     symbol: String,
@@ -55,7 +55,7 @@ struct Looks {
 }
 
 impl Looks {
-    /// What cannot be seen of a blank does not count.
+    /// Removes what is invisible on a blank.
     fn seen(mut self) -> Looks {
         if self.symbol == " " {
             let [.., underlined, reversed] = self.weights;
@@ -106,7 +106,7 @@ impl Looks {
     }
 }
 
-/// The sixteen by their names, as ratatui has them.
+/// The sixteen colours by ratatui's names.
 fn indexed(index: u8) -> Color {
     use Color as C;
     let sixteen = [
@@ -130,7 +130,7 @@ fn indexed(index: u8) -> Color {
     sixteen.get(usize::from(index)).copied().unwrap_or(C::Indexed(index))
 }
 
-/// Whether both terminals show at the end what was drawn.
+/// Asserts that both terminals finally show what was drawn.
 pub(super) fn check_last_picture(recording: &Recording, cast: &Read) {
     let (columns, rows) = recording.size;
     let mut one = vt100::Parser::new(rows, columns, 0);
@@ -154,7 +154,7 @@ pub(super) fn check_last_picture(recording: &Recording, cast: &Read) {
     assert!(other.cursor().visible);
 }
 
-/// What every cast must be, whatever its script.
+/// Asserts the properties of every cast.
 pub(super) fn check(recording: &Recording) {
     let (three, two) = (read(recording, Version::Three), read(recording, Version::Two));
     let (columns, rows) = recording.size;
@@ -212,7 +212,7 @@ fn a_cast_replays_to_what_was_drawn() {
         check(&recording);
     };
     check("Size 100x30");
-    // a velocity has a dot over a letter that no single character has
+    // a velocity has a dot above a letter, for which there is no single character
     check("Size 110x32\nOpen heavy-top");
     check("Size 80x24\nFps 30\nColor 256\nTheme light");
     check("Fps 7\nColor 16\nGlyphs half");

@@ -1,15 +1,15 @@
-//! The asciicast formats as they are published, versions 2 and 3, held against what the program writes. Stricter than
-//! players are: what the pages do not name is refused.
+//! The published asciicast formats, versions 2 and 3, compared with what the program writes. The check is stricter than
+//! players: anything that the specifications do not name is refused.
 //!
 //! <https://docs.asciinema.org/manual/asciicast/v2/>, <https://docs.asciinema.org/manual/asciicast/v3/>.
 
 use phaselab::record::cast_writer::Version;
 use serde_json::{Map, Value};
 
-/// What a key of an object must hold.
+/// A key of an object, whether it is required, and the test of its value.
 type Rule = (&'static str, bool, fn(&Value) -> bool);
 
-/// Head of version 2: the key, whether it must be there, what it holds.
+/// Header of version 2: the key, whether it is required, the test of its value.
 const HEAD_TWO: &[Rule] = &[
     ("version", true, |v| v.as_u64() == Some(2)),
     ("width", true, is_side),
@@ -66,7 +66,7 @@ fn is_colour(value: &Value) -> bool {
     value.as_str().is_some_and(is_hex)
 }
 
-/// Eight or sixteen colours with colons between them.
+/// Whether the value is eight or sixteen colours separated by colons.
 fn is_palette(value: &Value) -> bool {
     value.as_str().is_some_and(|text| {
         matches!(text.split(':').count(), 8 | 16) && text.split(':').all(is_hex)
@@ -84,7 +84,7 @@ fn holds(value: &Value, rules: &[Rule]) -> bool {
     value.as_object().is_some_and(|object| wrong_key(object, rules).is_none())
 }
 
-/// The first line of a cast that is not as its format has it, and what of it.
+/// The first line of a cast that violates its format, and the violation.
 pub(super) fn fault(text: &str, version: Version) -> Option<String> {
     if !text.ends_with('\n') || text.contains('\r') {
         return Some("lines end in a line feed".to_owned());

@@ -1,4 +1,4 @@
-//! Scripts: what they say, and what is reported of mistakes.
+//! Scripts: their contents, and the reports on mistakes.
 
 use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::preset::Catalog;
@@ -86,7 +86,7 @@ fn mistakes_stand_in_their_places() {
     check("Sweep l to 2", &["1:13 here `in` is missing"]);
     check("Speed -1\nWait 1s", &["1:7 a speed is above zero; this is -1"]);
     check("Press q\nWait 1s", &["2:1 the lab was left before this line"]);
-    // several at once, each in its place
+    // several at once, each at its position
     assert_eq!(mistakes("Wiat 1s\nPress Entr\nWait\n").len(), 3);
 }
 

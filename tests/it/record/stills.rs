@@ -1,4 +1,4 @@
-//! Stills: well-formed drawings with as many dots as the screen has, and text that is the screen's.
+//! Stills: well-formed drawings with as many dots as the screen, and the screen's text.
 
 use phaselab::record::screenshot::{Form, write};
 use ratatui::buffer::Buffer;
@@ -22,7 +22,7 @@ fn a_drawing_has_the_dots_of_its_screen() {
     let document = roxmltree::Document::parse(&drawing).expect("well-formed");
     let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
     assert_eq!(circles.count() as u32, dots);
-    // every dot stands inside
+    // every dot is inside
     let size =
         |name: &str| document.root_element().attribute(name).unwrap().parse::<f64>().unwrap();
     assert_eq!((size("width"), size("height")), (110.0 * 8.0 + 16.0, 32.0 * 16.0 + 16.0));

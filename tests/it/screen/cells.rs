@@ -1,4 +1,4 @@
-//! One character in a cell: no terminal, multiplexer or player can then lose a row.
+//! One character per cell, so that no terminal, multiplexer or player can misalign a row.
 
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -9,10 +9,10 @@ use unicode_width::UnicodeWidthStr;
 use super::screen;
 use crate::hand::{catalog, lab, press};
 
-/// Pages and pop-ups, and how they are reached from a lab that was just opened.
+/// Pages and pop-ups, as the keys that open them in a new lab.
 const PAGES: [&str; 8] = ["", "2", "3", "4", "9", "?", ":", "Enter"];
 
-/// What is wrong with the cells of every page of a system.
+/// The faulty cells on all pages of a system.
 fn wrong(name: &str, looks: &[RenderStyle]) -> Vec<String> {
     let opened = lab(name, 1.0);
     let mut wrong = Vec::new();

@@ -1,5 +1,6 @@
 //! Whole screens as they are meant to look, in `tests/screens`: first the text, then the style of every cell as a
-//! letter; of large ones also what is left without colour, and the text in ASCII. `PHASELAB_BLESS=1 cargo test screen::golden` writes them anew; look at what changed before you commit it.
+//! letter; for large ones also the rendering without colour, and the text in ASCII.
+//! `PHASELAB_BLESS=1 cargo test screen::golden` rewrites them; review the changes before you commit them.
 
 use std::fs;
 use std::path::Path;
@@ -64,7 +65,7 @@ fn check_text(name: &str, now: &str) {
     assert!(meant == now, "{name} has changed; it is now\n{now}");
 }
 
-/// What sets a cell apart where there is no colour: the first letter of it; a dot where nothing does.
+/// The modifier of each cell without colour, as its first letter; a dot if it has none.
 fn weights(buffer: &Buffer) -> String {
     let messages = [
         (Modifier::REVERSED, 'r'),

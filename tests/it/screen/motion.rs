@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-/// What moves although nothing happens: how code or text names it.
+/// Names and characters, in code or text, of things that move although nothing happens.
 const RESTLESS: [&str; 6] = ["SLOW_BLINK", "RAPID_BLINK", "spinner", "Throbber", "⠋", "◐"];
 
-/// Where these words may stand: there it is only known how a terminal is reported.
+/// The file in which these words may occur: it only maps them to parameters.
 const SGR: &str = "view/sgr.rs";
 
 fn check(folder: &Path, wrong: &mut Vec<String>) {

@@ -1,4 +1,4 @@
-//! What the panes show, and in which style.
+//! The contents of the panes, and their styles.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -106,7 +106,7 @@ fn verdicts_have_their_colours() {
     }
 }
 
-/// A motion that is not the one of its law is marked on every picture, and the status says by how much.
+/// A deviation from the law of motion is marked on every picture, and the status shows its size.
 #[test]
 fn a_departed_invariant_marks_the_picture() {
     let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
@@ -252,10 +252,10 @@ fn what_happened_is_marked_where_it_was_and_named() {
     assert_eq!(signs(&screen(&app, &look, (120, 40))), 0);
     app.update(Event::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &look, (120, 40));
-    // on the phase portrait and on the time series, and in the heading that has room; two that fall together are one
+    // on the phase portrait and on the time series, and in the heading that has room; two that coincide are one
     assert_eq!(signs(&buffer), 2 + 2 + 1, "{:#?}", rows(&buffer));
     assert!(find(&buffer, "◆ push").is_some());
-    // the mark of t = 1 in the time series stands above that time
+    // the mark of t = 1 in the time series is above that time
     press(&mut app, "Shift-Tab Shift-Tab z");
     let buffer = screen(&app, &look, (120, 40));
     let columns: Vec<u16> =
@@ -321,7 +321,7 @@ fn a_picture_may_be_seen_from_a_frame() {
         assert!(x + 4 > from, "only in the frame's own picture");
     }
     assert!(find(&buffer, "Euler").is_none(), "it turns evenly");
-    // the first picture turns too once it is asked to, and back
+    // the first picture also rotates when asked to, and back
     press(&mut app, "Tab Tab Tab f z");
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "seen from merry-go-round").is_some(), "{:#?}", rows(&buffer));
@@ -356,8 +356,8 @@ fn a_body_seen_from_itself_stands_still() {
     };
     let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     assert!(picture(still, "z").contains("Motion") && picture(still, "z f").contains("the body"));
-    // the part of the cells that a quarter turn leaves as they were: all but the arrow of L, which
-    // turns instead
+    // the fraction of the cells that a quarter turn does not change: all but the arrow of L, which
+    // rotates instead
     let turned = [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let kept = |keys: &str| {
         let (before, after) = (picture(still, keys), picture(turned, keys));
@@ -392,7 +392,7 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     };
     app.update(Event::Loaded(Ok(planet.clone())));
     app.update(Event::Snapshot(Arc::new(now.clone())));
-    // V_eff = V + p²/(2 m r²): p held, so doubling r divides the wall by four
+    // V_eff = V + p²/(2 m r²): p is constant, so doubling r divides the wall by four
     let lab = app.lab.as_ref().unwrap();
     let symbol = |name: &str| lab.valuation().at(planet.model.pool.find_symbol(name).unwrap());
     let (m, p) = (symbol("m"), symbol("p_theta"));
@@ -599,7 +599,7 @@ fn without_colour_what_is_selected_is_reversed_in_every_list() {
     }
 }
 
-/// Width and height in dots of what is drawn in a zoomed pane; dots are as wide as high.
+/// Width and height, in dots, of the drawing in a zoomed pane; dots are as wide as high.
 fn extent(buffer: &ratatui::buffer::Buffer) -> [f64; 2] {
     let mut ends = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
     for y in 2..buffer.area.height - 3 {
@@ -761,7 +761,7 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     }
 }
 
-/// What is exact between impulses, but changed by them, does not look like what never changed.
+/// A quantity that is exact between impulses, but changed by them, is marked differently from one that never changed.
 #[test]
 fn what_impulses_have_changed_is_marked() {
     let mut seen = snapshot(&pendulum(), 2.0);

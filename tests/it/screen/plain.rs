@@ -1,4 +1,4 @@
-//! The plain reading, and where the terminal's cursor belongs.
+//! The plain-text page, and the position of the terminal's cursor.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use phaselab::view::theme::Theme;
 use super::{drawn, find, rich, rows};
 use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
 
-/// The page on a screen so long that all of it is there, as one text without line breaks.
+/// The page on a screen long enough for all of it, as one text without line breaks.
 fn text(app: &App) -> String {
     let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
     let buffer = drawn(app, &plain, (114, 240)).0;
@@ -60,7 +60,7 @@ fn everything_on_the_screen_can_be_read() {
         }
         let channels = system.system.channels();
         for (index, channel) in channels.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
-            // What a file expects of a quantity is watched under the quantity's own name.
+            // A quantity that a file expects something of is watched under its own name.
             if channels[..index].iter().all(|before| before.name != channel.name) {
                 told(&format!("{} is ", channel.shown));
             }
@@ -90,7 +90,7 @@ fn it_keeps_still_until_it_is_asked() {
     }
     press(&mut app, "Enter");
     assert!(text(&app).contains("Time 4.96667"), "{}", text(&app));
-    // By itself, every two seconds and not oftener.
+    // Automatically, every two seconds and not more often.
     press(&mut app, "A");
     app.notice = None;
     let mut pictures = vec![read(&app)];
@@ -109,7 +109,7 @@ fn it_keeps_still_until_it_is_asked() {
     app.update(Event::Tick(Duration::from_secs(5)));
     sees(&mut app, 99.0);
     assert!(read(&app) == still);
-    // What a command given here has done is read at once.
+    // The result of a command given here is read at once.
     press(&mut app, "Space");
     sees(&mut app, 123.0);
     assert!(text(&app).contains("Time 123"));

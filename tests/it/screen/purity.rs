@@ -1,4 +1,4 @@
-//! Any size, any terminal: no panic, no foreign character, no colour where there is none.
+//! Any size, any terminal: no panic, no unsupported character, no colour if there is none.
 
 use std::sync::{Arc, OnceLock};
 
@@ -64,7 +64,7 @@ fn all_states() -> Vec<App> {
     lab.chain(picker).chain([empty, failed, stopped(), unseen(), crowded()]).collect()
 }
 
-/// A motion that cannot go on, with numbers that are none.
+/// A motion that cannot continue, with NaN among its numbers.
 fn stopped() -> App {
     let mut app = in_lab();
     let mut odd = snapshot(&pendulum(), 2.0);
@@ -78,14 +78,14 @@ fn stopped() -> App {
     app
 }
 
-/// A system that has not been seen in motion yet.
+/// A system without a snapshot yet.
 fn unseen() -> App {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
     app.update(Event::Loaded(Ok(pendulum())));
     app
 }
 
-/// A snapshot that fits another system: everything in it is too short.
+/// A snapshot that belongs to another system: everything in it is too short.
 fn crowded() -> App {
     let mut app = in_lab();
     let empty = Snapshot { trail: Trail::from_rows(1, &[vec![0.0]]), ..Snapshot::empty(1) };
@@ -174,7 +174,7 @@ fn screens_of_few_colours_have_no_others() {
     }
 }
 
-/// What once was too narrow for a list beside a plot.
+/// A size that was once too narrow for a list beside a plot.
 #[test]
 fn a_size_between_two_layouts_is_no_panic() {
     for app in everything() {

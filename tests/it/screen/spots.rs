@@ -1,4 +1,4 @@
-//! The mouse: what lies at a place is what is drawn there, and what is done to it happens.
+//! The mouse: the target at a position is what is drawn there, and mouse events act on it.
 
 use std::sync::Arc;
 
@@ -22,14 +22,14 @@ fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<HitTarget> {
     hit_test(app, &rich(), Rect::new(0, 0, size.0, size.1), place.0, place.1)
 }
 
-/// Every place with what lies there.
+/// Every position with its target.
 fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), HitTarget)> {
     let spots = hit_targets(app, &rich(), Rect::new(0, 0, width, height));
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
 }
 
-/// The places of a spot.
+/// The positions of a target.
 fn places(app: &App, size: (u16, u16), is: impl Fn(&HitTarget) -> bool) -> Vec<(u16, u16)> {
     all(app, size).into_iter().filter(|(_, spot)| is(spot)).map(|(place, _)| place).collect()
 }
@@ -46,7 +46,7 @@ fn click(real: &mut Real, size: (u16, u16), place: (u16, u16)) {
     act(real, size, Up(Left), place);
 }
 
-/// The lab with two gauges more.
+/// The lab with two more gauges.
 fn with_gauges() -> App {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.0);
@@ -71,7 +71,7 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
                     let shown = app.lab.as_ref().unwrap().value_info(target).unwrap().shown;
                     named(&rich().glyphs.text(&shown));
                 }
-                // Every second row of a gauge holds its numbers.
+                // Every second row of a gauge contains its numbers.
                 HitTarget::Gauge(_) => assert!(!row.contains("verdict"), "{row}"),
                 HitTarget::Page(page) => named(&format!("{page:?}")),
                 HitTarget::Hint(action) => {
@@ -120,7 +120,7 @@ fn every_pane_answers_in_its_own_frame() {
 
 #[test]
 fn the_coordinates_of_a_place_are_those_of_the_axes() {
-    // The cursor reads the cell it stands on; the mouse reads the same there, to half a dot of eight.
+    // The cursor and the mouse read the same in a cell, to half a dot of eight.
     for size in [(80, 24), (120, 40), (200, 60)] {
         let app = in_lab();
         for (place, spot) in all(&app, size) {
@@ -135,7 +135,7 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
             viewport.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
             assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
-            // The reading in the corner, to the digits it has, is what the mouse says of the place.
+            // The reading in the corner agrees, in all its digits, with the mouse.
             let reading: String = rows(&buffer).concat();
             let [x, y] =
                 coordinates.map(|v| phaselab::view::number::readable(v, 4, Glyphs::Braille));
@@ -206,7 +206,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
         let buffer = screen(&real.app, &rich(), size);
         assert_eq!(buffer[*place].symbol(), "●", "the knob is under the mouse");
     }
-    // Beside the bar the knob stops at its end.
+    // Beyond the bar the knob stops at its end.
     act(&mut real, size, Drag(Left), (119, 0));
     let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
@@ -218,7 +218,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     assert_eq!(real.seen().parameters[1], max);
 }
 
-/// Somewhere in the middle of a picture.
+/// A position in the middle of a picture.
 fn inside(app: &App, size: (u16, u16), picture: usize) -> (u16, u16) {
     let here = |spot: &HitTarget| match *spot {
         HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => index == picture,
@@ -248,7 +248,7 @@ fn the_wheel_zooms_about_the_place_under_it() {
                 act(&mut real, size, ScrollUp, place);
             }
             assert_ne!(real.lab().plots[picture], plot);
-            // What ticks are shown moves the axes by a cell or so; the place stays to a part of it.
+            // A change of tick labels shifts the axes by about a cell; the position changes by a fraction of it.
             let after = coordinates(&real);
             let wide = if picture == 1 { 6.3 } else { 20.0 };
             assert!((after[0] - before[0]).abs() < 0.05 * wide, "{before:?} {after:?}");
@@ -390,7 +390,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
             assert!(found.is_none(), "{found:?} at {place:?} of {size:?}");
         }
     }
-    // A knob that is held but not shown any more, and a command that cannot be meant.
+    // A dragged knob that is no longer shown, and a value that does not exist.
     app.hold = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));

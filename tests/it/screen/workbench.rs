@@ -1,4 +1,4 @@
-//! The workbench on the screen: the cursor in sight wherever it goes, mistakes marked, any size, ASCII.
+//! The workbench on the screen: the cursor always visible, mistakes marked, any size, ASCII.
 
 use phaselab::app::{App, BufferDiagnostic, Caret, Event, Notification, SheetState};
 use phaselab::view::RenderStyle;
@@ -18,7 +18,7 @@ fn edited() -> App {
     app
 }
 
-/// What stands in the cells of a modifier left of a column, between the lines above and below the pages.
+/// The text of the cells with a modifier left of a column, between the header and the footer.
 fn cells(buffer: &Buffer, modifier: Modifier, right: u16) -> Vec<String> {
     let places = (1..buffer.area.height - 2).flat_map(|y| (0..right).map(move |x| (x, y)));
     let cells = places.map(|at| &buffer[at]).filter(|cell| cell.modifier.contains(modifier));
@@ -116,7 +116,7 @@ fn the_motion_stands_beside_the_text_where_there_is_room() {
 
 const ALONG: [&str; 6] = ["Left", "Right", "Home", "End", "Ctrl-Right", "Ctrl-Left"];
 
-/// What a character stands as on a terminal of ASCII.
+/// The form of a character on an ASCII terminal.
 fn spelt(c: char) -> String {
     match c {
         'θ' => "<theta>".to_owned(),
@@ -129,7 +129,7 @@ fn spelt(c: char) -> String {
 proptest! {
     #![proptest_config(crate::cases(64))]
 
-    /// Where a character takes several cells the cursor stands on all of them.
+    /// If a character takes several cells, the cursor covers all of them.
     #[test]
     fn the_cursor_is_in_sight_where_letters_are_spelt_out(
         keys in prop::collection::vec(prop::sample::select(ALONG.to_vec()), 0..20),

@@ -1,4 +1,4 @@
-//! What can be seen of a state: names, order, values, conversions of form, level curves.
+//! The observable quantities of a state: names, order, values, conversions of form, level curves.
 
 use phaselab::mechanics::derive;
 use phaselab::model::{self, Model};

@@ -1,4 +1,4 @@
-//! The first evaluator against the walk over the expression's nodes.
+//! The first evaluator compared with a traversal of the expression's nodes.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use crate::build::{names, read, sample, try_read};
 use crate::expr::{close, sources};
 
-/// A program of expressions of a model with the coordinates q, u, theta, phi and the parameters
+/// A program for expressions of a model with the coordinates q, u, theta, phi and the parameters
 /// m, g, l, k, a, b.
 fn program(pool: &mut Pool, outputs: &[Expr]) -> (Arc<Program>, Vec<Symbol>, Vec<Symbol>) {
     let parameters = ["m", "g", "l", "k", "a", "b"].map(|name| pool.symbol(name)).to_vec();
@@ -57,7 +57,7 @@ proptest! {
     }
 }
 
-/// One expression's value where q = 0.3, u = −0.7, m = `m`.
+/// The value of an expression at q = 0.3, u = −0.7, m = `m`.
 fn value(source: &str, m: f64) -> f64 {
     let mut model = names(&["q", "u", "theta", "phi"], &["m", "g", "l", "k", "a", "b"]);
     let e = read(&mut model, source);

@@ -1,5 +1,5 @@
-//! The second evaluator: Taylor coefficients of every function, against numbers of 60 digits, and
-//! of random expressions, against series arithmetic written out plainly.
+//! The second evaluator: Taylor coefficients of every function, compared with numbers of 60 digits, and
+//! of random expressions, compared with plain series arithmetic.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -351,7 +351,7 @@ const SERIES: &[(&str, [f64; 10])] = &[
     ),
 ];
 
-/// The program of one expression in u, x, t and the parameters n, s.
+/// The program for one expression in u, x, t and the parameters n, s.
 fn program(model: &mut Model, e: Expr) -> Arc<Program> {
     let parameters = [model.pool.symbol("n"), model.pool.symbol("s")];
     let inputs = [model.pool.symbol("u"), model.pool.symbol("x")];
@@ -398,7 +398,7 @@ fn every_function_has_the_right_series() {
 const ORDER: usize = 6;
 type Plain = [f64; ORDER + 1];
 
-/// Series arithmetic written out plainly: the oracle beside the program.
+/// Plain series arithmetic, with which the program is compared.
 struct Oracle<'a> {
     pool: &'a mut Pool,
     inputs: HashMap<Symbol, Plain>,
@@ -433,7 +433,7 @@ impl Oracle<'_> {
                 let row = function.row();
                 let series: Vec<Plain> = arguments.iter().map(|&a| self.series(a)).collect();
                 if arguments.len() == 2 {
-                    // max, min: the branch taken, if it is clear which
+                    // max, min: the chosen branch, if the choice is clear
                     let first = (row.value)(&[series[0][0], series[1][0]]) == series[0][0];
                     return if first { series[0] } else { series[1] };
                 }

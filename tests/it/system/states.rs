@@ -1,4 +1,4 @@
-//! First states, between velocities and momenta, changes of parameters, and what cannot be had.
+//! Initial states, conversions between velocities and momenta, changes of parameters, and their failures.
 
 use phaselab::integrate::METHODS;
 use phaselab::integrate::Settings;
@@ -18,7 +18,7 @@ c = 1.5
 L = "-c^2*sqrt(1 - (x'^2 + y'^2)/c^2) - x*y"
 "#;
 
-/// No closed form for q̇: kinetic terms of fourth and sixth order that couple.
+/// A system without a closed form for q̇: coupled kinetic terms of fourth and sixth order.
 const QUARTIC: &str = r#"
 title = "Coupled quartic kinetic energy"
 [coordinates]

@@ -51,7 +51,7 @@ fn the_oscillator_for_a_thousand_periods() {
 
 #[test]
 fn keplers_ellipse_over_ten_periods() {
-    // after whole and half periods it is where it was, 0.1 and 1.9 from the centre; in between
+    // after whole and half periods it is at its initial position, 0.1 and 1.9 from the centre; in between
     // E − e sin E = t
     let mut run = Run::new(KEPLER);
     let pi = std::f64::consts::PI;
@@ -64,7 +64,7 @@ fn keplers_ellipse_over_ten_periods() {
     let mut run = Run::new(KEPLER);
     let root = 0.19_f64.sqrt();
     near(&run.to(2.0), &[anomaly.cos() - 0.9, root * anomaly.sin()], 4e-16);
-    // energy and angular momentum do not see the error of the time given for a period
+    // the error of the given period does not affect energy and angular momentum
     let energy = run.columns()[6];
     for _ in 0..10 {
         run.to(run.stepper.time() + 6.0);
@@ -187,7 +187,7 @@ fn energy_stays_at_the_last_digit_for_ten_thousand_periods() {
 
 #[test]
 fn in_plain_doubles_energy_walks_at_random() {
-    // without double-double: each step errs by some 1e-16 of the energy, with either sign
+    // without double-double arithmetic each step has an error of about 1e-16 of the energy, with either sign
     let text = include_str!("../../../presets/pendulums/pendulum.toml");
     let mut run = Run::with(text, Some(1e-15));
     let energy = run.columns()[3];

@@ -1,4 +1,4 @@
-//! Kinks that hide in roots and powers: cones, chords, contacts, angles.
+//! Kinks hidden in roots and powers: cones, chords, contacts, angles.
 
 use super::{Run, near};
 use phaselab::system::MotionErrorKind;
@@ -29,7 +29,7 @@ fn straight_through_the_tip_of_a_cone() {
     near(&run.to(3.0), &[s * s / 2.0 - 2.0_f64.sqrt() * s, 0.0, s - 2.0_f64.sqrt(), 0.0], 2e-15);
     run.to(100.0);
     near(&run.columns()[6..7], &[1.0], 4e-15);
-    // along a slanted line the root is not opened by hand
+    // along an oblique line the root is not simplified
     let mut run = plane([0.6, 0.8], [0.0, 0.0], cone);
     let there = s * s / 2.0 - 2.0_f64.sqrt() * s;
     near(&run.to(3.0)[..2], &[0.6 * there, 0.8 * there], 2e-15);
@@ -115,7 +115,7 @@ fn roots_of_differences_of_cosines_and_nested_ones() {
 
 #[test]
 fn inverse_sines_and_cosines_turn_with_their_arguments() {
-    // acos(cos x) = |x| near zero, asin(sin x) a saw tooth, and over their tops
+    // acos(cos x) = |x| near zero, asin(sin x) is a sawtooth, and across their tops
     for v in ["acos(cos(x))", "asin(sin(x))", "acos(cos(x))^2", "asin(sin(x))^2"] {
         for velocity in ["1.0", "9.0"] {
             let mut run = potential("0.5", velocity, v);
@@ -171,7 +171,7 @@ fn a_force_that_grows_without_bound_is_passed_where_the_velocity_does_not() {
     near(&run.columns()[3..4], &[1.0], 1e-14);
     let quarter = 3.0 / 2.0_f64.sqrt() * 16.0 / 15.0;
     let mut run = potential("1.0", "0.0", "abs(x)^(1/3)");
-    // the tip is met to 1e-30, of which the third root is 1e-10
+    // the tip is reached to 1e-30, whose third root is 1e-10
     near(&run.to(4.0 * quarter), &[1.0, 0.0], 4e-9);
 }
 

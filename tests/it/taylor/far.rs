@@ -1,5 +1,5 @@
-//! Far out, where functions saturate: nothing leaves the range of numbers for good, and a motion
-//! that nothing acts on costs next to nothing.
+//! Large distances, where functions saturate: no overflow is permanent, and a motion without forces costs
+//! almost nothing.
 
 use super::{Run, near};
 use phaselab::system::MotionErrorKind;
@@ -60,7 +60,7 @@ fn quotients_of_what_overflows_have_values_on_both_sides() {
 #[test]
 fn slopes_that_saturate_throw_back() {
     for (slope, step) in [("ln(cosh(x))", 1.0), ("ln(1 + exp(x)) + ln(1 + exp(-x))", 1.0)] {
-        // far out a constant force: up to some 1.2e4 and back
+        // far out the force is constant: up to about 1.2e4 and back
         let mut run = potential("0.0", "150.0", slope);
         let energy = run.columns()[3];
         let turn = 150.0 / step;

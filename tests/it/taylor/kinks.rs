@@ -1,4 +1,4 @@
-//! Kinks, against closed forms put together piece by piece.
+//! Kinks, compared with closed forms composed of pieces.
 
 use super::{Run, near};
 
@@ -11,7 +11,7 @@ fn one(initial: &str, velocity: &str, l: &str, dissipation: &str, force: &str) -
 
 #[test]
 fn dry_friction_brings_an_oscillator_to_rest_and_holds_it() {
-    // amplitudes fall by 2F a half period: 1, −0.4, 0.2 − and there the spring is weaker than F
+    // amplitudes decrease by 2F every half period: 1, −0.4, 0.2, where the spring is weaker than F
     let mut run = one("1.0", "0.0", "1/2*x'^2 - 1/2*x^2", "0.3*abs(x')", "0");
     let pi = std::f64::consts::PI;
     near(&run.to(1.0), &[0.3 + 0.7 * 1.0_f64.cos(), -0.7 * 1.0_f64.sin()], 1.2e-16);
@@ -33,7 +33,7 @@ fn friction_holds_from_the_start_until_the_pull_is_strong_enough() {
 
 #[test]
 fn a_block_on_a_belt_sticks_and_slips() {
-    // carried by the belt until the spring has the strength of the friction, x = 1
+    // carried by the belt until the spring force equals the friction, x = 1
     let mut run = one("0.0", "0.5", "1/2*x'^2 - 1/2*x^2", "0", "-sign(x' - 1/2)");
     near(&run.to(1.5), &[0.75, 0.5], 1.2e-16);
     // released at t = 2: x = 1 + ½ sin(t − 2) until its speed is ½ again, a whole period later
@@ -54,7 +54,7 @@ dissipation = "1/2*abs(x') + 1/4*abs(y' - x')"
 forces = { y = "t/4" }
 "#,
     );
-    // the upper contact gives way first, at t = 1, where the lower one still holds ¼ < ½
+    // the upper contact slips first, at t = 1, while the lower one still sticks: ¼ < ½
     assert_eq!(run.to(1.0)[..4], [0.0; 4]);
     let s = 2.0_f64;
     near(&run.to(3.0), &[0.0, s.powi(3) / 24.0, 0.0, s * s / 8.0], 2e-16);
@@ -82,10 +82,10 @@ fn quadratic_drag_up_and_down() {
 
 #[test]
 fn a_one_sided_spring_throws_back() {
-    // falls from 1 with g = 1, meets a spring of strength 100 at 0
+    // falls from 1 with g = 1 on a spring of stiffness 100 at 0
     let mut run = one("1.0", "0.0", "1/2*x'^2 - x - 50*max(0, -x)^2", "0", "0");
     let (v, w) = (2.0_f64.sqrt(), 10.0_f64);
-    // in contact x = −1/w² + A cos(w s + φ), leaves with the speed it came with
+    // in contact x = −1/w² + A cos(w s + φ); it leaves with its initial speed
     let (shift, speed) = (1.0 / (w * w), v / w);
     let contact = (std::f64::consts::PI + 2.0 * (shift / speed).atan()) / w;
     let period = 2.0 * v + contact;
@@ -139,7 +139,7 @@ fn at_rest_on_the_ridge_of_a_roof_it_falls_and_in_the_valley_it_rests() {
     // at the bottom of the wedge both sides push back
     let mut run = one("0.0", "0.0", "1/2*x'^2 - abs(x)", "0", "0");
     assert_eq!(run.to(1e3), [0.0, 0.0]);
-    // until it is pulled harder than they push: from t = 2 on x'' = t/2 − 1
+    // until the pull exceeds their force: from t = 2 on x'' = t/2 − 1
     let mut run = one("0.0", "0.0", "1/2*x'^2 - abs(x)", "0", "t/2");
     near(&run.to(1.9), &[0.0, 0.0], 0.0);
     let s = 3.0_f64;
@@ -149,7 +149,7 @@ fn at_rest_on_the_ridge_of_a_roof_it_falls_and_in_the_valley_it_rests() {
 #[test]
 fn friction_may_be_written_as_a_quotient() {
     for friction in ["-0.3*sign(x')", "-0.3*x'/abs(x')", "-0.3*x'/sqrt(x'^2)"] {
-        // from the start too weak a spring
+        // a spring that is too weak from the start
         let mut run = one("0.2", "0.0", "1/2*x'^2 - 1/2*x^2", "0", friction);
         assert_eq!(run.to(10.0)[..2], [0.2, 0.0], "{friction}");
         let mut run = one("0.3", "0.0", "1/2*x'^2 - 1/2*x^2", "0", friction);
@@ -161,7 +161,7 @@ fn friction_may_be_written_as_a_quotient() {
     }
 }
 
-/// A block on a rough table: mass, potential and the point and velocity it starts with.
+/// A block on a rough table: potential, initial position and velocity, friction.
 fn table(potential: &str, x: [f64; 2], v: [f64; 2], mu: f64) -> Run {
     Run::new(&format!(
         "title = \"A rough table\"\n[coordinates]\nx = {{ initial = {}, velocity = {} }}\ny = {{ initial = {}, velocity = {} }}\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - ({potential})\"\nforces = {{ x = \"-{mu}*x'/sqrt(x'^2 + y'^2)\", y = \"-{mu}*y'/sqrt(x'^2 + y'^2)\" }}\n",
@@ -177,7 +177,7 @@ fn friction_in_the_plane_brings_to_rest_and_holds() {
     near(&run.to(100.0), &[15.0, 20.0, 0.0, 0.0], 4e-14);
     assert!(run.steps < 100, "{} steps", run.steps);
     // on an incline that is not too steep it curves and comes to rest: v (1 + sin)^…, by the law
-    // v' = −µ + g cos θ, the energy lost is µ times the way
+    // v' = −µ + g cos θ; the energy lost is µ times the path length
     let mut run = table("0.2*y", [0.0, 0.0], [3.0, 4.0], 0.5);
     let end = run.to(1000.0);
     near(&end[2..], &[0.0, 0.0], 0.0);

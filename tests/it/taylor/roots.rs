@@ -1,4 +1,4 @@
-//! The first root of a polynomial, found for certain.
+//! The first root of a polynomial, with a guarantee.
 
 use phaselab::integrate::first_crossing;
 

@@ -1,4 +1,4 @@
-//! Steps: their number, their ends, the polynomial between; trivial motions and impossible ones.
+//! Steps: their number, their ends, the polynomial between them; trivial and impossible motions.
 
 use super::{Run, near};
 use phaselab::integrate::{METHODS, Settings};
@@ -96,7 +96,7 @@ fn units_of_time_and_length_do_not_matter() {
             );
             let mut run = Run::new(&text);
             let state = run.to(3.332_338_678_543_657 * unit);
-            // after five quarters of a period it hangs down
+            // after five quarters of a period it hangs vertically
             assert!(state[0].abs() < 4e-15, "{state:?}");
             run.steps
         })
@@ -162,19 +162,19 @@ fn leaving_the_domain_of_a_function_is_a_fault() {
 
 #[test]
 fn what_is_felt_only_from_nearby_is_not_jumped_over() {
-    // far outside the barrier exp(−x²) is zero to the last bit, and the motion free
+    // far outside the barrier exp(−x²) is exactly zero, and the motion free
     let mut run = Run::new(
         "title = \"Towards a barrier\"\n[coordinates]\nx = { initial = -40.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - exp(-x^2)\"\n",
     );
     let state = run.to(100.0);
     assert!(state[0] < -40.0 && (state[1] + 1.0).abs() < 1e-15, "it is thrown back: {state:?}");
-    // and so with an impulse that comes late
+    // and likewise with a late impulse
     let mut run = Run::new(
         "title = \"A late push\"\n[coordinates]\nx = { initial = 0.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"exp(-(t - 100)^2)\" }\n",
     );
     let state = run.to(200.0);
     near(&state[1..], &[std::f64::consts::PI.sqrt()], 4e-16);
-    // and with an attraction that falls off as a high power
+    // and with an attraction that decreases as a high power
     let mut run = Run::new(
         "title = \"Towards a core\"\n[coordinates]\nx = { initial = -1000.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/x^12\"\n",
     );

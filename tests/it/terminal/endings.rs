@@ -1,6 +1,6 @@
-//! How it ends where the end is not its own: signals, dead lines, panics on them; and how it comes back after a stop.
+//! Endings imposed from outside: signals, closed terminals, panics on them; and the return after a suspension.
 //!
-//! Times are measured; what a loaded machine adds to one of them is told from what the program takes by trying again.
+//! Times are measured; retries separate delays of a loaded machine from those of the program.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,10 +11,10 @@ use super::session::{Session, Setup};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
 
-/// How often something is tried that has to be done in time.
+/// The number of attempts for an operation with a time limit.
 const TRIES: usize = 6;
 
-/// The least time of several tries, which stop once one was short enough.
+/// Asserts on the least time of several attempts, which stop once one is short enough.
 #[track_caller]
 fn in_time(bar: Duration, mut run: impl FnMut() -> Duration) {
     let mut times = Vec::new();
@@ -74,7 +74,7 @@ fn a_line_that_dies_in_a_panic_leaves_nobody_behind() {
     in_time(Duration::from_secs(1), || {
         let mut page = Setup::page().size(200, 60).start();
         page.shows("clock");
-        // A terminal that takes nothing holds the panic up where the screen is restored; then it is closed.
+        // A terminal that reads nothing blocks the panic where the screen is restored; then it is closed.
         page.press("f");
         page.stalled(|page| {
             std::thread::sleep(Duration::from_millis(500));
@@ -87,7 +87,7 @@ fn a_line_that_dies_in_a_panic_leaves_nobody_behind() {
         assert_eq!(status.signal(), None, "no abort: {status:?}");
         assert!([101, 129].contains(&status.exit_code()), "{status:?}");
         panicked += u32::from(status.exit_code() == 101);
-        // where the line died before the key was read it has still to be tried
+        // if the terminal closed before the key was read, the panic is still to be tried
         if panicked == 0 { Duration::from_secs(60) } else { took }
     });
 }
@@ -120,17 +120,17 @@ fn after_a_stop_everything_is_painted_and_nothing_is_asked() {
     assert_eq!(lab.ends().0, 0);
 }
 
-/// What a process has taken of the processor, while it is there or its end was not looked at.
+/// The processor time of a process, and whether it has exited without being waited for; `None` if it is gone.
 #[cfg(target_os = "linux")]
 fn spent(id: &str) -> Option<(Duration, bool)> {
     let stat = std::fs::read_to_string(Path::new("/proc").join(id).join("stat")).ok()?;
-    // behind the name, which may hold anything: state, …, and as the 12th and 13th user and system time in hundredths
+    // after the name, which may contain anything: state, …, and as the 12th and 13th user and system time in hundredths
     let fields: Vec<&str> = stat.rsplit_once(") ")?.1.split(' ').collect();
     let ticks: u64 = fields.get(11)?.parse::<u64>().ok()? + fields.get(12)?.parse::<u64>().ok()?;
     Some((Duration::from_millis(10 * ticks), fields[0] == "Z"))
 }
 
-/// Closes the terminal under a lab; how long it then lived, and what it took of the processor.
+/// Closes the terminal of a lab; returns how long the lab then lived, and its processor time.
 #[cfg(target_os = "linux")]
 fn closed(line: &str) -> (Duration, Duration) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -160,11 +160,11 @@ fn closed(line: &str) -> (Duration, Duration) {
 #[cfg(target_os = "linux")]
 fn a_dead_line_ends_it_soon_and_without_a_loop() {
     let lines = [
-        // as a terminal is closed
+        // as when a terminal is closed
         "echo $$ > \"$1\"; exec \"$0\" pendulum",
-        // nobody is reported
+        // no process is notified
         "trap '' HUP; echo $$ > \"$1\"; exec \"$0\" pendulum",
-        // in a session of its own
+        // in a separate session
         "trap '' HUP; setsid --wait sh -c 'echo $$ > \"$1\"; exec \"$0\" pendulum' \"$0\" \"$1\"",
     ];
     for line in lines {

@@ -1,4 +1,4 @@
-//! The laboratory where the world is unkind: floods, lost lines, multiplexers, full disks.
+//! The laboratory under adverse conditions: floods of input, closed terminals, multiplexers, full disks.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -21,7 +21,7 @@ fn quits(mut lab: Session) {
     lab.assert_restored();
 }
 
-/// The rows that a terminal of that size shows after the last time everything was painted.
+/// The rows that a terminal of that size shows after the last full repaint.
 fn repainted(lab: &Session, (columns, rows): (u16, u16)) -> Vec<String> {
     let sent = lab.sent();
     let mut screen = vt100::Parser::new(rows, columns, 0);
@@ -29,7 +29,7 @@ fn repainted(lab: &Session, (columns, rows): (u16, u16)) -> Vec<String> {
     still(screen.screen().rows(0, columns).map(|row| row.trim_end().to_owned()).collect())
 }
 
-/// The rows without the status line, whose rates change with every look at them.
+/// The rows without the status line, whose rates change all the time.
 fn still(mut rows: Vec<String>) -> Vec<String> {
     rows.retain(|row| !row.ends_with(" fps"));
     rows
@@ -157,7 +157,7 @@ fn a_reader_who_goes_away_ends_a_run_quietly() {
     assert_eq!(done.status.code(), Some(0));
 }
 
-/// What a command prints; `None` where there is no such program.
+/// The output of a command, or `None` if there is no such program.
 fn output(program: &str, arguments: &[&str]) -> Option<String> {
     let done = Command::new(program).args(arguments).output().ok()?;
     Some(String::from_utf8_lossy(&done.stdout).into_owned())
@@ -190,7 +190,7 @@ fn tmux_shows_what_was_drawn() {
     shows("running");
     tmux(&["send-keys", " "]);
     shows("paused");
-    // What is painted anew is what was there: tmux has taken every cell as it was meant.
+    // A repaint gives the same screen: tmux has handled every cell correctly.
     let settled = || {
         let mut last = screen();
         loop {
@@ -258,7 +258,7 @@ fn what_is_no_longer_loaded_or_checked_leaves_no_thread() {
     lab.until("its thread has ended", |lab| {
         threads(lab).iter().all(|name| name.trim() != "loader")
     });
-    // the next is taken at once
+    // the next is loaded at once
     lab.press("/pendulum\r");
     lab.shows("running");
     // a text that takes long to check, and then one that does not
@@ -319,7 +319,7 @@ fn a_file_that_becomes_a_pipe_freezes_nothing() {
     lab.shows("no longer there");
     lab.press(" ");
     lab.shows("paused");
-    // saving and reading it anew are reported why they cannot be
+    // failures to save it and to read it again are reported with their reason
     lab.press("E");
     lab.shows("This text is the one that runs");
     lab.press("\x0f");

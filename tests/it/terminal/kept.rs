@@ -1,4 +1,4 @@
-//! Sessions: saved on every way out, and gone on with where they were left.
+//! Sessions: saved on every exit, and resumed where they were left.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,12 +23,12 @@ fn file(state: &Path) -> PathBuf {
     state.join("phaselab/session.toml")
 }
 
-/// The session that is kept, without the lines of what says how it was left.
+/// The saved session, without the lines about how it ended.
 fn kept(state: &Path) -> String {
     fs::read_to_string(file(state)).expect("a session")
 }
 
-/// A double pendulum that was changed, looked at otherwise and held; its session is saved at the end.
+/// A double pendulum with changed parameters and view, paused; its session is saved at the end.
 fn changed(state: &Path) -> Session {
     let mut lab = lab(&["double-pendulum"], state);
     lab.shows("running");
@@ -54,7 +54,7 @@ fn quitting_saves_and_resuming_goes_on_bit_by_bit() {
     let mut second = lab(&["--resume"], state.path());
     second.shows("paused");
     second.quiet(Duration::from_millis(500));
-    // the trail is not kept, but the time is as it was, to the last digit shown
+    // the trail is not saved, but the time is, to the last digit shown
     let time = |text: &str| {
         let number = |rest: &str| Some(rest.split_whitespace().next()?.to_owned());
         let mut words = text.rsplit(" t ").filter_map(number);
@@ -177,7 +177,7 @@ fn what_is_typed_in_a_second_program_outlives_a_signal() {
     assert_eq!(second.ends().0, 143);
     first.press("q");
     assert_eq!(first.ends().0, 0);
-    // spelled otherwise, and by a link, it is the same file
+    // under another spelling, and by a link, it is the same file
     let link = folder.path().join("link.toml");
     std::os::unix::fs::symlink(&place, &link).expect("a link");
     for spelled in [folder.path().join("./own.toml"), link] {
@@ -223,7 +223,7 @@ fn a_pipe_in_the_place_of_what_is_kept_freezes_nothing() {
     }
 }
 
-/// A file of one's own, and what is typed at its beginning and not saved, left at the list of systems.
+/// A user's file with unsaved text at its beginning, left for the list of systems.
 fn edited(state: &Path, place: &Path) -> Session {
     let text = "title = \"Oscillator\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 - 1/2*x^2\"\n";
@@ -231,7 +231,7 @@ fn edited(state: &Path, place: &Path) -> Session {
         fs::write(place, text).expect("it is written");
     }
     let mut lab = lab(&[place.to_str().expect("text")], state);
-    // what is reported of another program speaks of running too
+    // a message about another program also mentions running
     lab.shows("Gauges");
     lab.press("E");
     lab.shows("This text is the one that runs.");
@@ -260,7 +260,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     other.press("q");
     assert_eq!(other.ends().0, 0);
     assert!(kept().contains("# mine"));
-    // it is there when its system is opened again, whatever ends the program then
+    // it is restored when its system is opened again, however the program then ends
     let mut again = lab(&[place.to_str().expect("text")], state.path());
     again.shows("E goes to them");
     again.press("E");
@@ -271,7 +271,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     assert_eq!(again.ends().0, 143);
     again.assert_restored();
     assert!(kept().contains("# more") && kept().contains("# mine"), "{}", kept());
-    // also where the line is lost, and where the session is gone on with
+    // also if the terminal is closed, and if the session is resumed
     let mut resumed = lab(&["--resume"], state.path());
     resumed.shows("E goes to them");
     resumed.press("E");
@@ -280,7 +280,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     resumed.shows("# last");
     resumed.hang_up().wait().expect("it ends");
     assert!(kept().contains("# last") && kept().contains("# mine"), "{}", kept());
-    // what is saved need not be kept
+    // what is in the file need not be in the session
     let mut saved = lab(&["--resume"], state.path());
     saved.shows("E goes to them");
     saved.press("E");

@@ -1,4 +1,4 @@
-//! The laboratory itself, as a person meets it.
+//! The laboratory itself, as a user experiences it.
 
 use std::fs;
 use std::path::Path;
@@ -305,7 +305,7 @@ fn without_a_terminal_it_says_what_to_do() {
     assert!(dumb.text().contains("phaselab run"), "{}", dumb.text());
 }
 
-/// The files of a folder whose names end so.
+/// The files of a folder whose names have this ending.
 fn written(folder: &Path, ending: &str) -> Vec<(String, String)> {
     let entries = fs::read_dir(folder).expect("a folder").filter_map(Result::ok);
     let named = entries.map(|e| (e.file_name().to_string_lossy().into_owned(), e.path()));
@@ -339,7 +339,7 @@ fn stills_data_and_recordings_are_written_by_keys() {
     lab.shows("Equations");
     lab.press("1O");
     lab.shows("pendulum.cast is written");
-    // and once more, ended by leaving
+    // and again, ended by leaving
     lab.press("O");
     lab.shows("rec");
     let stills = written(folder.path(), ".svg");
@@ -384,7 +384,7 @@ fn a_recording_survives_a_signal() {
     );
 }
 
-/// The only cast of a folder, which must be one to its last line.
+/// The only cast of a folder, which must be well-formed to its last line.
 #[track_caller]
 fn only_cast(folder: &Path) -> String {
     let mut casts = written(folder, ".cast");
@@ -402,7 +402,7 @@ fn a_recording_keeps_its_end_behind_a_stalled_terminal() {
     lab.press("O");
     lab.shows("rec");
     lab.stalled(|lab| {
-        // more than a terminal takes that nobody reads
+        // more than a terminal accepts if nobody reads from it
         for _ in 0..20 {
             lab.press("2");
             lab.bytes_in(Duration::from_millis(50));
@@ -448,7 +448,7 @@ fn a_full_disk_ends_a_recording_and_keeps_what_was_recorded() {
     assert!(lab.text().contains("cannot write pendulum.cast: "), "{}", lab.text());
     let text = only_cast(folder.path());
     assert!(text.ends_with("]\n") && text.len() > 10_000, "{}", text.len());
-    // another try is another file
+    // another attempt gives another file
     lab.press("O");
     lab.until("it records again", |lab| lab.text().contains("rec"));
     lab.press("O");

@@ -1,4 +1,4 @@
-//! The shell by itself, with the small page of `examples/page.rs` on it.
+//! The shell by itself, with the small page of `examples/page.rs`.
 
 use std::time::{Duration, Instant};
 
@@ -44,7 +44,7 @@ fn signals_restore_and_tell_their_number() {
     }
 }
 
-/// Stops the page, looks at the terminal and lets it go on.
+/// Stops the page, checks the terminal and continues it.
 fn check_stop(stop: impl Fn(&mut Session)) {
     let mut page = started();
     for _ in 0..2 {
@@ -139,7 +139,7 @@ fn a_dead_line_ends_it() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_dead_line_ends_it_without_a_signal() {
-    // In a session of its own it gets no SIGHUP, and has to see for itself that nobody is there.
+    // In a separate session it gets no SIGHUP, and must detect by itself that the terminal is gone.
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("status");
     let line = "trap '' HUP; setsid --wait \"$0\"; echo $? > \"$1\"";
@@ -157,7 +157,7 @@ fn a_stalled_terminal_does_not_hold_it() {
     page.shows("clock");
     page.press("f");
     let (status, took) = page.stalled(|page| {
-        // Long enough for frames of 12 kB to fill what lies between the two ends.
+        // Long enough for frames of 12 kB to fill the buffers between both ends.
         std::thread::sleep(Duration::from_secs(1));
         page.press("q");
         page.ends()
@@ -254,7 +254,7 @@ fn frames_are_whole_and_ask_nothing() {
     }
 }
 
-/// A page that has the mouse reported.
+/// A page with mouse reporting.
 fn pointed_at() -> Session {
     let mut page = started();
     page.press("M");
@@ -330,7 +330,7 @@ fn a_window_that_nobody_looks_at_gets_few_frames() {
     page.until("the clock goes on", |page| page.text() != shown);
     page.press("\x1b[I");
     let before = page.sent.len();
-    // Two in a second would take longer than anything may take here.
+    // Two per second would exceed the time limit here.
     page.until("frames come fast again", |page| {
         String::from_utf8_lossy(&page.sent[before..]).matches("\x1b[?2026h").count() > 50
     });
@@ -360,7 +360,7 @@ fn noise_does_not_keep_it_from_ending() {
     {
         let mut page = started();
         page.press(noise);
-        // What has begun like a sequence may swallow a key, until there was silence for a while.
+        // An incomplete sequence may swallow a key, until a pause ends it.
         assert_eq!(page.press_until_it_ends("q"), 0, "{noise:?}");
         page.assert_restored();
     }

@@ -1,6 +1,6 @@
-//! A program on a pseudo-terminal: typed at, signalled, resized, and its screen read.
+//! A program on a pseudo-terminal: it gets keys, signals and resizes, and its screen is read.
 //!
-//! Nothing here sleeps for a result: conditions are waited for, up to a deadline far beyond what they should take.
+//! Nothing here sleeps for a result: tests wait for conditions, up to a deadline far beyond the expected time.
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
@@ -14,10 +14,10 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use rustix::process::{Pid, Signal, WaitOptions, kill_process, waitpid};
 use tempfile::TempDir;
 
-/// How long anything may take before it counts as never.
+/// The time after which a condition counts as never met.
 const NEVER: Duration = Duration::from_secs(20);
 
-/// What is started, and where.
+/// The program to be started, and its environment.
 pub(super) struct Setup {
     command: Vec<OsString>,
     size: (u16, u16),
@@ -48,31 +48,30 @@ impl Setup {
         setup
     }
 
-    /// Another size: columns, rows.
+    /// Sets the size: columns, rows.
     pub(super) fn size(mut self, columns: u16, rows: u16) -> Self {
         self.size = (columns, rows);
         self
     }
 
-    /// One more argument.
+    /// Adds an argument.
     pub(super) fn argument(mut self, argument: impl Into<OsString>) -> Self {
         self.command.push(argument.into());
         self
     }
 
-    /// One more environment variable; the last of a name counts.
+    /// Sets an environment variable; the last value of a name is used.
     pub(super) fn variable(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
         self.environment.push((name, value.into()));
         self
     }
 
-    /// Another folder to start it in.
+    /// Sets the working directory.
     pub(super) fn folder(mut self, folder: &Path) -> Self {
         folder.clone_into(&mut self.folder);
         self
     }
 
-    /// Starts it.
     pub(super) fn start(self) -> Session {
         Session::start(self)
     }
@@ -93,14 +92,14 @@ pub(super) struct Session {
     keyboard: Box<dyn Write + Send>,
     child: Box<dyn Child + Send + Sync>,
     output: Receiver<Vec<u8>>,
-    /// Whoever holds this keeps the terminal from taking output.
+    /// While this lock is held, the terminal takes no output.
     gate: Arc<Mutex<()>>,
-    /// All that the program has sent so far.
+    /// Everything that the program has sent so far.
     pub(super) sent: Vec<u8>,
     screen: vt100::Parser,
     /// The terminal's settings before the program started.
     before: String,
-    /// Where it keeps what it keeps, unless it was reported otherwise.
+    /// The program's state directory, unless the test sets another.
     _state: TempDir,
 }
 
@@ -133,7 +132,7 @@ impl Session {
                 drop(gated.lock());
             }
         });
-        // Without a size of its own it is taken for the usual one.
+        // A terminal of zero size is treated as one of the usual size.
         let (rows, cols) = if cols == 0 { (24, 80) } else { (rows, cols) };
         let screen = vt100::Parser::new(rows, cols, 0);
         let master = pair.master;
@@ -141,7 +140,7 @@ impl Session {
         Self { master, keyboard, child, output, gate, sent, screen, before, _state: state }
     }
 
-    /// Types.
+    /// Sends keys.
     pub(super) fn press(&mut self, keys: &str) {
         self.keyboard.write_all(keys.as_bytes()).expect("the terminal takes input");
     }
@@ -156,7 +155,7 @@ impl Session {
         self.master.resize(pty_size(columns, rows)).expect("the terminal can be resized");
     }
 
-    /// Runs while the terminal takes no output.
+    /// Runs a closure while the terminal takes no output.
     pub(super) fn stalled<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
         let gate = Arc::clone(&self.gate);
         let closed = gate.lock();
@@ -170,7 +169,7 @@ impl Session {
         self.until(&format!("the screen shows {text:?}"), |session| session.text().contains(text));
     }
 
-    /// Waits until something holds.
+    /// Waits until a condition is true.
     pub(super) fn until(&mut self, what: &str, holds: impl Fn(&Self) -> bool) {
         let end = Instant::now() + NEVER;
         while !holds(self) {
@@ -179,7 +178,7 @@ impl Session {
         }
     }
 
-    /// How many bytes come in so much time.
+    /// The number of bytes that arrive within a time.
     pub(super) fn bytes_in(&mut self, time: Duration) -> usize {
         let (before, end) = (self.sent.len(), Instant::now() + time);
         while Instant::now() < end {
@@ -188,7 +187,7 @@ impl Session {
         self.sent.len() - before
     }
 
-    /// Waits until nothing was sent for so long.
+    /// Waits until nothing has been sent for a time.
     pub(super) fn quiet(&mut self, time: Duration) {
         let end = Instant::now() + NEVER;
         while self.bytes_in(time) > 0 {
@@ -196,7 +195,7 @@ impl Session {
         }
     }
 
-    /// Waits for the end and all output; the exit status, and how long it took.
+    /// Waits for the end and all output; returns the exit status, and how long it took.
     pub(super) fn ends(&mut self) -> (u32, Duration) {
         let start = Instant::now();
         loop {
@@ -211,7 +210,7 @@ impl Session {
         }
     }
 
-    /// Presses a key now and then until the program ends; the exit status.
+    /// Presses a key repeatedly until the program ends; returns the exit status.
     pub(super) fn press_until_it_ends(&mut self, key: &str) -> u32 {
         let end = Instant::now() + NEVER;
         while self.child.try_wait().expect("a child of ours").is_none() {
@@ -238,7 +237,7 @@ impl Session {
         self.listen(Duration::from_millis(20));
     }
 
-    /// Closes the terminal, as when a line goes dead.
+    /// Closes the terminal, as when a connection is lost.
     pub(super) fn hang_up(self) -> Box<dyn Child + Send + Sync> {
         self.child
     }
@@ -248,17 +247,16 @@ impl Session {
         self.screen.screen().contents()
     }
 
-    /// The screen.
     pub(super) fn screen(&self) -> &vt100::Screen {
         self.screen.screen()
     }
 
-    /// Whether the terminal's settings are as before the start.
+    /// Whether the terminal's settings are the same as before the start.
     pub(super) fn is_cooked(&self) -> bool {
         settings(&*self.master) == self.before
     }
 
-    /// Asserts that the terminal is as it was: settings, screen, cursor, modes.
+    /// Asserts that the terminal is restored: settings, screen, cursor, modes.
     #[track_caller]
     pub(super) fn assert_restored(&self) {
         assert!(self.is_cooked(), "the terminal's settings have changed");
@@ -270,7 +268,7 @@ impl Session {
         assert_eq!(self.modes_on(), Vec::<String>::new());
     }
 
-    /// The private modes that were switched on and are so still; the cursor, which is on at first, where it is off.
+    /// The private modes that were switched on and still are; the cursor, which is on initially, if it is off.
     pub(super) fn modes_on(&self) -> Vec<String> {
         let mut on = Vec::new();
         let sent = self.sent();
@@ -285,19 +283,19 @@ impl Session {
         on
     }
 
-    /// How many frames come in so much time.
+    /// The number of frames that arrive within a time.
     pub(super) fn frames_in(&mut self, time: Duration) -> usize {
         let before = self.sent.len();
         self.bytes_in(time);
         String::from_utf8_lossy(&self.sent[before..]).matches("\x1b[?2026h").count()
     }
 
-    /// What was sent, as text.
+    /// The program's output as text.
     pub(super) fn sent(&self) -> String {
         String::from_utf8_lossy(&self.sent).into_owned()
     }
 
-    /// Takes in what the program sends, for at most so long; `false` if nothing came.
+    /// Reads the program's output for at most `time`; returns `false` if there was none.
     fn listen(&mut self, time: Duration) -> bool {
         match self.output.recv_timeout(time) {
             Ok(bytes) => {
@@ -307,14 +305,13 @@ impl Session {
             }
             Err(RecvTimeoutError::Timeout) => false,
             Err(RecvTimeoutError::Disconnected) => {
-                // The end will be noticed by whoever waits for it.
+                // The function that waits for the end will notice it.
                 thread::sleep(Duration::from_millis(1));
                 false
             }
         }
     }
 
-    /// Its number.
     pub(super) fn pid(&self) -> Pid {
         let id = self.child.process_id().expect("it has started");
         Pid::from_raw(id as i32).expect("not zero")

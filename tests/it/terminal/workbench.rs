@@ -1,4 +1,4 @@
-//! The workbench as a person meets it: typing, mistakes, saving, and a file changed in one's own editor.
+//! The workbench as a user experiences it: typing, mistakes, saving, and a file changed in another editor.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ k = 4.0
 L = "1/2*x'^2 - 1/2*k*x^2"
 "#;
 
-/// A folder with a file, and the lab open at it.
+/// A folder with a file, and the lab with that file.
 fn open(options: &[&str]) -> (TempDir, PathBuf, Session) {
     let folder = tempfile::tempdir().expect("a folder");
     let place = folder.path().join("own.toml");
@@ -39,14 +39,14 @@ fn a_file_is_edited_while_it_runs() {
     let (_folder, place, mut lab) = open(&[]);
     lab.press("E");
     lab.shows("This text is the one that runs.");
-    // the word k is found, and another name typed over it
+    // the search finds k, and another name is typed over it
     lab.press("\x06k = \r");
     lab.press("q = ");
     lab.shows("the last right text goes on");
     quits_from_bench(lab, &place);
 }
 
-/// Makes a right change of it, saves it and leaves.
+/// Makes a valid change, saves it and leaves.
 fn quits_from_bench(mut lab: Session, place: &Path) {
     lab.press("\x06\x15q = 4\rk = 9");
     lab.shows("built anew in");
@@ -101,7 +101,7 @@ fn what_is_shipped_has_no_file_to_be_watched() {
     let mut lab = Setup::new(PROGRAM, &["--watch", "pendulum"]).start();
     assert_eq!(lab.ends().0, 2);
     assert!(lab.text().contains("no file to be watched"), "{}", lab.text());
-    // where it is but a habit it does no harm
+    // if the variable is set out of habit, it has no effect
     let setup = Setup::new(PROGRAM, &["pendulum"]).variable("PHASELAB_WATCH", "true");
     let mut habit = setup.start();
     habit.shows("Phase");

@@ -1,4 +1,4 @@
-//! Letters in, snapshots out, with subjects that count and panic.
+//! Commands in, snapshots out, with subjects that count and panic.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +15,7 @@ struct Counter {
     speed: f64,
     running: bool,
     obeyed: f64,
-    /// How many times it was advanced.
+    /// The number of times it was advanced.
     slices: Arc<AtomicU64>,
     panics_at: Option<f64>,
 }
@@ -106,7 +106,7 @@ fn time_runs_at_the_speed_asked_for() {
     let began = Instant::now();
     let later = wait(&mut worker, |s| s.time >= 3.0);
     let took = began.elapsed().as_secs_f64();
-    // it may be slower where the machine is busy, and never faster (but for one frame)
+    // it may be slower if the machine is busy, and never faster (except by one frame)
     assert!(later.time - first.time <= 10.0 * (took + 0.05), "{} in {took} s", later.time);
 }
 

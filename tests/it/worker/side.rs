@@ -1,4 +1,4 @@
-//! Jobs with real threads: the newest counts, a stop is obeyed, a panic is reported.
+//! Jobs with real threads: the newest has priority, a stop is obeyed, a panic is reported.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use phaselab::job::{Job, Outcome};
 use phaselab::worker::Side;
 
-/// Waits until something is there, for at most a minute.
+/// Waits for a result, for at most a minute.
 fn until<T>(mut look: impl FnMut() -> Option<T>) -> T {
     let begun = Instant::now();
     loop {
@@ -20,7 +20,7 @@ fn until<T>(mut look: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A job that ends only when it is asked to, and then says so.
+/// A job that ends only when it is cancelled, and then reports that.
 fn endless(ended: &Arc<AtomicBool>) -> Job<u32> {
     let ended = Arc::clone(ended);
     Job::new("endless", move |progress| {
@@ -87,7 +87,7 @@ fn a_panic_on_the_side_is_reported() {
     side.begin(1, Job::new("the search", |_| panic!("there is a hole")));
     let told = "the search stopped by a defect of the program: there is a hole".to_owned();
     assert_eq!(until(|| side.take()), (1, Outcome::Failed(told)));
-    // and another one can be begun
+    // and another job can begin
     side.begin(2, Job::new("nothing", |_| ()));
     assert_eq!(until(|| side.take()), (2, Outcome::Done(())));
 }

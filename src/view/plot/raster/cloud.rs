@@ -3,7 +3,7 @@
 //! In: points in data coordinates and a ramp. Out: dots where the points are, styled by density. Never here: a single
 //! point's history.
 
-use super::{Pen, Raster, spot_of};
+use super::{Pen, Raster, position};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::Frame;
@@ -23,9 +23,9 @@ impl Raster {
         layer: u8,
     ) {
         let size = self.size();
-        let mut counts = vec![(0_u32, 0_u8); self.spots.len()];
+        let mut counts = vec![(0_u32, 0_u8); self.cells.len()];
         for point in points {
-            let place = spot_of(frame, point, size);
+            let place = position(frame, point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
                 let dot = std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1));
                 if let Some((cell, bit)) = self.place(dot) {
@@ -38,19 +38,19 @@ impl Raster {
         if fullest == 0 || ramp.is_empty() {
             return;
         }
-        for (spot, (count, dots)) in self.spots.iter_mut().zip(counts) {
+        for (cell, (count, dots)) in self.cells.iter_mut().zip(counts) {
             if count == 0 {
                 continue;
             }
             let level = math::ln_1p(f64::from(count)) / math::ln_1p(f64::from(fullest));
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
-            spot.dots |= dots;
+            cell.dots |= dots;
             let rank = (pen.layer, false, pen.fresh);
-            if rank >= spot.rank {
-                spot.rank = rank;
-                spot.style = pen.style;
-                spot.sign = (self.glyphs == Glyphs::Ascii).then(|| DENSITY[step(DENSITY.len())]);
+            if rank >= cell.rank {
+                cell.rank = rank;
+                cell.style = pen.style;
+                cell.sign = (self.glyphs == Glyphs::Ascii).then(|| DENSITY[step(DENSITY.len())]);
             }
         }
     }

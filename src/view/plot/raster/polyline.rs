@@ -2,7 +2,7 @@
 //!
 //! In: successive data points, each with its pen. Out: dots of a raster. Never here: the appearance of a dot.
 
-use super::{Pen, Raster, spot_of};
+use super::{Pen, Raster, position};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::{Frame, Scale};
 use crate::view::plot::stroke::{Tip, clip};
@@ -42,7 +42,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
 
     /// Continues the line to a point.
     pub(super) fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
-        let next = spot_of(&self.frame, point, self.size);
+        let next = position(&self.frame, point, self.size);
         if !next.iter().all(|v| v.is_finite()) {
             return self.rest();
         }
