@@ -271,7 +271,8 @@ impl EventLocator {
         for _ in 0..CORRECTIONS {
             let time = piece.from + x * piece.unit;
             let correction = self.probe.exactly_at(stepper, event, time)? / slope;
-            if !(correction.high.abs() < SMALL * piece.length) {
+            let size = correction.high.abs();
+            if size.is_nan() || size >= SMALL * piece.length {
                 break;
             }
             x = x - correction;

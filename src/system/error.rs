@@ -91,7 +91,7 @@ impl fmt::Display for MotionError {
         match &self.kind {
             MotionErrorKind::Passable(..) => {}
             MotionErrorKind::SingularMass => {
-                write!(f, "the mass matrix is singular at t = {time}")?
+                write!(f, "the mass matrix is singular at t = {time}")?;
             }
             MotionErrorKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
@@ -122,7 +122,7 @@ impl fmt::Display for MotionError {
                 starts.join("; ")
             )?,
             MotionErrorKind::NotFinite(name) => {
-                write!(f, "{name} is no longer finite at t = {time}")?
+                write!(f, "{name} is no longer finite at t = {time}")?;
             }
             MotionErrorKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
@@ -142,7 +142,7 @@ impl fmt::Display for MotionError {
                 short(*spacing)
             )?,
             MotionErrorKind::NoInterval(name, interval) => {
-                write!(f, "the impulse `{name}` cannot strike every {}", short(*interval))?;
+                write!(f, "the impulse `{name}` cannot act every {}", short(*interval))?;
             }
             MotionErrorKind::TooManySteps(step, until) => write!(
                 f,

@@ -69,8 +69,8 @@ fn dry_friction_in_the_plane_with_a_force_that_depends_on_time() {
         let middle = 0.5 * (moves + rests);
         if slides(middle)[1] > 0.0 { moves = middle } else { rests = middle }
     }
-    run(&mut body, 3.14);
-    if rests < 3.14 {
+    run(&mut body, 3.13);
+    if rests < 3.13 {
         assert_eq!(value(&body, "x'"), 0.0);
         assert!((value(&body, "x") - slides(rests)[0]).abs() < 1e-13);
     }
@@ -170,7 +170,7 @@ expression = "x^2 + y^2 - 1"
 fn a_single_momentum_is_solved_for_however_far_its_velocity() {
     for (kinetic, momentum, velocity) in [
         ("cosh(x')", 1e12, 1e12_f64.asinh()),
-        ("x'*atan(x') - 1/2*ln(1 + x'^2)", 1.5707, 1.5707_f64.tan()),
+        ("x'*atan(x') - 1/2*ln(1 + x'^2)", 1.5705, 1.5705_f64.tan()),
         ("-sqrt(1 - x'^2)", 1e4, 1e4 / (1.0 + 1e8_f64).sqrt()),
         ("exp(x')", 1e-12, 1e-12_f64.ln()),
     ] {

@@ -169,7 +169,7 @@ fn an_interval_that_a_parameter_makes_none_is_a_fault() {
         kicked.advance(0.0105, 100_000);
         let why = fault(&kicked);
         assert_eq!(why.is_some(), stops, "{interval}: {why:?}");
-        assert!(why.is_none_or(|why| why.contains("the impulse `kick` cannot strike every")));
+        assert!(why.is_none_or(|why| why.contains("the impulse `kick` cannot act every")));
     }
 }
 

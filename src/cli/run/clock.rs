@@ -37,7 +37,7 @@ pub(super) fn check(
     let impulses = &system.discontinuities().impulses;
     for (impulse, schedule) in impulses.iter().zip(system.schedule(&setup.parameters)) {
         if let Some(interval) = schedule.interval.filter(|interval| interval.high < finest) {
-            return refuse(&format!("strikes of `{}`", impulse.name), interval.high);
+            return refuse(&format!("times of `{}`", impulse.name), interval.high);
         }
     }
     if let (Stepping::Fixed, Some(step)) = (method.stepping, setup.settings.step) {

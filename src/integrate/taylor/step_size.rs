@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn what_underflow_has_left_shortens_no_step() {
         // FAINT is far below the last digit of the largest coefficient, and above what underflows
-        assert!(FAINT < 1e-250 && FAINT > f64::MIN_POSITIVE);
+        const { assert!(FAINT < 1e-250 && FAINT > f64::MIN_POSITIVE) }
     }
 
     #[test]

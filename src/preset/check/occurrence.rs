@@ -78,7 +78,7 @@ impl Check<'_> {
         if at <= start {
             let place = if at < start { "before the start" } else { "the start itself" };
             let start = number(start);
-            let message = format!("this is {place}, t = {start}; it does not strike");
+            let message = format!("this is {place}, t = {start}; it does not act");
             self.mistakes.push(Diagnostic::warning(formula.span(), message));
         }
         Some(e)

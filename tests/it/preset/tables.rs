@@ -102,7 +102,7 @@ fn lambda_is_a_name_like_others_without_constraints() {
 }
 
 #[test]
-fn impulses_strike_at_times_at_intervals_or_by_hand() {
+fn impulses_act_at_times_at_intervals_or_by_hand() {
     let text_of = with(
         r#"
 [[impulses]]
@@ -200,7 +200,7 @@ fn an_impulse_that_is_not_after_the_start_is_a_warning() {
             with(&format!("[[impulses]]\nname = \"b\"\nat = [{at}]\nchange = {{ p_x = 1 }}"));
         let warnings = checked(&file).warnings;
         assert_eq!(warnings.len(), 1);
-        assert_eq!(warnings[0].message, format!("this is {place}, t = 0; it does not strike"));
+        assert_eq!(warnings[0].message, format!("this is {place}, t = 0; it does not act"));
     }
     let file = with("[[impulses]]\nname = \"b\"\nat = [0.5]\nchange = { p_x = 1 }");
     assert!(checked(&file).warnings.is_empty());
