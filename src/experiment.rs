@@ -1,6 +1,6 @@
 //! The running experiment: a system, a method and a recorder, synchronous and deterministic.
 //!
-//! In: a compiled [`System`], a [`Setup`] and [`Command`]s. Out: [`Snapshot`]s, cheap to clone.
+//! In: a compiled [`System`](crate::system::System), a [`Setup`] and [`Command`]s. Out: [`Snapshot`]s, cheap to clone.
 //! Never here: threads, clocks, terminals.
 
 mod attitude;

@@ -1,6 +1,6 @@
 //! From a law to equations of motion: one file per derivation step, all of it symbolic.
 //!
-//! In: a [`Model`]. Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, the energy and its
+//! In: a [`Model`](crate::model::Model). Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, the energy and its
 //! rate of change, conserved quantities and their reasons. Never here: numerical motion.
 
 mod attitude;

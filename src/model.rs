@@ -1,7 +1,7 @@
 //! A checked system: every name resolved, nothing ambiguous, nothing derived yet.
 //!
 //! In: what `preset` has read and checked. Out: one [`Model`], the input of `mechanics`. Its
-//! expressions live in its own [`Pool`]. Never here: files, spans of TOML, equations of motion.
+//! expressions live in its own [`Pool`](crate::expr::Pool). Never here: files, spans of TOML, equations of motion.
 
 mod body;
 mod claim;

@@ -1,7 +1,7 @@
-//! The preset file: its text in, a checked [`Model`] or every mistake with its range out.
+//! The preset file: its text in, a checked [`Model`](crate::model::Model) or every mistake with its range out.
 //!
 //! The stages: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) →
-//! `draft` (as written, with names unresolved) → `check` (names resolved, expressions parsed) → [`Model`]. There is
+//! `draft` (as written, with names unresolved) → `check` (names resolved, expressions parsed) → [`Model`](crate::model::Model). There is
 //! also the [`Catalog`] of shipped and user presets. Never here: equations of motion, and whether what a file claims
 //! is true.
 
