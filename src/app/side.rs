@@ -62,7 +62,7 @@ impl UnderWay {
     }
 
     /// Returns the name and progress of a job that has taken a while.
-    pub fn told(&self) -> Option<String> {
+    pub fn status(&self) -> Option<String> {
         let share = self.share.total.map_or_else(String::new, |total| {
             format!(" {} %", self.share.done * 100 / total.max(1))
         });

@@ -68,7 +68,7 @@ fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), Command
     let request = request(None, words)?;
     let source = play::source(arguments.name.as_deref())?;
     let (script, system, name) = play::scripted(&source)?;
-    let wrong = |mistake| record::told(&source, &[mistake]);
+    let wrong = |mistake| record::located(&source, &[mistake]);
     let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {
         Ok(done) => done,

@@ -72,7 +72,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         Some(path) => Document::open(path).map_err(|why| CommandError::reading(path, &why))?,
         None => own_demo(&printable::os(&arguments.name), "give one with --script")?,
     };
-    let script = Script::read(&source).map_err(|mistakes| told(&source, &mistakes))?;
+    let script = Script::read(&source).map_err(|mistakes| located(&source, &mistakes))?;
     let name = printable::os(&arguments.name);
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
     if arguments.format != Format::Account {
@@ -149,7 +149,7 @@ pub(super) fn recorded(
     // the mistakes of the system are reported for the system's own file
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
-    play(script, system, called(name), size).map_err(|mistakes| told(source, &mistakes))
+    play(script, system, called(name), size).map_err(|mistakes| located(source, &mistakes))
 }
 
 /// The name of a system on the screen: a file without its folders, which are private.
@@ -163,11 +163,11 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Comma
     if recording.false_claims.is_empty() {
         Ok(())
     } else {
-        Err(told(source, &recording.false_claims))
+        Err(located(source, &recording.false_claims))
     }
 }
 
 /// Shows mistakes with their ranges.
-pub(super) fn told(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
+pub(super) fn located(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
     open::refuse(source, mistakes)
 }

@@ -80,7 +80,7 @@ impl Export {
     pub fn with_what_holds(self, document: &Document) -> Result<Export, String> {
         let Export { text, mut missing } = self;
         let (text, left_out) = with_what_holds(document, text, &wrong_in_motion)?;
-        if left_out && !missing.iter().any(|told| told == LEFT_OUT) {
+        if left_out && !missing.iter().any(|name| name == LEFT_OUT) {
             missing.push(LEFT_OUT.to_owned());
         }
         Ok(Export { text, missing })

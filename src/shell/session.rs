@@ -23,7 +23,7 @@ use super::loader::Loader;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::store::{Store, StoreError};
-use super::writer::{Told, Writer};
+use super::writer::{WriteReport, Writer};
 use crate::app::{
     App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Saved,
     Unsaved,
@@ -366,14 +366,14 @@ impl Session {
     }
 
     /// Starts to write a file that a key requested; the outcome is reported.
-    fn write_file(&mut self, work: impl FnOnce() -> Told + Send + 'static) {
+    fn write_file(&mut self, work: impl FnOnce() -> WriteReport + Send + 'static) {
         if let Err(why) = self.writer.begin(work) {
             self.report(Err(why));
         }
     }
 
     /// Reports the outcome of writing a file.
-    fn report(&mut self, report: Told) {
+    fn report(&mut self, report: WriteReport) {
         info!("{report:?}");
         self.app.update(Event::Written(report));
     }
@@ -567,7 +567,7 @@ impl Session {
 }
 
 /// Writes a file about the current state into the current folder. Returns a sentence about it.
-fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> Told {
+fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> WriteReport {
     let path = atomic_file::write_new(Path::new(""), stem, ending, bytes)
         .map_err(|why| why.to_string())?;
     Ok(format!("{} is written.", path.display()))

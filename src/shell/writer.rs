@@ -10,12 +10,12 @@ use crate::job::{Job, Outcome};
 use crate::worker::Side;
 
 /// The outcome, as a sentence for the user.
-pub(super) type Told = Result<String, String>;
+pub(super) type WriteReport = Result<String, String>;
 
 /// The file being written, if there is one.
 #[derive(Debug)]
 pub(super) struct Writer {
-    side: Side<Told>,
+    side: Side<WriteReport>,
 }
 
 impl Writer {
@@ -30,7 +30,7 @@ impl Writer {
     /// Returns an error if a file is already being written.
     pub(super) fn begin(
         &mut self,
-        work: impl FnOnce() -> Told + Send + 'static,
+        work: impl FnOnce() -> WriteReport + Send + 'static,
     ) -> Result<(), String> {
         if self.side.is_busy() {
             return Err("A file is still being written; ask again when it is there.".to_owned());
@@ -46,17 +46,17 @@ impl Writer {
     }
 
     /// Returns the outcome as soon as there is one.
-    pub(super) fn take(&mut self) -> Option<Told> {
+    pub(super) fn take(&mut self) -> Option<WriteReport> {
         self.side.take().and_then(|(_, outcome)| report(outcome))
     }
 
     /// Waits at most this long for the outcome. Returns `None` if there is no write, or if it takes longer.
-    pub(super) fn wait(&mut self, time: Duration) -> Option<Told> {
+    pub(super) fn wait(&mut self, time: Duration) -> Option<WriteReport> {
         self.side.wait(time).and_then(report)
     }
 }
 
-fn report(outcome: Outcome<Told>) -> Option<Told> {
+fn report(outcome: Outcome<WriteReport>) -> Option<WriteReport> {
     match outcome {
         Outcome::Done(report) => Some(report),
         Outcome::Failed(sentence) => Some(Err(format!("{sentence}."))),

@@ -48,7 +48,7 @@ pub(super) fn title(
         let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
         pieces.push(vec![canvas.span(Role::Dim, format!("  ×{zoom}"))]);
     }
-    if let Some(status) = q.lab.under_way(plot).and_then(crate::app::UnderWay::told) {
+    if let Some(status) = q.lab.under_way(plot).and_then(crate::app::UnderWay::status) {
         pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {status}"))]);
     }
     groups(pieces, room)

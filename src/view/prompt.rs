@@ -65,7 +65,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
 
 fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<Span>> {
     let mut page = Page { canvas, width, lines: Vec::new() };
-    if let Some(status) = prompt.under_way.as_ref().and_then(|(_, job)| job.told()) {
+    if let Some(status) = prompt.under_way.as_ref().and_then(|(_, job)| job.status()) {
         page.words(Role::Dim, &status);
         return page.lines;
     }
