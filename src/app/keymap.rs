@@ -205,7 +205,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
     row(Place::Search, &[ENTER], Action::Open, "open", "open the match in the lab"),
 
-    row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "pause, or resume"),
+    row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "pause or resume"),
     row(Place::Experiment, &[c('.')], Action::Step, "step", "pause and advance by one frame, 1/60 s at this speed"),
     row(Place::Experiment, &[c('[')], Action::Slower, "slower", "slow down"),
     row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; past ×1000 as fast as it can"),

@@ -276,7 +276,7 @@ fn an_impulse_is_struck_by_its_key_or_by_its_name() {
     assert_eq!(asked(&press(&mut app, "b")), "ApplyImpulse(1)");
     let mut app = with_impulses(&["push", "kick"]);
     assert_eq!(asked(&press(&mut app, "b")), "");
-    assert!(place(&app).ends_with("+ menu \"Strike\""), "{}", place(&app));
+    assert!(place(&app).ends_with("+ menu \"Impulse\""), "{}", place(&app));
     assert_eq!(asked(&press(&mut app, "Down Enter")), "ApplyImpulse(2)");
     assert_eq!(asked(&press(&mut app, ": k i c k Enter")), "ApplyImpulse(2)");
 }

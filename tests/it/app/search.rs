@@ -69,7 +69,7 @@ fn the_palette_finds_words_and_not_chance() {
     let lab = in_lab();
     for (query, first) in [
         ("undo", "undo the last"),
-        ("pause", "pause: "),
+        ("pause", "pause"),
         ("quit", "quit: "),
         ("ene", "measure the drift of energy"),
         ("theme", "theme: dark"),

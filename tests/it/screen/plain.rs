@@ -134,7 +134,7 @@ fn the_cursor_stands_at_the_line_that_is_read() {
         assert!(lines.iter().enumerate().all(|(i, (line, _))| i == *line), "each in its turn");
         let all: Vec<&str> = lines.iter().map(|(_, line)| line.as_str()).collect();
         let all = all.join(" ");
-        for word in ["Parameters, 4:", "mass of the bob", "Gauges, 1:", "pause, or resume"] {
+        for word in ["Parameters, 4:", "mass of the bob", "Gauges, 1:", "pause or resume"] {
             assert!(all.contains(word), "{word} at {size:?} in {all}");
         }
         press(&mut app, "Home");
