@@ -33,7 +33,10 @@ mod trigonometry;
 mod unicode;
 mod zero_test;
 
-pub use function::{Branches, FUNCTIONS, Function, FunctionId, Rule};
+pub use function::{
+    Branches, Convolution, Divisor, FUNCTIONS, Form, Function, FunctionId, Operand, Recurrence,
+    Rule,
+};
 pub use notation::{latex_name, latex_of_unicode, unicode_name};
 pub use parse::parse;
 pub use pool::{Expr, NODE_LIMIT, Node, Pool};

@@ -5,15 +5,19 @@
 //! expression. [`math`] has the elementary functions, with the same bits on every machine. Never
 //! here: expressions, units, files.
 
+mod convolution;
 mod double_double;
 mod extended_range;
 mod format;
+mod instruction_set;
 pub mod math;
 mod number;
 mod real;
 
+pub use convolution::Row;
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};
+pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
-pub use real::{Real, Recurrence, RecurrenceStep};
+pub use real::Real;

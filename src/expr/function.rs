@@ -15,7 +15,7 @@ mod exp;
 mod ln;
 mod max;
 mod min;
-mod series;
+mod recurrence;
 mod sign;
 mod sin;
 mod sinh;
@@ -24,8 +24,8 @@ mod tan;
 mod tanh;
 
 use super::pool::{Expr, Node, Pool};
-use crate::num::Number;
-use crate::num::Recurrence;
+use crate::num::{Number, Real};
+pub use recurrence::{Convolution, Divisor, Form, Operand, Recurrence};
 
 /// A function, identified by the index of its row in [`FUNCTIONS`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -123,6 +123,37 @@ impl FunctionId {
     pub fn row(self) -> &'static Function {
         static ROWS: [Function; 18] = FUNCTIONS;
         &ROWS[self as usize]
+    }
+
+    /// The value of the function and that of its companion in its Taylor recurrence (cos for sin,
+    /// 1 + u² for atan, …), which is zero where it has none. A function of one argument ignores the
+    /// second.
+    pub fn begin<R: Real>(self, u: [R; 2]) -> (R, R) {
+        let positive = |x: R| x.value() > 0.0;
+        match self {
+            FunctionId::Sin => sin::begin(u),
+            FunctionId::Cos => cos::begin(u),
+            FunctionId::Tan => tan::begin(u),
+            FunctionId::Cot => cot::begin(u),
+            FunctionId::Asin => asin::begin(u),
+            FunctionId::Acos => acos::begin(u),
+            FunctionId::Atan => atan::begin(u),
+            FunctionId::Atan2 => atan2::begin(u),
+            FunctionId::Sinh => sinh::begin(u),
+            FunctionId::Cosh => cosh::begin(u),
+            FunctionId::Tanh => tanh::begin(u),
+            FunctionId::Exp => exp::begin(u),
+            FunctionId::Ln => ln::begin(u),
+            FunctionId::Sqrt => (u[0].sqrt(), R::ZERO),
+            FunctionId::Abs => (if positive(u[0]) { u[0] } else { -u[0] }, R::ZERO),
+            FunctionId::Sign => match u[0].value() {
+                x if x > 0.0 => (R::ONE, R::ZERO),
+                x if x < 0.0 => (-R::ONE, R::ZERO),
+                _ => (R::ZERO, R::ZERO),
+            },
+            FunctionId::Max => (if positive(u[0] - u[1]) { u[0] } else { u[1] }, R::ZERO),
+            FunctionId::Min => (if positive(u[0] - u[1]) { u[1] } else { u[0] }, R::ZERO),
+        }
     }
 
     /// The function with this name.

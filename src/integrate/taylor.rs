@@ -17,6 +17,7 @@ mod sticking;
 
 use collocation_step::CollocationStep;
 use kinks::Kinks;
+use step_size::StepSize;
 use sticking::{Sticking, Still};
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
@@ -55,7 +56,7 @@ pub(super) const METHOD: Method = Method {
 struct Taylor {
     system: System,
     series: Series,
-    tolerance: f64,
+    step_size: StepSize,
     state: State,
     begin: f64,
     /// Whether the unit of time in use was determined for this motion.
@@ -79,6 +80,8 @@ struct Taylor {
     /// A motion at rest, until it starts moving.
     resting: Option<Still>,
     parameters: Vec<f64>,
+    /// The last limit of a step, and the decimal number it is written as.
+    limit: (f64, DoubleDouble),
     /// The number of collocation steps, and the time at the end of their last round.
     leaps: (u32, f64),
 }
@@ -147,7 +150,7 @@ impl Taylor {
         Ok(Taylor {
             system,
             series,
-            tolerance,
+            step_size: StepSize::new(tolerance, order),
             state,
             begin: 0.0,
             scaled: false,
@@ -162,6 +165,7 @@ impl Taylor {
             leapt: None,
             resting: None,
             parameters: Vec::new(),
+            limit: (f64::NAN, DoubleDouble::ZERO),
             leaps: (0, f64::NAN),
         })
     }
@@ -182,7 +186,7 @@ impl Taylor {
         loop {
             self.series.build(&self.state)?;
             let scale = self.series.scale().abs();
-            let found = step_size::longest(&self.series, self.tolerance);
+            let found = self.step_size.longest(&self.series);
             let Some(step) = found.map(|step| step * scale) else {
                 // a coefficient is out of range, which a smaller unit may avoid
                 if scale < 1e-280 || (scale <= 1.0 && !step_size::has_velocity(&self.series)) {
@@ -438,7 +442,10 @@ impl Stepper for Taylor {
             return Ok(());
         }
         let time = self.state.exact_time();
-        let left = DoubleDouble::written(limit) - time;
+        if self.limit.0 != limit {
+            self.limit = (limit, DoubleDouble::written(limit));
+        }
+        let left = self.limit.1 - time;
         if self.resting.as_ref().is_some_and(Still::is_over) {
             self.resting = None;
             self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;

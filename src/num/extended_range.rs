@@ -8,7 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::double_double::DoubleDouble;
 use super::math;
-use super::real::{Real, Recurrence, RecurrenceStep};
+use super::real::Real;
 
 /// `mantissa · 2^exponent`, with the mantissa in [1, 2) or (−2, −1], or zero, or not finite.
 #[derive(Clone, Copy, Debug)]
@@ -190,10 +190,6 @@ impl Real for ExtendedRange {
         let high = self.value();
         let low = if high.is_finite() { scaled(self.mantissa.low, self.exponent) } else { 0.0 };
         DoubleDouble { high, low }
-    }
-
-    fn step_of(rule: &Recurrence) -> RecurrenceStep<ExtendedRange> {
-        rule.wide
     }
 
     fn sqrt(self) -> ExtendedRange {

@@ -4,25 +4,10 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::convolution::{Row, Single};
 use super::double_double::DoubleDouble;
-use super::extended_range::ExtendedRange;
+use super::instruction_set::vectorized;
 use crate::num::math;
-
-/// Sets the coefficients of order `k` of a function's series. Its arguments are `k`, the series of
-/// the function's arguments up to `k`, the function's own series `y` up to `k − 1`, and that of a
-/// companion `w` (cos for sin, 1 + u² for atan, …). It sets `y[k]` and `w[k]`.
-pub type RecurrenceStep<R> = fn(usize, &[&[R]], &mut [R], &mut [R]);
-
-/// A recurrence for normalised Taylor coefficients, in every precision.
-#[derive(Clone, Copy, Debug)]
-pub struct Recurrence {
-    /// In `f64`.
-    pub single: RecurrenceStep<f64>,
-    /// In double-double.
-    pub double: RecurrenceStep<DoubleDouble>,
-    /// In double-double of unlimited range.
-    pub wide: RecurrenceStep<ExtendedRange>,
-}
 
 /// A real number of some precision, with the functions an expression may call.
 pub trait Real:
@@ -52,8 +37,27 @@ pub trait Real:
     fn value(self) -> f64;
     /// The number as a [`DoubleDouble`].
     fn double(self) -> DoubleDouble;
-    /// The recurrence in this precision.
-    fn step_of(rule: &Recurrence) -> RecurrenceStep<Self>;
+
+    /// Division by an integer from 1 to 64, in `f64` by multiplication with its reciprocal.
+    #[must_use]
+    fn over(self, n: usize) -> Self {
+        self / n as f64
+    }
+    /// `out_i = Σ_{j<n} a_j b_j`, where a begins in `forward` and b in `reversed` at the places of
+    /// the i-th row, that of b moved on by `shift`.
+    fn inner_products(
+        forward: &[Self],
+        reversed: &[Self],
+        rows: &[Row],
+        (shift, n): (usize, usize),
+        out: &mut [Self],
+    ) {
+        for (out, row) in out.iter_mut().zip(rows) {
+            let a = &forward[row.forward as usize..][..n];
+            let b = &reversed[row.reversed as usize + shift..][..n];
+            *out = a.iter().zip(b).fold(Self::ZERO, |sum, (&x, &y)| sum + x * y);
+        }
+    }
 
     /// The square root.
     #[must_use]
@@ -88,9 +92,35 @@ pub trait Real:
     fn power(self, exponent: DoubleDouble) -> Self;
 }
 
+/// 1/n, for n up to 64.
+const RECIPROCALS: [f64; 65] = {
+    let mut table = [f64::NAN; 65];
+    let mut n = 1;
+    while n < table.len() {
+        table[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    table
+};
+
 impl Real for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
+
+    #[inline]
+    fn over(self, n: usize) -> f64 {
+        self * RECIPROCALS[n]
+    }
+    #[inline]
+    fn inner_products(
+        forward: &[f64],
+        reversed: &[f64],
+        rows: &[Row],
+        (shift, n): (usize, usize),
+        out: &mut [f64],
+    ) {
+        vectorized(Single { forward, reversed, rows, shift, n, out });
+    }
 
     fn of(x: DoubleDouble) -> f64 {
         x.high
@@ -100,9 +130,6 @@ impl Real for f64 {
     }
     fn double(self) -> DoubleDouble {
         DoubleDouble::from(self)
-    }
-    fn step_of(rule: &Recurrence) -> RecurrenceStep<f64> {
-        rule.single
     }
     fn sqrt(self) -> f64 {
         f64::sqrt(self)

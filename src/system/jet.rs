@@ -2,16 +2,20 @@
 //!
 //! The caller sets the coefficients of order k of the inputs (and of the time), evaluates order k,
 //! and reads the outputs of order k, from which the inputs of order k + 1 follow. A register that
-//! depends on parameters only stays zero above order 0.
+//! depends on parameters only stays zero above order 0. Order 0 is that of the first evaluator; what
+//! is done at each later one is the program's [`Schedule`].
 //!
 //! Rules: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
 
 use std::sync::Arc;
 
-use super::program::{LIVE_POWER_BITS, Op, Program, Register, Singular};
+use super::live_power::{self, vanishes};
+use super::program::{Block, Op, Program, Register, Singular};
+use super::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Step};
 use super::solve::Factored;
-use crate::expr::{FunctionId, Rule};
-use crate::num::{DoubleDouble, Real};
+use super::value::value_of;
+use crate::expr::FunctionId;
+use crate::num::{DoubleDouble, Real, Row};
 
 /// The branch that functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -30,7 +34,19 @@ pub enum Side {
 pub struct Jet<R> {
     program: Arc<Program>,
     stride: usize,
-    coefficients: Vec<R>,
+    /// The coefficients of all registers, then those of the slopes that enter.
+    forward: Vec<R>,
+    /// The coefficients of right operands, from the highest order to the lowest.
+    reversed: Vec<R>,
+    /// The pairs of the schedule, as places in these.
+    rows: Vec<Row>,
+    /// Their inner products at the present order.
+    products: Vec<R>,
+    /// All registers at order 0, and at the present order.
+    values: Vec<R>,
+    now: Vec<R>,
+    /// The factors of the program's sums.
+    factors: Vec<R>,
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
     sides: Vec<Side>,
@@ -43,11 +59,23 @@ impl<R: Real> Jet<R> {
     /// evaluated.
     pub fn new(program: Arc<Program>, order: usize) -> Jet<R> {
         let stride = order + 1;
+        let (registers, schedule) = (program.ops.len(), program.schedule());
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
+        // the first term of a series takes no part in inner products
+        let row = |pair: &super::schedule::Pair| Row {
+            forward: pair.forward * stride as u32 + 1,
+            reversed: pair.reversed * stride as u32,
+        };
         Jet {
             stride,
-            coefficients: vec![R::ZERO; program.ops.len() * stride],
+            forward: vec![R::ZERO; (registers + schedule.slopes.len()) * stride],
+            reversed: vec![R::ZERO; schedule.reversed.len() * stride],
+            rows: schedule.pairs.iter().map(row).collect(),
+            products: vec![R::ZERO; schedule.pairs.len()],
+            values: vec![R::ZERO; registers],
+            now: vec![R::ZERO; registers],
+            factors: program.terms.iter().map(|term| R::of(term.coefficient)).collect(),
             blocks,
             right: vec![R::ZERO; widest],
             sides: vec![Side::Positive; program.switches.len()],
@@ -66,10 +94,8 @@ impl<R: Real> Jet<R> {
         let program = Arc::clone(&self.program);
         for &r in &program.prologue {
             match program.ops[r as usize] {
-                Op::Parameter(i) => {
-                    self.coefficients[r as usize * self.stride] = R::of(parameters[i as usize]);
-                }
-                _ => self.run(&program, r, 0),
+                Op::Parameter(i) => self.set_value(r, R::of(parameters[i as usize])),
+                op => self.evaluate(&program, r, op),
             }
         }
     }
@@ -77,7 +103,7 @@ impl<R: Real> Jet<R> {
     /// Sets a coefficient of an input.
     pub fn set_input(&mut self, input: usize, order: usize, coefficient: R) {
         let register = self.program.inputs[input] as usize;
-        self.coefficients[register * self.stride + order] = coefficient;
+        self.forward[register * self.stride + order] = coefficient;
     }
 
     /// Chooses the branch at a switch.
@@ -103,28 +129,25 @@ impl<R: Real> Jet<R> {
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
     pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
-        let program = Arc::clone(&self.program);
-        for &r in &program.body {
-            match program.ops[r as usize] {
-                Op::Time => {
-                    let x = [time, R::ONE * scale, R::ZERO];
-                    self.coefficients[r as usize * self.stride + k] = x[k.min(2)];
-                }
-                Op::Solve(block) => self.solve(&program, r, block, k)?,
-                _ => self.run(&program, r, k),
-            }
+        if k == 0 {
+            return self.begin(time);
         }
+        let range = (self.stride - k, k - 1);
+        R::inner_products(&self.forward, &self.reversed, &self.rows, range, &mut self.products);
+        let rate = if k == 1 { R::ONE * scale } else { R::ZERO };
+        self.finish(k, rate);
+        self.mirror(k);
         Ok(())
     }
 
     /// A coefficient of an output.
     pub fn output(&self, i: usize, order: usize) -> R {
-        self.coefficients[self.program.outputs[i] as usize * self.stride + order]
+        self.forward[self.program.outputs[i] as usize * self.stride + order]
     }
 
     /// The series of a switch.
     pub fn switch(&self, i: usize) -> &[R] {
-        &self.coefficients[self.program.switches[i] as usize * self.stride..][..self.stride]
+        self.series(self.program.switches[i])
     }
 
     /// The series of the weight at a switch.
@@ -142,7 +165,7 @@ impl<R: Real> Jet<R> {
 
     /// The series of any register.
     pub(super) fn series(&self, register: Register) -> &[R] {
-        &self.coefficients[register as usize * self.stride..][..self.stride]
+        &self.forward[register as usize * self.stride..][..self.stride]
     }
 
     /// Copies the orders below `orders` from a jet of the same program in another precision, and
@@ -153,55 +176,198 @@ impl<R: Real> Jet<R> {
         (0..program.blocks.len()).try_for_each(|block| self.factor(&program, block))
     }
 
-    /// Copies the orders below `orders`, for reading only.
+    /// Copies the orders below `orders`.
     pub fn copy<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
-        let program = Arc::clone(&self.program);
-        for register in 0..program.ops.len() {
-            if program.fixed[register] {
-                continue;
-            }
-            for k in 0..orders {
-                self.coefficients[register * self.stride + k] =
-                    R::of(other.coefficients[register * other.stride + k].double());
+        let stride = self.stride;
+        for (register, &fixed) in self.program.fixed.iter().enumerate() {
+            if !fixed {
+                let theirs = &other.forward[register * other.stride..][..orders];
+                for (own, x) in self.forward[register * stride..].iter_mut().zip(theirs) {
+                    *own = R::of(x.double());
+                }
+                self.values[register] = self.forward[register * stride];
             }
         }
-        for switch in 0..program.switches.len() {
+        for switch in 0..self.sides.len() {
             self.sides[switch] = other.sides[switch];
             for k in 0..orders {
-                self.weights[switch * self.stride + k] =
+                self.weights[switch * stride + k] =
                     R::of(other.weights[switch * other.stride + k].double());
+            }
+        }
+        for k in 1..orders {
+            for register in 0..self.now.len() {
+                self.now[register] = self.forward[register * stride + k];
+            }
+            self.mirror(k);
+        }
+    }
+
+    fn set_value(&mut self, register: Register, value: R) {
+        self.forward[register as usize * self.stride] = value;
+        self.values[register as usize] = value;
+    }
+
+    /// Evaluates order 0.
+    fn begin(&mut self, time: R) -> Result<(), Singular> {
+        let program = Arc::clone(&self.program);
+        for &r in &program.inputs {
+            self.values[r as usize] = self.forward[r as usize * self.stride];
+        }
+        for &r in &program.body {
+            match program.ops[r as usize] {
+                Op::Time => self.set_value(r, time),
+                Op::Solve(block) => {
+                    self.factor(&program, block as usize)?;
+                    let block_of = &program.blocks[block as usize];
+                    for (x, &right) in self.right.iter_mut().zip(&block_of.right) {
+                        *x = self.values[right as usize];
+                    }
+                    self.blocks[block as usize].solve(&mut self.right[..block_of.size()]);
+                    for i in 0..block_of.size() {
+                        self.set_value(r + i as u32, self.right[i]);
+                    }
+                }
+                op => self.evaluate(&program, r, op),
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the value of an operation.
+    fn evaluate(&mut self, program: &Program, r: Register, op: Op) {
+        if let Op::Select { .. } | Op::ParametricPower(..) = op {
+            let value = self.alone(program, r, 0);
+            self.values[r as usize] = value;
+        } else if let Some((value, companion)) = value_of(program, op, |r| self.values[r as usize])
+        {
+            self.set_value(r, value);
+            if let Some(companion) = companion {
+                self.set_value(r + 1, companion);
             }
         }
     }
 
-    fn run(&mut self, program: &Program, register: Register, k: usize) {
+    /// Finishes order `k`, once its inner products are known.
+    fn finish(&mut self, k: usize, rate: R) {
+        let program = Arc::clone(&self.program);
+        let schedule = program.schedule();
+        for &r in &program.inputs {
+            self.now[r as usize] = self.forward[r as usize * self.stride + k];
+        }
+        for &step in &schedule.steps {
+            let (values, now, products) = (&self.values, &self.now, &self.products);
+            let at = |r: Register| r as usize;
+            let (register, x) = match step {
+                Step::Time(register) => (register, rate),
+                Step::Linear { register, first, count } => {
+                    let range = first as usize..(first + count) as usize;
+                    let terms = program.terms[range.clone()].iter().zip(&self.factors[range]);
+                    let sum = terms.fold(R::ZERO, |sum, (term, &factor)| {
+                        sum + now[at(term.register)] * factor
+                    });
+                    (register, sum)
+                }
+                Step::Scale { register, fixed, varying } => {
+                    (register, values[at(fixed)] * now[at(varying)])
+                }
+                Step::Product { register, left, right, product } => {
+                    let ends =
+                        values[at(left)] * now[at(right)] + now[at(left)] * values[at(right)];
+                    (register, products[at(product)] + ends)
+                }
+                Step::Square { register, of, product } => {
+                    let ends = values[at(of)] * now[at(of)];
+                    (register, products[at(product)] + (ends + ends))
+                }
+                Step::Relation { register, relation } => {
+                    (register, self.relation(schedule, &schedule.relations[at(relation)], k))
+                }
+                Step::Solve { register, block, product } => {
+                    self.solve(&program, (register, block as usize, at(product)), k);
+                    continue;
+                }
+                Step::Alone(register) => (register, self.alone(&program, register, k)),
+            };
+            self.now[register as usize] = x;
+            self.forward[register as usize * self.stride + k] = x;
+        }
+    }
+
+    /// The coefficient of order `k` that follows from a relation.
+    fn relation(&self, schedule: &Schedule, relation: &Relation, k: usize) -> R {
+        let (values, now) = (&self.values, &self.now);
+        let at = |r: Register| r as usize;
+        let times = |factor: Factor, x: R| match factor {
+            Factor::Plus => x,
+            Factor::Minus => -x,
+            Factor::Times(factor) => x * R::of(factor),
+        };
+        let mut sum = match relation.direct {
+            Direct::None => R::ZERO,
+            Direct::Coefficient(a) => now[at(a)],
+            Direct::Slope(factor, a) => times(factor, now[at(a)] * k as f64),
+        };
+        let range = relation.first as usize..(relation.first + relation.count) as usize;
+        for summand in &schedule.summands[range] {
+            let product = summand.product.map_or(R::ZERO, |i| self.products[i as usize]);
+            let whole = match summand.ends {
+                Ends::None => product,
+                Ends::Last(a, b) => product + now[at(a)] * values[at(b)],
+                Ends::LastSlope(a, b) => product + now[at(a)] * values[at(b)] * k as f64,
+                Ends::Both(a, b) => {
+                    product + (values[at(a)] * now[at(b)] + now[at(a)] * values[at(b)])
+                }
+            };
+            sum = sum + times(summand.factor, whole);
+        }
+        if let Some(a) = relation.vanishing
+            && values[at(a)].value() == 0.0
+            && vanishes(self.series(a), k)
+        {
+            return R::ZERO;
+        }
+        match relation.denominator {
+            Denominator::One => sum,
+            Denominator::Order => sum.over(k),
+            Denominator::Value(a) => sum / values[at(a)],
+            Denominator::OrderTimes(a) => (sum / values[at(a)]).over(k),
+            Denominator::Twice(a) => sum / (values[at(a)] * 2.0),
+        }
+    }
+
+    /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
+    fn solve(&mut self, program: &Program, at: (Register, usize, usize), k: usize) {
+        let (register, block, mut product) = at;
+        let Block { matrix, right, .. } = &program.blocks[block];
+        let n = right.len();
+        for (i, &right) in right.iter().enumerate() {
+            let mut sum = self.now[right as usize];
+            for (j, &entry) in matrix[i * n..][..n].iter().enumerate() {
+                if !program.fixed[entry as usize] {
+                    let last = self.now[entry as usize] * self.values[register as usize + j];
+                    sum = sum - (self.products[product] + last);
+                    product += 1;
+                }
+            }
+            self.right[i] = sum;
+        }
+        self.blocks[block].solve(&mut self.right[..n]);
+        for i in 0..n {
+            self.now[register as usize + i] = self.right[i];
+            self.forward[(register as usize + i) * self.stride + k] = self.right[i];
+        }
+    }
+
+    /// The coefficient of order `k` of an operation that has no place in the batch. It is also
+    /// written.
+    fn alone(&mut self, program: &Program, register: Register, k: usize) -> R {
         let (stride, at) = (self.stride, register as usize);
-        let (below, own) = self.coefficients.split_at_mut(at * stride);
+        let (below, own) = self.forward.split_at_mut(at * stride);
         let series = |r: Register| &below[r as usize * stride..][..stride];
-        let constant = |c: u32| program.constants[c as usize];
         own[k] = match program.ops[at] {
-            Op::Constant(c) => R::of(constant(c)),
-            Op::Linear { constant: c, first, count } => {
-                let terms = &program.terms[first as usize..(first + count) as usize];
-                let start = if k == 0 { R::of(constant(c)) } else { R::ZERO };
-                terms.iter().fold(start, |sum, term| {
-                    sum + series(term.register)[k] * R::of(term.coefficient)
-                })
-            }
-            Op::Scale(a, b) => series(a)[0] * series(b)[k],
-            Op::Multiply(a, b) => product(series(a), series(b), k),
-            Op::Square(a) => square(series(a), k),
-            Op::Divide(a, b) => quotient(series(a)[k], series(b), own, k),
-            Op::Root(a) => root(series(a), own, k),
-            Op::Power(a, exponent) => power(series(a), constant(exponent), own, k),
             Op::ParametricPower(a, exponent) => {
-                live_power(series(a), series(exponent)[0].double(), own, k, stride)
-            }
-            Op::Call(function, [a, b]) => {
-                let Rule::Series(rule) = &function.row().rule else { return };
-                let (y, w) = own.split_at_mut(stride);
-                R::step_of(rule)(k, &[series(a), series(b)], y, &mut w[..stride]);
-                return;
+                live_power::coefficient(series(a), series(exponent)[0].double(), own, k, stride)
             }
             Op::Select { switch, mode, positive, negative } => {
                 let (positive, negative) = (series(positive), series(negative));
@@ -226,142 +392,27 @@ impl<R: Real> Jet<R> {
                     }
                 }
             }
-            Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return,
+            _ => return own[k],
         };
+        own[k]
+    }
+
+    /// Stores order `k` once more where inner products read it.
+    fn mirror(&mut self, k: usize) {
+        let (stride, schedule) = (self.stride, self.program.schedule());
+        for (slot, &r) in schedule.reversed.iter().enumerate() {
+            self.reversed[slot * stride + stride - 1 - k] = self.now[r as usize];
+        }
+        let slopes = self.program.ops.len();
+        for (slot, &r) in schedule.slopes.iter().enumerate() {
+            self.forward[(slopes + slot) * stride + k] = self.now[r as usize] * k as f64;
+        }
     }
 
     fn factor(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
-        let (block, coefficients, stride) = (&program.blocks[at], &self.coefficients, self.stride);
+        let block = &program.blocks[at];
         let n = block.size();
-        let entry = |i, j| coefficients[block.matrix[i * n + j] as usize * stride];
+        let entry = |i, j| self.values[block.matrix[i * n + j] as usize];
         if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
-    }
-
-    /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
-    fn solve(
-        &mut self,
-        program: &Program,
-        register: Register,
-        at: u32,
-        k: usize,
-    ) -> Result<(), Singular> {
-        if k == 0 {
-            self.factor(program, at as usize)?;
-        }
-        let (block, stride) = (&program.blocks[at as usize], self.stride);
-        let (below, own) = self.coefficients.split_at_mut(register as usize * stride);
-        let n = block.size();
-        for i in 0..n {
-            let mut sum = below[block.right[i] as usize * stride + k];
-            for j in 0..n {
-                let entry = block.matrix[i * n + j];
-                if !program.fixed[entry as usize] {
-                    let m = &below[entry as usize * stride..][..stride];
-                    let a = &own[j * stride..][..stride];
-                    for l in 1..=k {
-                        sum = sum - m[l] * a[k - l];
-                    }
-                }
-            }
-            self.right[i] = sum;
-        }
-        self.blocks[at as usize].solve(&mut self.right[..n]);
-        for i in 0..n {
-            own[i * stride + k] = self.right[i];
-        }
-        Ok(())
-    }
-}
-
-/// `Σ_{j=0}^{k} a_j b_{k−j}`.
-fn product<R: Real>(a: &[R], b: &[R], k: usize) -> R {
-    (0..=k).fold(R::ZERO, |sum, j| sum + a[j] * b[k - j])
-}
-
-/// The same for `b = a`.
-fn square<R: Real>(a: &[R], k: usize) -> R {
-    let pairs = (0..k.div_ceil(2)).fold(R::ZERO, |sum, j| sum + a[j] * a[k - j]) * 2.0;
-    if k.is_multiple_of(2) { pairs + a[k / 2] * a[k / 2] } else { pairs }
-}
-
-/// `y = a/b`: `y_k = (a_k − Σ_{j=1}^{k} b_j y_{k−j}) / b_0`.
-fn quotient<R: Real>(a_k: R, b: &[R], y: &[R], k: usize) -> R {
-    (1..=k).fold(a_k, |sum, j| sum - b[j] * y[k - j]) / b[0]
-}
-
-/// `y = √a`: `y_k = (a_k − Σ_{j=1}^{k−1} y_j y_{k−j}) / 2 y_0`.
-fn root<R: Real>(a: &[R], y: &[R], k: usize) -> R {
-    if k == 0 {
-        return a[0].sqrt();
-    }
-    let rest = (1..k).fold(a[k], |sum, j| sum - y[j] * y[k - j]);
-    if vanishes(a, k) { R::ZERO } else { rest / (y[0] * 2.0) }
-}
-
-/// `y = a^α`: `y_k = Σ_{j=0}^{k−1} (α (k − j) − j) a_{k−j} y_j / (k a_0)`.
-fn power<R: Real>(a: &[R], exponent: DoubleDouble, y: &[R], k: usize) -> R {
-    if k == 0 {
-        return a[0].power(exponent);
-    }
-    if vanishes(a, k) && exponent.high > 0.0 {
-        return R::ZERO;
-    }
-    let alpha = R::of(exponent);
-    let sum = (0..k).fold(R::ZERO, |sum, j| {
-        let factor = alpha * (k - j) as f64 - R::ONE * j as f64;
-        sum + factor * a[k - j] * y[j]
-    });
-    sum / (a[0] * k as f64)
-}
-
-/// Whether a series is identically zero as far as it is known.
-fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
-    a[..=k].iter().all(|c| c.value() == 0.0)
-}
-
-/// `y = a^n` with `n` known at run time. An integer power uses repeated squaring, which also works
-/// at the zeros of `a`: the registers after `y` contain, for each bit of the exponent, the square
-/// and the product of the factors so far.
-fn live_power<R: Real>(
-    a: &[R],
-    exponent: DoubleDouble,
-    own: &mut [R],
-    k: usize,
-    stride: usize,
-) -> R {
-    let n = exponent.high;
-    if exponent.low != 0.0 || n.fract() != 0.0 || n.abs() >= f64::from(1 << LIVE_POWER_BITS) {
-        return power(a, exponent, own, k);
-    }
-    let size = n.abs() as u32;
-    let mut last: Option<usize> = None;
-    for bit in 0..LIVE_POWER_BITS {
-        let (squares, products) = (stride * (1 + 2 * bit), stride * (2 + 2 * bit));
-        if size >> bit == 0 {
-            break;
-        }
-        let squared = match bit {
-            0 => a[k],
-            _ => square(&own[squares - 2 * stride..][..stride], k),
-        };
-        own[squares + k] = squared;
-        let this = &own[squares..][..stride];
-        own[products + k] = match (size >> bit & 1, last) {
-            (1, Some(last)) => product(this, &own[last..][..stride], k),
-            (1, None) => this[k],
-            (_, Some(last)) => own[last + k],
-            (_, None) => continue,
-        };
-        last = Some(products);
-    }
-    let whole = match last {
-        Some(last) => &own[last..][..stride],
-        None => return if k == 0 { R::ONE } else { R::ZERO },
-    };
-    if n > 0.0 {
-        whole[k]
-    } else {
-        let one = if k == 0 { R::ONE } else { R::ZERO };
-        quotient(one, whole, own, k)
     }
 }

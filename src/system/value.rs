@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
-use crate::expr::Rule;
 use crate::num::{DoubleDouble, ExtendedRange, Real};
 
 /// The registers of one program as numbers, in one precision.
@@ -124,43 +123,13 @@ impl<R: Real> Evaluator<R> {
 
     fn run(&mut self, program: &Program, register: Register) {
         let at = register as usize;
-        let get = |r: Register| self.registers[r as usize];
-        self.registers[at] = match program.ops[at] {
-            Op::Constant(c) => R::of(program.constants[c as usize]),
-            Op::Linear { constant, first, count } => {
-                let terms = &program.terms[first as usize..(first + count) as usize];
-                let mut sum = R::of(program.constants[constant as usize]);
-                for term in terms {
-                    sum = sum + get(term.register) * R::of(term.coefficient);
-                }
-                sum
+        let value = value_of(program, program.ops[at], |r| self.registers[r as usize]);
+        if let Some((value, companion)) = value {
+            self.registers[at] = value;
+            if let Some(companion) = companion {
+                self.registers[at + 1] = companion;
             }
-            Op::Scale(a, b) | Op::Multiply(a, b) => get(a) * get(b),
-            Op::Square(a) => get(a) * get(a),
-            Op::Divide(a, b) => get(a) / get(b),
-            Op::Root(a) => get(a).sqrt(),
-            Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
-            Op::ParametricPower(a, exponent) => get(a).power(get(exponent).double()),
-            Op::Call(function, [a, b]) => {
-                let Rule::Series(rule) = &function.row().rule else { return };
-                let (mut y, mut w) = ([R::ZERO], [R::ZERO]);
-                R::step_of(rule)(0, &[&[get(a)], &[get(b)]], &mut y, &mut w);
-                self.registers[at + 1] = w[0];
-                y[0]
-            }
-            Op::Select { switch, positive, negative, .. } => {
-                let side = get(switch).value();
-                if side > 0.0 {
-                    get(positive)
-                } else if side < 0.0 {
-                    get(negative)
-                } else {
-                    // on the surface; NaN if the switch is NaN
-                    (get(positive) + get(negative)) * (0.5 + side)
-                }
-            }
-            Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return,
-        };
+        }
     }
 
     fn solve(&mut self, program: &Program, register: Register, at: u32) -> Result<(), Singular> {
@@ -177,4 +146,48 @@ impl<R: Real> Evaluator<R> {
         registers[register as usize..][..n].copy_from_slice(&self.right[..n]);
         Ok(())
     }
+}
+
+/// The value of an operation on registers with these values and, of a function, that of its
+/// companion in the next register. `None` for what is set elsewhere.
+#[inline]
+pub(super) fn value_of<R: Real>(
+    program: &Program,
+    op: Op,
+    get: impl Fn(Register) -> R,
+) -> Option<(R, Option<R>)> {
+    let value = match op {
+        Op::Constant(c) => R::of(program.constants[c as usize]),
+        Op::Linear { constant, first, count } => {
+            let terms = &program.terms[first as usize..(first + count) as usize];
+            let mut sum = R::of(program.constants[constant as usize]);
+            for term in terms {
+                sum = sum + get(term.register) * R::of(term.coefficient);
+            }
+            sum
+        }
+        Op::Scale(a, b) | Op::Multiply(a, b) => get(a) * get(b),
+        Op::Square(a) => get(a) * get(a),
+        Op::Divide(a, b) => get(a) / get(b),
+        Op::Root(a) => get(a).sqrt(),
+        Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
+        Op::ParametricPower(a, exponent) => get(a).power(get(exponent).double()),
+        Op::Call(function, [a, b]) => {
+            let (value, companion) = function.begin([get(a), get(b)]);
+            return Some((value, Some(companion)));
+        }
+        Op::Select { switch, positive, negative, .. } => {
+            let side = get(switch).value();
+            if side > 0.0 {
+                get(positive)
+            } else if side < 0.0 {
+                get(negative)
+            } else {
+                // on the surface; NaN if the switch is NaN
+                (get(positive) + get(negative)) * (0.5 + side)
+            }
+        }
+        Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return None,
+    };
+    Some((value, None))
 }

@@ -1,17 +1,22 @@
 //! The inverse cosine.
 
-use super::asin::{advance, slope};
+use super::asin::{COSINE, cosine_of, slope};
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
-use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
+use crate::num::{Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].acos(), cosine_of(u[0]))
+}
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        y[0] = u[0][0].acos();
-    }
-    advance(k, u[0], y, w, -1.0);
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::slope(-1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
+    companion: Some(COSINE),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Acos,
@@ -25,9 +30,5 @@ pub(super) const FUNCTION: Function = Function {
         let slope = slope(pool, u[0]);
         pool.neg(slope)
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -1,9 +1,14 @@
 //! The inverse sine.
 
-use super::series::{known, product};
+use super::recurrence::{COMPANION, Convolution, Divisor, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::{Expr, Pool};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].asin(), cosine_of(u[0]))
+}
 
 /// `1/√(1 − u²)`.
 pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
@@ -12,24 +17,24 @@ pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
     pool.monomial(Number::ONE, &[(under, -Number::HALF)])
 }
 
-/// Sets `y[k]`, `w[k]` for w = √(1 − u²) and y′ w = ±u′, once `y[0]` is set.
-pub(super) fn advance<R: Real>(k: usize, u: &[R], y: &mut [R], w: &mut [R], sign: f64) {
-    if k == 0 {
-        w[0] = ((R::ONE - u[0]) * (R::ONE + u[0])).sqrt();
-        return;
-    }
-    y[k] = (u[k] * (sign * k as f64) - known(k, y, w)) / (w[0] * k as f64);
-    let inner = (1..k).fold(R::ZERO, |sum, j| sum + w[j] * w[k - j]);
-    w[k] = -(product(k, u, u) + inner) / (w[0] * 2.0);
+/// `√(1 − u²)`.
+pub(super) fn cosine_of<R: Real>(u: R) -> R {
+    ((R::ONE - u) * (R::ONE + u)).sqrt()
 }
 
+/// w = √(1 − u²): w² = 1 − u².
+pub(super) const COSINE: Form = Form {
+    sums: &[Convolution::of(-1.0, FIRST, FIRST), Convolution::of(-1.0, COMPANION, COMPANION)],
+    divisor: Divisor::Twice(COMPANION),
+    ..Form::NONE
+};
+
 /// y = arcsin u, w = √(1 − u²): y′ w = u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        y[0] = u[0][0].asin();
-    }
-    advance(k, u[0], y, w, 1.0);
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
+    companion: Some(COSINE),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Asin,
@@ -40,9 +45,5 @@ pub(super) const FUNCTION: Function = Function {
     value: |u| math::asin(u[0]),
     fold: |pool, u| pool.fold_odd(FunctionId::Asin, u[0]),
     derivative: |pool, u, _| slope(pool, u[0]),
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -1,20 +1,20 @@
 //! The inverse tangent.
 
-use super::series::{known, product};
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].atan2(R::ONE), R::ONE + u[0] * u[0])
+}
 
 /// y = arctan u, w = 1 + u²: y′ w = u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    let u = u[0];
-    if k == 0 {
-        y[0] = u[0].atan2(R::ONE);
-        w[0] = R::ONE + u[0] * u[0];
-    } else {
-        w[k] = product(k, u, u);
-        y[k] = (u[k] * k as f64 - known(k, y, w)) / (w[0] * k as f64);
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: true,
+    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
+    companion: Some(Form::sum(&[Convolution::of(1.0, FIRST, FIRST)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Atan,
@@ -29,9 +29,5 @@ pub(super) const FUNCTION: Function = Function {
         let under = pool.linear(Number::ONE, &[(Number::ONE, square)]);
         pool.powi(under, -1)
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

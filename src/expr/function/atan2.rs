@@ -1,20 +1,31 @@
 //! The angle of a point: `atan2(y, x)`, in (−π, π].
 
-use super::series::{chain, known, product};
+use super::recurrence::{COMPANION, Convolution, Divisor, FIRST, Form, Recurrence, SECOND, VALUE};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].atan2(u[1]), u[1] * u[1] + u[0] * u[0])
+}
 
 /// θ = atan2(y, x), w = x² + y²: θ′ w = x y′ − y x′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    let (ordinate, abscissa) = (u[0], u[1]);
-    w[k] = product(k, abscissa, abscissa) + product(k, ordinate, ordinate);
-    y[k] = if k == 0 {
-        ordinate[0].atan2(abscissa[0])
-    } else {
-        let torque = chain(k, ordinate, abscissa) - chain(k, abscissa, ordinate);
-        (torque - known(k, y, w)) / (w[0] * k as f64)
-    };
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: true,
+    value: Form {
+        sums: &[
+            Convolution::of_slope(1.0, FIRST, SECOND),
+            Convolution::of_slope(-1.0, SECOND, FIRST),
+            Convolution::of_slope(-1.0, VALUE, COMPANION),
+        ],
+        divisor: Divisor::OrderTimes(COMPANION),
+        ..Form::NONE
+    },
+    companion: Some(Form::sum(&[
+        Convolution::of(1.0, SECOND, SECOND),
+        Convolution::of(1.0, FIRST, FIRST),
+    ])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Atan2,
@@ -31,9 +42,5 @@ pub(super) const FUNCTION: Function = Function {
         let sign = if i == 0 { Number::ONE } else { Number::MINUS_ONE };
         pool.monomial(sign, &[(u[1 - i], Number::ONE), (radius, Number::MINUS_ONE)])
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

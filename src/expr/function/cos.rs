@@ -1,18 +1,21 @@
 //! The cosine.
 
-use super::series::chain;
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    let (sine, cosine) = u[0].sin_cos();
+    (cosine, sine)
+}
 
 /// y = cos u, w = sin u: y′ = −w u′, w′ = y u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        (w[0], y[0]) = u[0][0].sin_cos();
-    } else {
-        y[k] = -chain(k, u[0], w) / k as f64;
-        w[k] = chain(k, u[0], y) / k as f64;
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(-1.0, FIRST, COMPANION)]),
+    companion: Some(Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Cos,
@@ -31,9 +34,5 @@ pub(super) const FUNCTION: Function = Function {
         let sine = pool.call(FunctionId::Sin, u);
         pool.neg(sine)
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

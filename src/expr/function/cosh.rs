@@ -1,19 +1,22 @@
 //! The hyperbolic cosine.
 
-use super::series::chain;
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
-use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
+use crate::num::{Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    let (sinh, cosh) = u[0].sinh_cosh();
+    (cosh, sinh)
+}
 
 /// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        (w[0], y[0]) = u[0][0].sinh_cosh();
-    } else {
-        y[k] = chain(k, u[0], w) / k as f64;
-        w[k] = chain(k, u[0], y) / k as f64;
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
+    companion: Some(Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Cosh,
@@ -29,9 +32,5 @@ pub(super) const FUNCTION: Function = Function {
         pool.fold_even(FunctionId::Cosh, u[0])
     },
     derivative: |pool, u, _| pool.call(FunctionId::Sinh, u),
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -1,14 +1,21 @@
 //! The exponential.
 
-use super::series::chain;
+use super::recurrence::{Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
-use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
+use crate::num::{Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].exp(), R::ZERO)
+}
 
 /// y = exp u: y′ = y u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
-    y[k] = if k == 0 { u[0][0].exp() } else { chain(k, u[0], y) / k as f64 };
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)]),
+    companion: None,
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Exp,
@@ -19,9 +26,5 @@ pub(super) const FUNCTION: Function = Function {
     value: |u| math::exp(u[0]),
     fold: |_, u| (u[0] == Expr::ZERO).then_some(Expr::ONE),
     derivative: |pool, u, _| pool.call(FunctionId::Exp, u),
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

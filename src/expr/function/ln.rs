@@ -1,15 +1,21 @@
 //! The natural logarithm.
 
-use super::series::known;
+use super::recurrence::{Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::{Expr, Node};
-use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
+use crate::num::{Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    (u[0].ln(), R::ZERO)
+}
 
 /// y = ln u: y′ u = u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], _: &mut [R]) {
-    let u = u[0];
-    y[k] = if k == 0 { u[0].ln() } else { (u[k] * k as f64 - known(k, y, u)) / (u[0] * k as f64) };
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, FIRST)], FIRST),
+    companion: None,
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Ln,
@@ -23,9 +29,5 @@ pub(super) const FUNCTION: Function = Function {
         _ => (u[0] == Expr::ONE).then_some(Expr::ZERO),
     },
     derivative: |pool, u, _| pool.powi(u[0], -1),
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -1,18 +1,20 @@
 //! The sine.
 
-use super::series::chain;
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::num::{DoubleDouble, ExtendedRange, Real, Recurrence, math};
+use crate::num::{Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    u[0].sin_cos()
+}
 
 /// y = sin u, w = cos u: y′ = w u′, w′ = −y u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        (y[0], w[0]) = u[0][0].sin_cos();
-    } else {
-        y[k] = chain(k, u[0], w) / k as f64;
-        w[k] = -chain(k, u[0], y) / k as f64;
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
+    companion: Some(Form::over_order(&[Convolution::of_slope(-1.0, FIRST, VALUE)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Sin,
@@ -28,9 +30,5 @@ pub(super) const FUNCTION: Function = Function {
         pool.fold_odd(FunctionId::Sin, u[0])
     },
     derivative: |pool, u, _| pool.call(FunctionId::Cos, u),
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -1,19 +1,21 @@
 //! The tangent.
 
-use super::series::{chain, product};
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    let y = u[0].tan();
+    (y, R::ONE + y * y)
+}
 
 /// y = tan u, w = 1 + y²: y′ = w u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        y[0] = u[0][0].tan();
-        w[0] = R::ONE + y[0] * y[0];
-    } else {
-        y[k] = chain(k, u[0], w) / k as f64;
-        w[k] = product(k, y, y);
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
+    companion: Some(Form::sum(&[Convolution::of(1.0, VALUE, VALUE)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Tan,
@@ -28,9 +30,5 @@ pub(super) const FUNCTION: Function = Function {
         let square = pool.powi(tangent, 2);
         pool.linear(Number::ONE, &[(Number::ONE, square)])
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

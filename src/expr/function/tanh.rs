@@ -1,20 +1,21 @@
 //! The hyperbolic tangent.
 
-use super::series::{chain, product};
+use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
-use crate::num::{DoubleDouble, ExtendedRange, Number, Real, Recurrence, math};
+use crate::num::{Number, Real, math};
+
+/// The value, and that of the companion.
+pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+    let inverse = R::ONE / u[0].sinh_cosh().1;
+    (u[0].tanh(), inverse * inverse)
+}
 
 /// y = tanh u, w = 1 − y² = 1/cosh² u: y′ = w u′.
-fn rule<R: Real>(k: usize, u: &[&[R]], y: &mut [R], w: &mut [R]) {
-    if k == 0 {
-        y[0] = u[0][0].tanh();
-        let inverse = R::ONE / u[0][0].sinh_cosh().1;
-        w[0] = inverse * inverse;
-    } else {
-        y[k] = chain(k, u[0], w) / k as f64;
-        w[k] = -product(k, y, y);
-    }
-}
+const RECURRENCE: Recurrence = Recurrence {
+    companion_first: false,
+    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
+    companion: Some(Form::sum(&[Convolution::of(-1.0, VALUE, VALUE)])),
+};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Tanh,
@@ -29,9 +30,5 @@ pub(super) const FUNCTION: Function = Function {
         let square = pool.powi(tangent, 2);
         pool.linear(Number::ONE, &[(Number::MINUS_ONE, square)])
     },
-    rule: Rule::Series(Recurrence {
-        single: rule::<f64>,
-        double: rule::<DoubleDouble>,
-        wide: rule::<ExtendedRange>,
-    }),
+    rule: Rule::Series(RECURRENCE),
 };

@@ -7,7 +7,7 @@
 //! from a collision is hardly affected by it.
 
 use crate::expr::FunctionId;
-use crate::num::math;
+use crate::num::{self, Kernel, math};
 use crate::system::Series;
 
 /// The part of the tolerance allowed for the last terms, which represent everything truncated.
@@ -56,28 +56,47 @@ pub(super) fn has_velocity(series: &Series) -> bool {
     numbers(series).all(|c| c[1].is_finite())
 }
 
-/// The longest step that a tolerance allows, in the unit of the series; infinite for a polynomial.
-/// Returns `None` if a coefficient is not finite.
-pub(super) fn longest(series: &Series, tolerance: f64) -> Option<f64> {
-    let tolerance = tolerance * SHARE;
-    let mut logs = [0.0; 64];
-    let mut shortest = f64::INFINITY;
-    let judged = numbers(series).chain((0..series.switches()).map(|i| series.switch(i)));
-    let judged = judged.map(|c| (c, tolerance));
-    let integrals = integrals(series).map(|c| (c, tolerance * SPARED));
-    for (c, tolerance) in judged.chain(integrals) {
-        if c.iter().any(|x| !x.is_finite()) {
-            return None;
+/// The rule at one tolerance and order.
+#[derive(Clone, Debug)]
+pub(super) struct StepSize {
+    motion: Shares,
+    integrals: Shares,
+}
+
+impl StepSize {
+    pub(super) fn new(tolerance: f64, order: usize) -> StepSize {
+        let tolerance = tolerance * SHARE;
+        StepSize {
+            motion: Shares::new(tolerance, order),
+            integrals: Shares::new(tolerance * SPARED, order),
         }
-        for (log, x) in logs.iter_mut().zip(c) {
-            *log = if x.abs() < FAINT { f64::NEG_INFINITY } else { math::ln(x.abs()) };
+    }
+
+    /// The longest step that the tolerance allows, in the unit of the series; infinite for a
+    /// polynomial. Returns `None` if a coefficient is not finite.
+    pub(super) fn longest(&self, series: &Series) -> Option<f64> {
+        let mut shortest = f64::INFINITY;
+        let judged = numbers(series).chain((0..series.switches()).map(|i| series.switch(i)));
+        let judged = judged.map(|c| (c, &self.motion));
+        let integrals = integrals(series).map(|c| (c, &self.integrals));
+        for (coefficients, shares) in judged.chain(integrals) {
+            let log = num::vectorized(OfOne { coefficients, shares });
+            if log.is_nan() {
+                return None;
+            }
+            shortest = shortest.min(log);
         }
-        shortest = shortest.min(of_one(&logs[..c.len()], math::ln(tolerance)));
+        let mut shortest = math::exp(shortest);
+        for (function, u) in series.arguments() {
+            // most arguments are far from their bound, which is costly to compute
+            let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
+            let (square, cube) = (shortest * shortest, shortest * shortest * shortest);
+            if far(1, shortest) || far(2, square) || far(3, cube) || !cube.is_finite() {
+                shortest = shortest.min(of_argument(function, u));
+            }
+        }
+        Some(shortest)
     }
-    for (function, u) in series.arguments() {
-        shortest = shortest.min(of_argument(function, u));
-    }
-    Some(shortest)
 }
 
 /// The step in which the argument of a function changes by the largest amount allowed.
@@ -123,56 +142,179 @@ fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
     (series.inputs()..series.len()).map(|i| series.coefficients(i))
 }
 
-/// The step of one number, from the logarithms of its coefficients.
-fn of_one(logs: &[f64], log_tolerance: f64) -> f64 {
-    let p = logs.len() - 1;
-    let mut shortest = f64::INFINITY;
-    for k in (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p {
-        if logs[k] == f64::NEG_INFINITY {
-            continue;
-        }
-        let (mut by_tolerance, mut radius) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for j in 0..k {
-            let root = (logs[j] - logs[k]) / (k - j) as f64;
-            by_tolerance = by_tolerance.max(root + log_tolerance / (p - j) as f64);
-            if (2..k - 1).contains(&j) {
-                radius = radius.max(root);
-            }
-        }
-        let mut log_step = by_tolerance;
-        if radius > f64::NEG_INFINITY {
-            log_step = log_step.min(radius + math::ln(PART_OF_RADIUS));
-        }
-        if k + LAST <= p {
-            log_step += math::ln(INDULGENCE);
-        }
-        shortest = shortest.min(math::exp(log_step));
+/// The most coefficients that a series has, and room for a whole chunk behind them.
+const ROOM: usize = 64;
+
+/// The reciprocals of 1, 2, …, those of the differences of two orders.
+const RECIPROCALS: [f64; ROOM] = {
+    let mut table = [0.0; ROOM];
+    let mut n = 1;
+    while n < ROOM {
+        table[n] = 1.0 / n as f64;
+        n += 1;
     }
-    shortest
+    table
+};
+
+/// The number of orders looked at together.
+const LANES: usize = 4;
+
+/// The logarithm of a tolerance, divided among the orders: `ln ε / m` for the one that is m below
+/// the highest.
+#[derive(Clone, Debug)]
+struct Shares {
+    table: [f64; ROOM],
+    log_part: f64,
+    log_indulgence: f64,
+}
+
+impl Shares {
+    fn new(tolerance: f64, order: usize) -> Shares {
+        let log = math::ln(tolerance);
+        let mut table = [f64::NEG_INFINITY; ROOM];
+        for m in 1..=order {
+            table[m] = log * RECIPROCALS[m];
+        }
+        Shares { table, log_part: math::ln(PART_OF_RADIUS), log_indulgence: math::ln(INDULGENCE) }
+    }
+}
+
+/// The logarithm of the step that one series allows; NaN if a coefficient is not finite.
+///
+/// For each of the last orders k it is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
+/// over all j < k, but no more than the radius of convergence, that is the largest of the first
+/// terms alone, allows.
+struct OfOne<'a> {
+    coefficients: &'a [f64],
+    shares: &'a Shares,
+}
+
+impl Kernel for OfOne<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> f64 {
+        let p = self.coefficients.len() - 1;
+        // from the highest order to the lowest, and the same without orders 0 and 1
+        let mut logs = [f64::NEG_INFINITY; ROOM];
+        let mut finite = true;
+        for (log, c) in logs.iter_mut().zip(self.coefficients.iter().rev()) {
+            let x = c.abs();
+            finite &= x < f64::INFINITY;
+            *log = if x < FAINT { f64::NEG_INFINITY } else { rough_ln(x) };
+        }
+        if !finite {
+            return f64::NAN;
+        }
+        let mut later = logs;
+        (later[p - 1], later[p]) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let shares = &self.shares.table;
+        let mut shortest = f64::INFINITY;
+        for d in 0..(LAST + BEFORE).min(p - 2) {
+            let (k, own) = (p - d, logs[d]);
+            if own == f64::NEG_INFINITY {
+                continue;
+            }
+            let (mut tolerance, mut radius) =
+                ([f64::NEG_INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+            let chunks = (k - 3).div_ceil(LANES);
+            let from = d + 2;
+            let terms = later[from..].chunks_exact(LANES).zip(shares[from..].chunks_exact(LANES));
+            let terms = terms.zip(RECIPROCALS[2..].chunks_exact(LANES)).take(chunks);
+            for ((logs, shares), reciprocals) in terms {
+                for lane in 0..LANES {
+                    let root = (logs[lane] - own) * reciprocals[lane];
+                    radius[lane] = larger(root, radius[lane]);
+                    tolerance[lane] = larger(root + shares[lane], tolerance[lane]);
+                }
+            }
+            let single = |m: usize| (logs[m] - own) * RECIPROCALS[m - d] + shares[m];
+            let most = largest(tolerance).max(single(d + 1)).max(single(p)).max(single(p - 1));
+            let radius = largest(radius);
+            let mut log = most;
+            if radius > f64::NEG_INFINITY {
+                log = log.min(radius + self.shares.log_part);
+            }
+            if d >= LAST {
+                log += self.shares.log_indulgence;
+            }
+            shortest = shortest.min(log);
+        }
+        shortest
+    }
+}
+
+/// The larger of two numbers, the second if the first is NaN.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn largest(x: [f64; LANES]) -> f64 {
+    larger(larger(x[0], x[1]), larger(x[2], x[3]))
+}
+
+/// The natural logarithm of a normal number to four digits or so, by the exponent and a power series
+/// about the middle of the mantissas.
+#[inline(always)]
+fn rough_ln(x: f64) -> f64 {
+    const MIDDLE: f64 = 1.5;
+    const LN_MIDDLE: f64 = 0.405_465_108_108_164_4;
+    let bits = x.to_bits();
+    let exponent = f64::from((bits >> 52) as i32 - 1023);
+    let mantissa = f64::from_bits((bits & 0x000F_FFFF_FFFF_FFFF) | 0x3FF0_0000_0000_0000);
+    let t = (mantissa - MIDDLE) * (1.0 / MIDDLE);
+    let even = t * t;
+    let series = t * (1.0 + even * (1.0 / 3.0 + even * (0.2 + even * (1.0 / 7.0))))
+        - even * (0.5 + even * (0.25 + even * (1.0 / 6.0)));
+    exponent * std::f64::consts::LN_2 + LN_MIDDLE + series
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The logarithms of a series whose terms shrink by a factor from one to the next.
+    /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
-        (0..29).map(|k| f64::from(k) * math::ln(ratio)).collect()
+        (0..29).map(|k| math::powi(ratio, k)).collect()
+    }
+
+    /// The step that a series of order 28 allows.
+    fn step_of(coefficients: &[f64], tolerance: f64) -> f64 {
+        let shares = Shares::new(tolerance, coefficients.len() - 1);
+        math::exp(num::vectorized(OfOne { coefficients, shares: &shares }))
+    }
+
+    #[test]
+    fn rough_logarithms_have_four_digits() {
+        for i in -2000..2000 {
+            let x = math::exp(f64::from(i) * 0.3137);
+            assert!((rough_ln(x) - math::ln(x)).abs() < 1e-4, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_coefficient_that_is_not_finite_is_told() {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut series = geometric(0.5);
+            series[11] = bad;
+            assert!(step_of(&series, 1e-12).is_nan());
+        }
     }
 
     #[test]
     fn a_step_leaves_last_terms_of_a_hundredth_of_the_tolerance() {
         // of an entire function: |c_k| h^k = 1/k! · h^k, at h where the last is ε
-        let logs: Vec<f64> = std::iter::successors(Some((0.0, 0.0)), |(log, k): &(f64, f64)| {
-            Some((log - math::ln(k + 1.0), k + 1.0))
-        })
-        .map(|(log, _)| log)
-        .take(29)
-        .collect();
+        let series: Vec<f64> =
+            std::iter::successors(Some((1.0, 1.0)), |&(c, k)| Some((c / k, k + 1.0)))
+                .map(|(c, _)| c)
+                .take(29)
+                .collect();
         let tolerance = 1e-12 * SHARE;
-        let step = of_one(&logs, math::ln(tolerance));
-        let last = math::exp(logs[28] + 28.0 * math::ln(step));
-        let largest = (0..29).map(|k| math::exp(logs[k] + k as f64 * math::ln(step)));
+        let step = step_of(&series, tolerance);
+        let last = series[28] * math::powi(step, 28);
+        let largest = (0..29).map(|k| series[k as usize] * math::powi(step, k));
         let part = last / largest.fold(0.0, f64::max);
         // earlier terms also enter, so less than a hundredth is left
         assert!((0.4e-15..4e-15).contains(&part), "{part:e}");
@@ -181,10 +323,10 @@ mod tests {
     #[test]
     fn a_step_stays_within_six_tenths_of_the_radius() {
         // 1/(1 − t) has radius 1; a loose tolerance would lead beyond
-        let step = of_one(&geometric(1.0), math::ln(0.1));
+        let step = step_of(&geometric(1.0), 0.1);
         assert!((0.59..0.61).contains(&step), "{step}");
         // in any unit
-        let step = of_one(&geometric(4.0), math::ln(0.1));
+        let step = step_of(&geometric(4.0), 0.1);
         assert!((0.147..0.153).contains(&step), "{step}");
     }
 

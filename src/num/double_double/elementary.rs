@@ -2,8 +2,10 @@
 //! reduction for exp, sin and cos; one correction of the `f64` value for their inverses.
 
 use super::DoubleDouble;
+use crate::num::convolution::{Double, Row};
+use crate::num::instruction_set::vectorized;
 use crate::num::math;
-use crate::num::real::{Real, Recurrence, RecurrenceStep};
+use crate::num::real::Real;
 
 /// ln 2.
 const LN_2: DoubleDouble =
@@ -73,6 +75,17 @@ impl Real for DoubleDouble {
     const ZERO: DoubleDouble = DoubleDouble::ZERO;
     const ONE: DoubleDouble = DoubleDouble::ONE;
 
+    #[inline]
+    fn inner_products(
+        forward: &[DoubleDouble],
+        reversed: &[DoubleDouble],
+        rows: &[Row],
+        (shift, n): (usize, usize),
+        out: &mut [DoubleDouble],
+    ) {
+        vectorized(Double { forward, reversed, rows, shift, n, out });
+    }
+
     fn of(x: DoubleDouble) -> DoubleDouble {
         x
     }
@@ -83,10 +96,6 @@ impl Real for DoubleDouble {
 
     fn double(self) -> DoubleDouble {
         self
-    }
-
-    fn step_of(rule: &Recurrence) -> RecurrenceStep<DoubleDouble> {
-        rule.double
     }
 
     fn sqrt(self) -> DoubleDouble {

@@ -1,0 +1,113 @@
+//! How the Taylor coefficients of a function follow from those of its arguments, order by order.
+//!
+//! Every elementary function y(u) and its companion w (cos for sin, 1 + u² for atan, …) satisfy
+//! equations that are bilinear in the series of y, w and u and in their slopes. At order k such an
+//! equation reads
+//!
+//! `divisor · f_k = direct + Σ ± (left ∗ right)_k`,
+//!
+//! where `∗` is the convolution of two series, or of the slope of the first with the second, and
+//! what it has of f_k itself is what the divisor stands for. All series are normalised: `u_k =
+//! u⁽ᵏ⁾/k!`. The evaluators of all precisions read the same rows.
+//!
+//! Source: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
+
+/// A series in a recurrence.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Operand {
+    /// The first argument.
+    First,
+    /// The second argument.
+    Second,
+    /// The function.
+    Value,
+    /// Its companion.
+    Companion,
+}
+
+pub(super) const FIRST: Operand = Operand::First;
+pub(super) const SECOND: Operand = Operand::Second;
+pub(super) const VALUE: Operand = Operand::Value;
+pub(super) const COMPANION: Operand = Operand::Companion;
+
+/// `Σ_j left_j right_{k−j}`, or with the slope of the left one `Σ_j j left_j right_{k−j}`.
+#[derive(Clone, Copy, Debug)]
+pub struct Convolution {
+    /// 1 or −1.
+    pub sign: f64,
+    /// Whether it is the slope of the left series that enters.
+    pub of_slope: bool,
+    /// The left series.
+    pub left: Operand,
+    /// The right series.
+    pub right: Operand,
+}
+
+impl Convolution {
+    pub(super) const fn of(sign: f64, left: Operand, right: Operand) -> Convolution {
+        Convolution { sign, of_slope: false, left, right }
+    }
+
+    pub(super) const fn of_slope(sign: f64, left: Operand, right: Operand) -> Convolution {
+        Convolution { sign, of_slope: true, left, right }
+    }
+}
+
+/// What the k-th coefficient is divided by.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Divisor {
+    /// 1.
+    One,
+    /// k.
+    Order,
+    /// k times the value of a series.
+    OrderTimes(Operand),
+    /// Twice the value of a series.
+    Twice(Operand),
+}
+
+/// The recurrence of one series f.
+#[derive(Clone, Copy, Debug)]
+pub struct Form {
+    /// `± k u_k` of a series.
+    pub slope: Option<(f64, Operand)>,
+    /// The convolutions; what they contain of f_k is left out.
+    pub sums: &'static [Convolution],
+    /// The divisor.
+    pub divisor: Divisor,
+}
+
+impl Form {
+    pub(super) const NONE: Form = Form { slope: None, sums: &[], divisor: Divisor::One };
+
+    /// f = Σ left · right.
+    pub(super) const fn sum(sums: &'static [Convolution]) -> Form {
+        Form { slope: None, sums, divisor: Divisor::One }
+    }
+
+    /// f′ = Σ left′ · right.
+    pub(super) const fn over_order(sums: &'static [Convolution]) -> Form {
+        Form { slope: None, sums, divisor: Divisor::Order }
+    }
+
+    /// f′ g = ± u′.
+    pub(super) const fn slope(
+        sign: f64,
+        of: Operand,
+        sums: &'static [Convolution],
+        divisor: Operand,
+    ) -> Form {
+        Form { slope: Some((sign, of)), sums, divisor: Divisor::OrderTimes(divisor) }
+    }
+}
+
+/// The recurrences of a function and of its companion.
+#[derive(Clone, Copy, Debug)]
+pub struct Recurrence {
+    /// Whether the companion's coefficient is the first of the two to be computed.
+    pub companion_first: bool,
+    /// That of the function.
+    pub value: Form,
+    /// That of the companion, where there is one.
+    pub companion: Option<Form>,
+}

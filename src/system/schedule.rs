@@ -1,0 +1,343 @@
+//! The order of work by which a program is evaluated as Taylor series.
+//!
+//! In: a program. Out: for each order above zero, what is done in two phases. Never here: numbers.
+//!
+//! ```text
+//!   orders 0 … k−1 of all registers          order k of the inputs
+//!          │                                        │
+//!   1. inner products: every convolution     2. finishing pass, operation by operation:
+//!      Σ_{j=1}^{k−1} a_j b_{k−j}, all in         the products left over, a_0 b_k + a_k b_0,
+//!      one batch of equal length        ──▶      sums, divisions, solutions of linear equations
+//! ```
+//!
+//! The first phase needs nothing of order k, so no number is loaded right after it was stored. The
+//! right operand of a convolution is also stored in reverse, so that its terms lie side by side, and
+//! where the slope of the left one enters, so are its terms j a_j.
+
+use std::collections::HashMap;
+
+use super::program::{Op, Program, Register};
+use crate::expr::{Divisor, Form, Operand, Rule};
+use crate::num::DoubleDouble;
+
+/// An inner product of the first phase: the places of a series in the table of those stored
+/// forwards, which begins with the registers, and in that of those stored in reverse.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Pair {
+    pub(super) forward: u32,
+    pub(super) reversed: u32,
+}
+
+/// The factor of a convolution.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Factor {
+    Plus,
+    Minus,
+    Times(DoubleDouble),
+}
+
+/// What the inner product leaves out of a convolution at order k.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Ends {
+    /// Nothing that is known.
+    None,
+    /// `a_k b_0`.
+    Last(Register, Register),
+    /// `k a_k b_0`.
+    LastSlope(Register, Register),
+    /// `a_0 b_k + a_k b_0`.
+    Both(Register, Register),
+}
+
+/// One convolution of a recurrence.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Summand {
+    pub(super) factor: Factor,
+    /// The inner product, unless one of the operands is constant.
+    pub(super) product: Option<u32>,
+    pub(super) ends: Ends,
+}
+
+/// What a k-th coefficient is divided by.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Denominator {
+    One,
+    Order,
+    Value(Register),
+    OrderTimes(Register),
+    Twice(Register),
+}
+
+/// `denominator · f_k = direct + Σ summand`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Relation {
+    /// `a_k` or `± k a_k`.
+    pub(super) direct: Direct,
+    /// A range of the table of summands.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    pub(super) denominator: Denominator,
+    /// Where this series is identically zero, so is f, although it is divided by zero.
+    pub(super) vanishing: Option<Register>,
+}
+
+/// The term of a relation that is no convolution.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Direct {
+    None,
+    /// `a_k`.
+    Coefficient(Register),
+    /// `± k a_k`.
+    Slope(Factor, Register),
+}
+
+/// One operation of the finishing pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    Time(Register),
+    Linear {
+        register: Register,
+        first: u32,
+        count: u32,
+    },
+    Scale {
+        register: Register,
+        fixed: Register,
+        varying: Register,
+    },
+    Product {
+        register: Register,
+        left: Register,
+        right: Register,
+        product: u32,
+    },
+    Square {
+        register: Register,
+        of: Register,
+        product: u32,
+    },
+    Relation {
+        register: Register,
+        relation: u32,
+    },
+    /// The inner products are those of the varying entries of the matrix, row by row.
+    Solve {
+        register: Register,
+        block: u32,
+        product: u32,
+    },
+    /// An operation that is evaluated by itself.
+    Alone(Register),
+}
+
+/// The schedule of one program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Schedule {
+    pub(super) pairs: Vec<Pair>,
+    pub(super) steps: Vec<Step>,
+    pub(super) relations: Vec<Relation>,
+    pub(super) summands: Vec<Summand>,
+    /// The registers that are also stored in reverse.
+    pub(super) reversed: Vec<Register>,
+    /// The registers of which the slope is also stored, behind all registers.
+    pub(super) slopes: Vec<Register>,
+}
+
+impl Schedule {
+    pub(super) fn of(program: &Program) -> Schedule {
+        let mut writer = Writer {
+            program,
+            schedule: Schedule::default(),
+            pairs: HashMap::new(),
+            reversed: HashMap::new(),
+            slopes: HashMap::new(),
+        };
+        for &register in &program.body {
+            writer.write(register);
+        }
+        writer.schedule
+    }
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    schedule: Schedule,
+    /// The places of pairs, of registers stored in reverse, and of slopes.
+    pairs: HashMap<Pair, u32>,
+    reversed: HashMap<Register, u32>,
+    slopes: HashMap<Register, u32>,
+}
+
+/// The place of a register in a list, to which it is added where it is new.
+fn place(list: &mut Vec<Register>, known: &mut HashMap<Register, u32>, register: Register) -> u32 {
+    *known.entry(register).or_insert_with(|| {
+        list.push(register);
+        list.len() as u32 - 1
+    })
+}
+
+impl Writer<'_> {
+    fn write(&mut self, register: Register) {
+        let step = match self.program.ops[register as usize] {
+            Op::Time => Step::Time(register),
+            Op::Linear { first, count, .. } => Step::Linear { register, first, count },
+            Op::Scale(fixed, varying) => Step::Scale { register, fixed, varying },
+            Op::Multiply(left, right) => match self.product(false, left, right) {
+                Some(product) => Step::Product { register, left, right, product },
+                None => {
+                    let summand = self.summand(Factor::Plus, false, (left, right), register);
+                    self.relation(register, Direct::None, &[summand], Denominator::One, None)
+                }
+            },
+            Op::Square(of) => match self.product(false, of, of) {
+                Some(product) => Step::Square { register, of, product },
+                None => return,
+            },
+            Op::Divide(a, b) => {
+                let summand = self.summand(Factor::Minus, false, (b, register), register);
+                let (direct, denominator) = (Direct::Coefficient(a), Denominator::Value(b));
+                self.relation(register, direct, &[summand], denominator, None)
+            }
+            Op::Root(a) => {
+                let summand = self.summand(Factor::Minus, false, (register, register), register);
+                let (direct, denominator) = (Direct::Coefficient(a), Denominator::Twice(register));
+                self.relation(register, direct, &[summand], denominator, Some(a))
+            }
+            Op::Power(a, exponent) => {
+                // y = a^α: a y′ = α a′ y
+                let exponent = self.program.constants[exponent as usize];
+                let (factor, minus) = (Factor::Times(exponent), Factor::Minus);
+                let summands = [
+                    self.summand(factor, true, (a, register), register),
+                    self.summand(minus, true, (register, a), register),
+                ];
+                let vanishing = (exponent.high > 0.0).then_some(a);
+                let denominator = Denominator::OrderTimes(a);
+                self.relation(register, Direct::None, &summands, denominator, vanishing)
+            }
+            Op::Call(function, arguments) => {
+                let Rule::Series(recurrence) = &function.row().rule else { return };
+                let forms =
+                    [(register, Some(recurrence.value)), (register + 1, recurrence.companion)];
+                let order = if recurrence.companion_first { [1, 0] } else { [0, 1] };
+                for (own, form) in order.map(|i| forms[i]) {
+                    if let Some(form) = form {
+                        let step = self.form(own, register, arguments, &form);
+                        self.schedule.steps.push(step);
+                    }
+                }
+                return;
+            }
+            Op::Solve(block) => {
+                let product = self.products_of_block(register, block as usize);
+                Step::Solve { register, block, product }
+            }
+            Op::ParametricPower(..) | Op::Select { .. } => Step::Alone(register),
+            Op::Constant(_) | Op::Parameter(_) | Op::Input(_) | Op::Written => return,
+        };
+        self.schedule.steps.push(step);
+    }
+
+    /// The recurrence of a function or of its companion, `register`; `value` is the function.
+    fn form(
+        &mut self,
+        register: Register,
+        value: Register,
+        arguments: [Register; 2],
+        form: &Form,
+    ) -> Step {
+        let of = |operand: Operand| match operand {
+            Operand::First => arguments[0],
+            Operand::Second => arguments[1],
+            Operand::Value => value,
+            Operand::Companion => value + 1,
+        };
+        let factor = |sign: f64| if sign < 0.0 { Factor::Minus } else { Factor::Plus };
+        let direct = match form.slope {
+            Some((sign, operand)) => Direct::Slope(factor(sign), of(operand)),
+            None => Direct::None,
+        };
+        let denominator = match form.divisor {
+            Divisor::One => Denominator::One,
+            Divisor::Order => Denominator::Order,
+            Divisor::OrderTimes(operand) => Denominator::OrderTimes(of(operand)),
+            Divisor::Twice(operand) => Denominator::Twice(of(operand)),
+        };
+        let sums = form.sums.iter();
+        let summands: Vec<Summand> = sums
+            .map(|c| {
+                let pair = (of(c.left), of(c.right));
+                self.summand(factor(c.sign), c.of_slope, pair, register)
+            })
+            .collect();
+        self.relation(register, direct, &summands, denominator, None)
+    }
+
+    fn relation(
+        &mut self,
+        register: Register,
+        direct: Direct,
+        summands: &[Summand],
+        denominator: Denominator,
+        vanishing: Option<Register>,
+    ) -> Step {
+        let schedule = &mut self.schedule;
+        let (first, count) = (schedule.summands.len() as u32, summands.len() as u32);
+        schedule.summands.extend_from_slice(summands);
+        let relation = schedule.relations.len() as u32;
+        schedule.relations.push(Relation { direct, first, count, denominator, vanishing });
+        Step::Relation { register, relation }
+    }
+
+    /// A convolution in the recurrence of `own`.
+    fn summand(
+        &mut self,
+        factor: Factor,
+        of_slope: bool,
+        (left, right): (Register, Register),
+        own: Register,
+    ) -> Summand {
+        let ends = match (of_slope, left == own, right == own) {
+            (_, true, _) => Ends::None,
+            (true, false, _) => Ends::LastSlope(left, right),
+            (false, false, true) => Ends::Last(left, right),
+            (false, false, false) => Ends::Both(left, right),
+        };
+        Summand { factor, product: self.product(of_slope, left, right), ends }
+    }
+
+    /// The inner product of two series, unless one of them is constant.
+    fn product(&mut self, of_slope: bool, left: Register, right: Register) -> Option<u32> {
+        if self.program.fixed[left as usize] || self.program.fixed[right as usize] {
+            return None;
+        }
+        let schedule = &mut self.schedule;
+        let forward = if of_slope {
+            self.program.ops.len() as u32 + place(&mut schedule.slopes, &mut self.slopes, left)
+        } else {
+            left
+        };
+        let reversed = place(&mut schedule.reversed, &mut self.reversed, right);
+        let pair = Pair { forward, reversed };
+        Some(*self.pairs.entry(pair).or_insert_with(|| {
+            schedule.pairs.push(pair);
+            schedule.pairs.len() as u32 - 1
+        }))
+    }
+
+    /// Those of the varying entries of a matrix and the unknowns, side by side.
+    fn products_of_block(&mut self, register: Register, block: usize) -> u32 {
+        let (program, schedule) = (self.program, &mut self.schedule);
+        let block = &program.blocks[block];
+        let first = schedule.pairs.len() as u32;
+        for row in block.matrix.chunks(block.size()) {
+            for (unknown, &entry) in (register..).zip(row) {
+                if !program.fixed[entry as usize] {
+                    let reversed = place(&mut schedule.reversed, &mut self.reversed, unknown);
+                    schedule.pairs.push(Pair { forward: entry, reversed });
+                }
+            }
+        }
+        first
+    }
+}
