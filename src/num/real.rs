@@ -43,6 +43,16 @@ pub trait Real:
     fn over(self, n: usize) -> Self {
         self / n as f64
     }
+    /// Multiplication by a power of two.
+    #[must_use]
+    fn scaled(self, power_of_two: f64) -> Self {
+        self * power_of_two
+    }
+    /// The product, with a fused multiply-add where that gives the same bits.
+    #[must_use]
+    fn times<const FUSED: bool>(self, other: Self) -> Self {
+        self * other
+    }
     /// `out_i = Σ_{j<n} a_j b_j`, where a begins in `forward` and b in `reversed` at the places of
     /// the i-th row, that of b moved on by `shift`.
     fn inner_products(

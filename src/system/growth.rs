@@ -130,7 +130,7 @@ impl<R: Real> SeriesBuilder<R> {
         }
         self.jet.advance(k, R::of(clock.time), clock.scale)?;
         for i in 0..self.len() {
-            self.state[i * stride + k + 1] = self.jet.output(i, k) * clock.scale / (k + 1) as f64;
+            self.state[i * stride + k + 1] = self.jet.output(i, k).scaled(clock.scale).over(k + 1);
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ use super::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Ste
 use super::solve::Factored;
 use super::value::value_of;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, Real, Row};
+use crate::num::{DoubleDouble, Kernel, Real, Row, vectorized};
 
 /// The branch that functions with a kink take while a series is built.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,6 +33,12 @@ pub enum Side {
 #[derive(Clone, Debug)]
 pub struct Jet<R> {
     program: Arc<Program>,
+    tables: Tables<R>,
+}
+
+/// What a jet computes with.
+#[derive(Clone, Debug)]
+struct Tables<R> {
     stride: usize,
     /// The coefficients of all registers, then those of the slopes that enter.
     forward: Vec<R>,
@@ -67,7 +73,7 @@ impl<R: Real> Jet<R> {
             forward: pair.forward * stride as u32 + 1,
             reversed: pair.reversed * stride as u32,
         };
-        Jet {
+        let tables = Tables {
             stride,
             forward: vec![R::ZERO; (registers + schedule.slopes.len()) * stride],
             reversed: vec![R::ZERO; schedule.reversed.len() * stride],
@@ -80,22 +86,22 @@ impl<R: Real> Jet<R> {
             right: vec![R::ZERO; widest],
             sides: vec![Side::Positive; program.switches.len()],
             weights: vec![R::ZERO; program.switches.len() * stride],
-            program,
-        }
+        };
+        Jet { program, tables }
     }
 
     /// The highest order there is room for.
     pub fn order(&self) -> usize {
-        self.stride - 1
+        self.tables.stride - 1
     }
 
     /// Sets the parameters and evaluates everything that depends on them alone.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
-        let program = Arc::clone(&self.program);
+        let (program, tables) = (&*self.program, &mut self.tables);
         for &r in &program.prologue {
             match program.ops[r as usize] {
-                Op::Parameter(i) => self.set_value(r, R::of(parameters[i as usize])),
-                op => self.evaluate(&program, r, op),
+                Op::Parameter(i) => tables.set_value(r, R::of(parameters[i as usize])),
+                op => tables.evaluate(program, r, op),
             }
         }
     }
@@ -103,46 +109,46 @@ impl<R: Real> Jet<R> {
     /// Sets a coefficient of an input.
     pub fn set_input(&mut self, input: usize, order: usize, coefficient: R) {
         let register = self.program.inputs[input] as usize;
-        self.forward[register * self.stride + order] = coefficient;
+        self.tables.forward[register * self.tables.stride + order] = coefficient;
     }
 
     /// Chooses the branch at a switch.
     pub fn set_side(&mut self, switch: usize, side: Side) {
-        self.sides[switch] = side;
+        self.tables.sides[switch] = side;
     }
 
     /// The branch taken at a switch.
     pub fn side(&self, switch: usize) -> Side {
-        self.sides[switch]
+        self.tables.sides[switch]
     }
 
     /// The number of switches.
     pub fn switches(&self) -> usize {
-        self.sides.len()
+        self.tables.sides.len()
     }
 
     /// Sets a coefficient of the weight at a switch whose side is [`Side::Between`].
     pub fn set_weight(&mut self, switch: usize, order: usize, coefficient: R) {
-        self.weights[switch * self.stride + order] = coefficient;
+        self.tables.weights[switch * self.tables.stride + order] = coefficient;
     }
 
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
     pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
+        let (program, tables) = (&*self.program, &mut self.tables);
         if k == 0 {
-            return self.begin(time);
+            return tables.begin(program, time);
         }
-        let range = (self.stride - k, k - 1);
-        R::inner_products(&self.forward, &self.reversed, &self.rows, range, &mut self.products);
+        tables.multiply(k);
         let rate = if k == 1 { R::ONE * scale } else { R::ZERO };
-        self.finish(k, rate);
-        self.mirror(k);
+        vectorized(Finish { tables: &mut *tables, program, k, rate });
+        tables.mirror(program, k);
         Ok(())
     }
 
     /// A coefficient of an output.
     pub fn output(&self, i: usize, order: usize) -> R {
-        self.forward[self.program.outputs[i] as usize * self.stride + order]
+        self.tables.forward[self.program.outputs[i] as usize * self.tables.stride + order]
     }
 
     /// The series of a switch.
@@ -152,7 +158,7 @@ impl<R: Real> Jet<R> {
 
     /// The series of the weight at a switch.
     pub fn weight(&self, i: usize) -> &[R] {
-        &self.weights[i * self.stride..][..self.stride]
+        &self.tables.weights[i * self.tables.stride..][..self.tables.stride]
     }
 
     /// The series of the arguments of all functions that are not constant.
@@ -165,42 +171,64 @@ impl<R: Real> Jet<R> {
 
     /// The series of any register.
     pub(super) fn series(&self, register: Register) -> &[R] {
-        &self.forward[register as usize * self.stride..][..self.stride]
+        &self.tables.forward[register as usize * self.tables.stride..][..self.tables.stride]
     }
 
     /// Copies the orders below `orders` from a jet of the same program in another precision, and
     /// factors the matrices that it has factored.
     pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
         self.copy(other, orders);
-        let program = Arc::clone(&self.program);
-        (0..program.blocks.len()).try_for_each(|block| self.factor(&program, block))
+        let (program, tables) = (&*self.program, &mut self.tables);
+        (0..program.blocks.len()).try_for_each(|block| tables.factor(program, block))
     }
 
     /// Copies the orders below `orders`.
     pub fn copy<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
-        let stride = self.stride;
+        let (own, other) = (&mut self.tables, &other.tables);
         for (register, &fixed) in self.program.fixed.iter().enumerate() {
             if !fixed {
                 let theirs = &other.forward[register * other.stride..][..orders];
-                for (own, x) in self.forward[register * stride..].iter_mut().zip(theirs) {
-                    *own = R::of(x.double());
+                for (x, y) in own.forward[register * own.stride..].iter_mut().zip(theirs) {
+                    *x = R::of(y.double());
                 }
-                self.values[register] = self.forward[register * stride];
+                own.values[register] = own.forward[register * own.stride];
             }
         }
-        for switch in 0..self.sides.len() {
-            self.sides[switch] = other.sides[switch];
-            for k in 0..orders {
-                self.weights[switch * stride + k] =
-                    R::of(other.weights[switch * other.stride + k].double());
+        for switch in 0..own.sides.len() {
+            own.sides[switch] = other.sides[switch];
+            let weights = &other.weights[switch * other.stride..][..orders];
+            for (x, y) in own.weights[switch * own.stride..].iter_mut().zip(weights) {
+                *x = R::of(y.double());
             }
         }
         for k in 1..orders {
-            for register in 0..self.now.len() {
-                self.now[register] = self.forward[register * stride + k];
-            }
-            self.mirror(k);
+            own.mirror(&self.program, k);
         }
+    }
+}
+
+/// The finishing pass of one order.
+struct Finish<'a, R> {
+    tables: &'a mut Tables<R>,
+    program: &'a Program,
+    k: usize,
+    rate: R,
+}
+
+impl<R: Real> Kernel for Finish<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        self.tables.finish::<FUSED>(self.program, self.k, self.rate);
+    }
+}
+
+impl<R: Real> Tables<R> {
+    /// Computes all inner products of order `k`.
+    fn multiply(&mut self, k: usize) {
+        let range = (self.stride - k, k - 1);
+        R::inner_products(&self.forward, &self.reversed, &self.rows, range, &mut self.products);
     }
 
     fn set_value(&mut self, register: Register, value: R) {
@@ -209,8 +237,7 @@ impl<R: Real> Jet<R> {
     }
 
     /// Evaluates order 0.
-    fn begin(&mut self, time: R) -> Result<(), Singular> {
-        let program = Arc::clone(&self.program);
+    fn begin(&mut self, program: &Program, time: R) -> Result<(), Singular> {
         for &r in &program.inputs {
             self.values[r as usize] = self.forward[r as usize * self.stride];
         }
@@ -218,7 +245,7 @@ impl<R: Real> Jet<R> {
             match program.ops[r as usize] {
                 Op::Time => self.set_value(r, time),
                 Op::Solve(block) => {
-                    self.factor(&program, block as usize)?;
+                    self.factor(program, block as usize)?;
                     let block_of = &program.blocks[block as usize];
                     for (x, &right) in self.right.iter_mut().zip(&block_of.right) {
                         *x = self.values[right as usize];
@@ -228,7 +255,7 @@ impl<R: Real> Jet<R> {
                         self.set_value(r + i as u32, self.right[i]);
                     }
                 }
-                op => self.evaluate(&program, r, op),
+                op => self.evaluate(program, r, op),
             }
         }
         Ok(())
@@ -249,8 +276,8 @@ impl<R: Real> Jet<R> {
     }
 
     /// Finishes order `k`, once its inner products are known.
-    fn finish(&mut self, k: usize, rate: R) {
-        let program = Arc::clone(&self.program);
+    #[inline(always)]
+    fn finish<const FUSED: bool>(&mut self, program: &Program, k: usize, rate: R) {
         let schedule = program.schedule();
         for &r in &program.inputs {
             self.now[r as usize] = self.forward[r as usize * self.stride + k];
@@ -264,30 +291,31 @@ impl<R: Real> Jet<R> {
                     let range = first as usize..(first + count) as usize;
                     let terms = program.terms[range.clone()].iter().zip(&self.factors[range]);
                     let sum = terms.fold(R::ZERO, |sum, (term, &factor)| {
-                        sum + now[at(term.register)] * factor
+                        sum + now[at(term.register)].times::<FUSED>(factor)
                     });
                     (register, sum)
                 }
                 Step::Scale { register, fixed, varying } => {
-                    (register, values[at(fixed)] * now[at(varying)])
+                    (register, values[at(fixed)].times::<FUSED>(now[at(varying)]))
                 }
                 Step::Product { register, left, right, product } => {
-                    let ends =
-                        values[at(left)] * now[at(right)] + now[at(left)] * values[at(right)];
+                    let ends = values[at(left)].times::<FUSED>(now[at(right)])
+                        + now[at(left)].times::<FUSED>(values[at(right)]);
                     (register, products[at(product)] + ends)
                 }
                 Step::Square { register, of, product } => {
-                    let ends = values[at(of)] * now[at(of)];
+                    let ends = values[at(of)].times::<FUSED>(now[at(of)]);
                     (register, products[at(product)] + (ends + ends))
                 }
-                Step::Relation { register, relation } => {
-                    (register, self.relation(schedule, &schedule.relations[at(relation)], k))
-                }
+                Step::Relation { register, relation } => (
+                    register,
+                    self.relation::<FUSED>(schedule, &schedule.relations[at(relation)], k),
+                ),
                 Step::Solve { register, block, product } => {
-                    self.solve(&program, (register, block as usize, at(product)), k);
+                    self.solve(program, (register, block as usize, at(product)), k);
                     continue;
                 }
-                Step::Alone(register) => (register, self.alone(&program, register, k)),
+                Step::Alone(register) => (register, self.alone(program, register, k)),
             };
             self.now[register as usize] = x;
             self.forward[register as usize * self.stride + k] = x;
@@ -295,13 +323,14 @@ impl<R: Real> Jet<R> {
     }
 
     /// The coefficient of order `k` that follows from a relation.
-    fn relation(&self, schedule: &Schedule, relation: &Relation, k: usize) -> R {
+    #[inline(always)]
+    fn relation<const FUSED: bool>(&self, schedule: &Schedule, relation: &Relation, k: usize) -> R {
         let (values, now) = (&self.values, &self.now);
         let at = |r: Register| r as usize;
         let times = |factor: Factor, x: R| match factor {
             Factor::Plus => x,
             Factor::Minus => -x,
-            Factor::Times(factor) => x * R::of(factor),
+            Factor::Times(factor) => x.times::<FUSED>(R::of(factor)),
         };
         let mut sum = match relation.direct {
             Direct::None => R::ZERO,
@@ -313,17 +342,21 @@ impl<R: Real> Jet<R> {
             let product = summand.product.map_or(R::ZERO, |i| self.products[i as usize]);
             let whole = match summand.ends {
                 Ends::None => product,
-                Ends::Last(a, b) => product + now[at(a)] * values[at(b)],
-                Ends::LastSlope(a, b) => product + now[at(a)] * values[at(b)] * k as f64,
+                Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
+                Ends::LastSlope(a, b) => {
+                    product + now[at(a)].times::<FUSED>(values[at(b)]) * k as f64
+                }
                 Ends::Both(a, b) => {
-                    product + (values[at(a)] * now[at(b)] + now[at(a)] * values[at(b)])
+                    product
+                        + (values[at(a)].times::<FUSED>(now[at(b)])
+                            + now[at(a)].times::<FUSED>(values[at(b)]))
                 }
             };
             sum = sum + times(summand.factor, whole);
         }
         if let Some(a) = relation.vanishing
             && values[at(a)].value() == 0.0
-            && vanishes(self.series(a), k)
+            && vanishes(&self.forward[at(a) * self.stride..][..self.stride], k)
         {
             return R::ZERO;
         }
@@ -398,14 +431,14 @@ impl<R: Real> Jet<R> {
     }
 
     /// Stores order `k` once more where inner products read it.
-    fn mirror(&mut self, k: usize) {
-        let (stride, schedule) = (self.stride, self.program.schedule());
+    fn mirror(&mut self, program: &Program, k: usize) {
+        let (stride, schedule) = (self.stride, program.schedule());
         for (slot, &r) in schedule.reversed.iter().enumerate() {
-            self.reversed[slot * stride + stride - 1 - k] = self.now[r as usize];
+            self.reversed[slot * stride + stride - 1 - k] = self.forward[r as usize * stride + k];
         }
-        let slopes = self.program.ops.len();
         for (slot, &r) in schedule.slopes.iter().enumerate() {
-            self.forward[(slopes + slot) * stride + k] = self.now[r as usize] * k as f64;
+            let slope = self.forward[r as usize * stride + k] * k as f64;
+            self.forward[(program.ops.len() + slot) * stride + k] = slope;
         }
     }
 

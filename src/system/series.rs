@@ -14,7 +14,7 @@ use super::jet::Side;
 use super::program::Program;
 use super::state::State;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, ExtendedRange, math};
+use crate::num::{DoubleDouble, ExtendedRange, math, polynomial};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -215,7 +215,7 @@ impl Series {
     /// lowest orders are.
     pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
-        sum(exact, &self.switch(i)[exact.len()..], x)
+        polynomial(exact, &self.switch(i)[exact.len()..], x)
     }
 
     /// The number of functions whose branch a motion may leave.
@@ -245,7 +245,7 @@ impl Series {
     pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let register = self.system.motion().native.guards[i].value;
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.series(register)[..low.order]);
-        sum(exact, &self.guard(i)[exact.len()..], x)
+        polynomial(exact, &self.guard(i)[exact.len()..], x)
     }
 
     /// The number of the state that a switch is equal to, if any.
@@ -269,16 +269,9 @@ impl Series {
         let x = after * self.scale.recip();
         for i in 0..self.origin.len() {
             let exact = self.low.as_ref().map_or(&self.origin[i..=i], |low| low.series(i));
-            out.set(i, sum(exact, &self.high.series(i)[exact.len()..], x));
+            out.set(i, polynomial(exact, &self.high.series(i)[exact.len()..], x));
         }
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }
-}
-
-/// Evaluates a polynomial by Horner's scheme: the terms of high order in `f64`, the low ones, which
-/// dominate, in double-double.
-fn sum(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
-    let tail = high.iter().rev().fold(0.0, |sum, &c| sum * x.high + c);
-    low.iter().rev().fold(DoubleDouble::from(tail), |sum, &c| sum * x + c)
 }

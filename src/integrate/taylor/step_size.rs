@@ -6,8 +6,10 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
+use std::array;
+
 use crate::expr::FunctionId;
-use crate::num::{self, Kernel, math};
+use crate::num::{Kernel, math, vectorized};
 use crate::system::Series;
 
 /// The part of the tolerance allowed for the last terms, which represent everything truncated.
@@ -61,6 +63,9 @@ pub(super) fn has_velocity(series: &Series) -> bool {
 pub(super) struct StepSize {
     motion: Shares,
     integrals: Shares,
+    /// The number whose series allowed the least last time. Looked at first, it mostly shows that
+    /// the others allow more.
+    least: usize,
 }
 
 impl StepSize {
@@ -69,22 +74,29 @@ impl StepSize {
         StepSize {
             motion: Shares::new(tolerance, order),
             integrals: Shares::new(tolerance * SPARED, order),
+            least: 0,
         }
     }
 
     /// The longest step that the tolerance allows, in the unit of the series; infinite for a
     /// polynomial. Returns `None` if a coefficient is not finite.
-    pub(super) fn longest(&self, series: &Series) -> Option<f64> {
+    pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
         let mut shortest = f64::INFINITY;
-        let judged = numbers(series).chain((0..series.switches()).map(|i| series.switch(i)));
-        let judged = judged.map(|c| (c, &self.motion));
-        let integrals = integrals(series).map(|c| (c, &self.integrals));
-        for (coefficients, shares) in judged.chain(integrals) {
-            let log = num::vectorized(OfOne { coefficients, shares });
-            if log.is_nan() {
-                return None;
+        if let Some(c) = numbers(series).nth(self.least) {
+            shortest = of_one(c, &self.motion, shortest)?;
+        }
+        let least = self.least;
+        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != least) {
+            let found = of_one(c, &self.motion, shortest)?;
+            if found < shortest {
+                (shortest, self.least) = (found, i);
             }
-            shortest = shortest.min(log);
+        }
+        for i in 0..series.switches() {
+            shortest = of_one(series.switch(i), &self.motion, shortest)?;
+        }
+        for c in integrals(series) {
+            shortest = of_one(c, &self.integrals, shortest)?;
         }
         let mut shortest = math::exp(shortest);
         for (function, u) in series.arguments() {
@@ -156,8 +168,11 @@ const RECIPROCALS: [f64; ROOM] = {
     table
 };
 
-/// The number of orders looked at together.
+/// The number of logarithms taken together.
 const LANES: usize = 4;
+
+/// The number of lowest orders that are looked at first.
+const FIRST: usize = 3;
 
 /// The logarithm of a tolerance, divided among the orders: `ln ε / m` for the one that is m below
 /// the highest.
@@ -179,96 +194,89 @@ impl Shares {
     }
 }
 
-/// The logarithm of the step that one series allows; NaN if a coefficient is not finite.
+/// The logarithm of the step that one series allows, or `shortest` if that is less; `None` if a
+/// coefficient is not finite.
 ///
 /// For each of the last orders k it is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
 /// over all j < k, but no more than the radius of convergence, that is the largest of the first
-/// terms alone, allows.
-struct OfOne<'a> {
-    coefficients: &'a [f64],
-    shares: &'a Shares,
+/// terms alone, allows. Mostly the lowest orders show already that it is longer than another.
+fn of_one(coefficients: &[f64], shares: &Shares, mut shortest: f64) -> Option<f64> {
+    let p = coefficients.len() - 1;
+    let logs = vectorized(Logarithms(coefficients))?;
+    for k in ((p + 1).saturating_sub(LAST + BEFORE).max(3)..=p).rev() {
+        let own = logs[k];
+        if own == f64::NEG_INFINITY {
+            continue;
+        }
+        let indulgence = if k + LAST <= p { shares.log_indulgence } else { 0.0 };
+        let root = |j: usize| (logs[j] - own) * RECIPROCALS[k - j];
+        let by_tolerance = |j: usize| root(j) + shares.table[p - j];
+        let step = shortest - indulgence;
+        let radius = step - shares.log_part;
+        if (0..FIRST.min(k)).any(|j| by_tolerance(j) >= step)
+            && (2..(2 + FIRST).min(k - 1)).any(|j| root(j) >= radius)
+        {
+            continue;
+        }
+        let mut log = (0..k).map(by_tolerance).fold(f64::NEG_INFINITY, larger);
+        let radius = (2..k - 1).map(root).fold(f64::NEG_INFINITY, larger);
+        if radius > f64::NEG_INFINITY {
+            log = log.min(radius + shares.log_part);
+        }
+        shortest = shortest.min(log + indulgence);
+    }
+    Some(shortest)
 }
 
-impl Kernel for OfOne<'_> {
-    type Output = f64;
+/// The larger of two numbers, the first if the second is NaN.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// The natural logarithms of the absolute values, to four digits or so; `None` if one is not
+/// finite.
+struct Logarithms<'a>(&'a [f64]);
+
+impl Kernel for Logarithms<'_> {
+    type Output = Option<[f64; ROOM]>;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> f64 {
-        let p = self.coefficients.len() - 1;
-        // from the highest order to the lowest, and the same without orders 0 and 1
+    fn run<const FUSED: bool>(self) -> Option<[f64; ROOM]> {
         let mut logs = [f64::NEG_INFINITY; ROOM];
-        let mut finite = true;
-        for (log, c) in logs.iter_mut().zip(self.coefficients.iter().rev()) {
-            let x = c.abs();
-            finite &= x < f64::INFINITY;
-            *log = if x < FAINT { f64::NEG_INFINITY } else { rough_ln(x) };
+        let mut finite = [true; LANES];
+        let (chunks, rest) = self.0.as_chunks::<LANES>();
+        let mut last = [0.0; LANES];
+        last[..rest.len()].copy_from_slice(rest);
+        let places = logs.as_chunks_mut::<LANES>().0.iter_mut();
+        for (log, c) in places.zip(chunks.iter().chain([&last])) {
+            let x = c.map(f64::abs);
+            *log = rough_logarithms(x);
+            finite = array::from_fn(|lane| finite[lane] & (x[lane] < f64::INFINITY));
         }
-        if !finite {
-            return f64::NAN;
-        }
-        let mut later = logs;
-        (later[p - 1], later[p]) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        let shares = &self.shares.table;
-        let mut shortest = f64::INFINITY;
-        for d in 0..(LAST + BEFORE).min(p - 2) {
-            let (k, own) = (p - d, logs[d]);
-            if own == f64::NEG_INFINITY {
-                continue;
-            }
-            let (mut tolerance, mut radius) =
-                ([f64::NEG_INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
-            let chunks = (k - 3).div_ceil(LANES);
-            let from = d + 2;
-            let terms = later[from..].chunks_exact(LANES).zip(shares[from..].chunks_exact(LANES));
-            let terms = terms.zip(RECIPROCALS[2..].chunks_exact(LANES)).take(chunks);
-            for ((logs, shares), reciprocals) in terms {
-                for lane in 0..LANES {
-                    let root = (logs[lane] - own) * reciprocals[lane];
-                    radius[lane] = larger(root, radius[lane]);
-                    tolerance[lane] = larger(root + shares[lane], tolerance[lane]);
-                }
-            }
-            let single = |m: usize| (logs[m] - own) * RECIPROCALS[m - d] + shares[m];
-            let most = largest(tolerance).max(single(d + 1)).max(single(p)).max(single(p - 1));
-            let radius = largest(radius);
-            let mut log = most;
-            if radius > f64::NEG_INFINITY {
-                log = log.min(radius + self.shares.log_part);
-            }
-            if d >= LAST {
-                log += self.shares.log_indulgence;
-            }
-            shortest = shortest.min(log);
-        }
-        shortest
+        finite.iter().all(|&lane| lane).then_some(logs)
     }
 }
 
-/// The larger of two numbers, the second if the first is NaN.
+/// The natural logarithms of positive numbers to four digits or so, by their exponents and a power
+/// series about the middle of the mantissas; −∞ for what is as good as zero. Written lane by lane,
+/// as vector instructions do it.
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn largest(x: [f64; LANES]) -> f64 {
-    larger(larger(x[0], x[1]), larger(x[2], x[3]))
-}
-
-/// The natural logarithm of a normal number to four digits or so, by the exponent and a power series
-/// about the middle of the mantissas.
-#[inline(always)]
-fn rough_ln(x: f64) -> f64 {
+fn rough_logarithms(x: [f64; LANES]) -> [f64; LANES] {
     const MIDDLE: f64 = 1.5;
     const LN_MIDDLE: f64 = 0.405_465_108_108_164_4;
-    let bits = x.to_bits();
-    let exponent = f64::from((bits >> 52) as i32 - 1023);
-    let mantissa = f64::from_bits((bits & 0x000F_FFFF_FFFF_FFFF) | 0x3FF0_0000_0000_0000);
-    let t = (mantissa - MIDDLE) * (1.0 / MIDDLE);
-    let even = t * t;
-    let series = t * (1.0 + even * (1.0 / 3.0 + even * (0.2 + even * (1.0 / 7.0))))
-        - even * (0.5 + even * (0.25 + even * (1.0 / 6.0)));
-    exponent * std::f64::consts::LN_2 + LN_MIDDLE + series
+    const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
+    let bits = x.map(f64::to_bits);
+    let exponent = bits.map(|bits| f64::from((bits >> 52) as i32 - 1023));
+    let mantissa = bits.map(|bits| f64::from_bits((bits & MANTISSA) | 0x3FF0_0000_0000_0000));
+    let t = mantissa.map(|m| (m - MIDDLE) * (1.0 / MIDDLE));
+    let even = t.map(|t| t * t);
+    let first = even.map(|e| 1.0 + e * (1.0 / 3.0 + e * (0.2 + e * (1.0 / 7.0))));
+    let second = even.map(|e| e * (0.5 + e * (0.25 + e * (1.0 / 6.0))));
+    array::from_fn(|lane| {
+        let series = t[lane] * first[lane] - second[lane];
+        let log = exponent[lane] * std::f64::consts::LN_2 + LN_MIDDLE + series;
+        if x[lane] < FAINT { f64::NEG_INFINITY } else { log }
+    })
 }
 
 #[cfg(test)]
@@ -283,15 +291,25 @@ mod tests {
     /// The step that a series of order 28 allows.
     fn step_of(coefficients: &[f64], tolerance: f64) -> f64 {
         let shares = Shares::new(tolerance, coefficients.len() - 1);
-        math::exp(num::vectorized(OfOne { coefficients, shares: &shares }))
+        of_one(coefficients, &shares, f64::INFINITY).map_or(f64::NAN, math::exp)
     }
 
     #[test]
     fn rough_logarithms_have_four_digits() {
         for i in -2000..2000 {
             let x = math::exp(f64::from(i) * 0.3137);
-            assert!((rough_ln(x) - math::ln(x)).abs() < 1e-4, "{x}");
+            assert!((rough_logarithms([x; LANES])[0] - math::ln(x)).abs() < 1e-4, "{x}");
         }
+    }
+
+    #[test]
+    fn a_longer_step_changes_nothing() {
+        let shares = Shares::new(1e-14, 28);
+        let longer = of_one(&geometric(0.5), &shares, f64::INFINITY).unwrap();
+        let shorter = of_one(&geometric(3.0), &shares, f64::INFINITY).unwrap();
+        assert!(longer > shorter);
+        assert_eq!(of_one(&geometric(0.5), &shares, shorter), Some(shorter));
+        assert_eq!(of_one(&geometric(3.0), &shares, longer), Some(shorter));
     }
 
     #[test]

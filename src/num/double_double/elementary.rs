@@ -21,6 +21,23 @@ const LARGE_ANGLE: f64 = 1e9;
 /// The exponential reduces its argument by this power of two.
 const HALVINGS: i32 = 8;
 
+/// 1/n, for n up to 64. The second part is the remainder of the first over n, which is exact.
+const RECIPROCALS: [DoubleDouble; 65] = {
+    let mut table = [DoubleDouble::ZERO; 65];
+    let mut n = 1;
+    while n < table.len() {
+        let high = 1.0 / n as f64;
+        // n · high in two exact products, since the halves of high have 26 bits and n has 7
+        let t = 134_217_729.0 * high;
+        let upper = t - (t - high);
+        let lower = high - upper;
+        let rest = (1.0 - n as f64 * upper) - n as f64 * lower;
+        table[n] = DoubleDouble { high, low: rest / n as f64 };
+        n += 1;
+    }
+    table
+};
+
 impl DoubleDouble {
     /// `self · 2^n`.
     fn scaled(self, n: i32) -> DoubleDouble {
@@ -75,6 +92,19 @@ impl Real for DoubleDouble {
     const ZERO: DoubleDouble = DoubleDouble::ZERO;
     const ONE: DoubleDouble = DoubleDouble::ONE;
 
+    #[inline]
+    fn over(self, n: usize) -> DoubleDouble {
+        self * RECIPROCALS[n]
+    }
+    #[inline]
+    fn scaled(self, power_of_two: f64) -> DoubleDouble {
+        DoubleDouble { high: self.high * power_of_two, low: self.low * power_of_two }
+    }
+    #[inline(always)]
+    fn times<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
+        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+    }
     #[inline]
     fn inner_products(
         forward: &[DoubleDouble],

@@ -1,0 +1,85 @@
+//! Polynomials evaluated with twice the digits of `f64` in the terms of low order.
+//!
+//! Source: S. Graillat, P. Langlois, N. Louvet, Japan J. Indust. Appl. Math. 26 (2009) 191,
+//! algorithm 4 (the compensated scheme of Horner): the rounding errors of all products and sums are
+//! a polynomial themselves, which is evaluated beside the first.
+
+use super::double_double::DoubleDouble;
+use super::instruction_set::{Kernel, vectorized};
+
+/// `Σ_j low_j x^j + Σ_j high_j x^{j + n}`, where n is the number of `low`. The terms of `low` are as
+/// exact as double-double, those of `high` as `f64`.
+pub fn polynomial(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
+    vectorized(Polynomial { low, high, x })
+}
+
+struct Polynomial<'a> {
+    low: &'a [DoubleDouble],
+    high: &'a [f64],
+    x: DoubleDouble,
+}
+
+impl Kernel for Polynomial<'_> {
+    type Output = DoubleDouble;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> DoubleDouble {
+        let x = self.x.high;
+        let mut sum = self.high.iter().rev().fold(0.0, |sum, &c| sum * x + c);
+        let mut errors = 0.0;
+        for c in self.low.iter().rev() {
+            let product = DoubleDouble::product_by::<FUSED>(sum, x);
+            let next = DoubleDouble::sum(product.high, c.high);
+            sum = next.high;
+            errors = errors * x + (product.low + next.low + c.low);
+        }
+        if self.x.low != 0.0 {
+            errors += self.x.low * slope(self.low, self.high, x);
+        }
+        DoubleDouble::sum(sum, errors)
+    }
+}
+
+/// The derivative of the polynomial.
+#[inline(always)]
+fn slope(low: &[DoubleDouble], high: &[f64], x: f64) -> f64 {
+    let n = low.len();
+    let high = high.iter().enumerate().rev();
+    let tail = high.fold(0.0, |sum, (j, c)| sum * x + c * (n + j) as f64);
+    let low = low.iter().enumerate().skip(1).rev();
+    low.fold(tail, |sum, (j, c)| sum * x + c.high * j as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By Horner's scheme in double-double throughout.
+    fn direct(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
+        let high = high.iter().map(|&c| DoubleDouble::from(c));
+        let all: Vec<DoubleDouble> = low.iter().copied().chain(high).collect();
+        all.iter().rev().fold(DoubleDouble::ZERO, |sum, &c| sum * x + c)
+    }
+
+    #[test]
+    fn the_terms_of_low_order_have_twice_the_digits() {
+        let third = DoubleDouble::ONE / 3.0;
+        let low: Vec<DoubleDouble> =
+            (0..8).map(|j| (third - DoubleDouble::from(f64::from(j))) * third).collect();
+        for x in [0.0, 0.3, -0.7, 1.0, 1.9] {
+            for x in [DoubleDouble::from(x), DoubleDouble::from(x) + third * 1e-16] {
+                let off = polynomial(&low, &[], x) - direct(&low, &[], x);
+                assert!(off.high.abs() < 1e-28, "{x:?} {off:?}");
+                // what the rest adds is as exact as its own size
+                let high = [1e-6, -2e-6, 1e-7];
+                let off = polynomial(&low, &high, x) - direct(&low, &high, x);
+                assert!(off.high.abs() < 1e-19, "{x:?} {off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_polynomial_is_zero() {
+        assert_eq!(polynomial(&[], &[], DoubleDouble::ONE), DoubleDouble::ZERO);
+    }
+}
