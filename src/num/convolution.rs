@@ -84,7 +84,7 @@ impl Kernel for Double<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::instruction_set;
+    use crate::num::instruction_set::{run_plainly, vectorized};
 
     /// Numbers without a pattern.
     fn noise(n: usize, seed: u64) -> Vec<f64> {
@@ -104,10 +104,9 @@ mod tests {
         for n in 0..40 {
             let mut out = [[0.0; 5]; 2];
             let [wide, plain] = &mut out;
-            let kernel =
-                |out| Single { forward: &a, reversed: &b, rows: &rows(), shift: 1, n, out };
-            instruction_set::vectorized(kernel(&mut wide[..]));
-            instruction_set::run_plainly(kernel(&mut plain[..]));
+            let (forward, reversed, rows) = (&a[..], &b[..], &rows()[..]);
+            vectorized(Single { forward, reversed, rows, shift: 1, n, out: wide });
+            run_plainly(Single { forward, reversed, rows, shift: 1, n, out: plain });
             assert_eq!(wide.map(f64::to_bits), plain.map(f64::to_bits), "{n} terms");
             let direct: f64 = (0..n).map(|j| a[7 + j] * b[4 + j]).sum();
             assert!((wide[1] - direct).abs() < 1e-14, "{} {direct}", wide[1]);
@@ -123,10 +122,9 @@ mod tests {
         for n in 0..40 {
             let mut out = [[DoubleDouble::ZERO; 5]; 2];
             let [wide, plain] = &mut out;
-            let kernel =
-                |out| Double { forward: &a, reversed: &b, rows: &rows(), shift: 1, n, out };
-            instruction_set::vectorized(kernel(&mut wide[..]));
-            instruction_set::run_plainly(kernel(&mut plain[..]));
+            let (forward, reversed, rows) = (&a[..], &b[..], &rows()[..]);
+            vectorized(Double { forward, reversed, rows, shift: 1, n, out: wide });
+            run_plainly(Double { forward, reversed, rows, shift: 1, n, out: plain });
             let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
             assert_eq!(wide.map(bits), plain.map(bits), "{n} terms");
             let direct = (0..n).fold(DoubleDouble::ZERO, |sum, j| sum + a[7 + j] * b[4 + j]);
