@@ -3,8 +3,9 @@
 //!
 //! The error of every number of the state is measured relative to its own size within the step, so
 //! units do not matter. If a step fails, the effect of rounding on the rates is measured as well,
-//! and no number is required to be more accurate than its rounding allows: one that is zero by
-//! symmetry, up to rounding, would otherwise shrink the step without end.
+//! by numbers changed in their last digits and by the same rates in double-double, and no number is
+//! required to be more accurate than its rounding allows: one that is zero by symmetry, up to
+//! rounding, would otherwise shrink the step without end.
 //!
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, second
 //! edition, II.4 (step control), II.5 (method), II.6 (interpolant).
@@ -16,7 +17,7 @@ use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
-use crate::system::{MotionError, MotionErrorKind, Rates, State, System};
+use crate::system::{ExactRates, MotionError, MotionErrorKind, Rates, State, System};
 
 /// The default tolerance.
 const TOLERANCE: f64 = 1e-13;
@@ -64,6 +65,7 @@ pub(super) const METHOD: Method = Method {
 struct DormandPrince {
     system: System,
     rates: Rates,
+    exact: ExactRates,
     tolerance: f64,
     /// The size of the next step to try.
     size: f64,
@@ -100,6 +102,7 @@ impl DormandPrince {
         Ok(DormandPrince {
             system: system.clone(),
             rates: system.native_rates(),
+            exact: system.exact_rates(),
             tolerance,
             size: 0.0,
             before: state.clone(),
@@ -164,7 +167,7 @@ impl DormandPrince {
     }
 
     /// Measures the effect of rounding on the rates at the beginning of the step, since its end may
-    /// be anywhere.
+    /// be anywhere; and on those of the last stage, since at the beginning it may happen to vanish.
     fn estimate_roundoff(&mut self, step: f64) {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
@@ -173,6 +176,31 @@ impl DormandPrince {
         if roundoff::measure(&mut self.rates, &place, &mut self.fresh).is_ok() {
             for (noise, fresh) in self.noise.iter_mut().zip(&self.fresh) {
                 *noise = noise.max(*fresh);
+            }
+        }
+        let begin = self.state.values.clone();
+        self.compare(self.state.time, &begin);
+        let reached = self.numbers.clone();
+        self.compare(self.state.time + STAGES[METHOD_STAGES - 1].at * step, &reached);
+    }
+
+    /// Counts the difference between the rates somewhere and the same rates in double-double as
+    /// rounding, unless they lie on two sides of a kink.
+    fn compare(&mut self, time: f64, numbers: &[f64]) {
+        let exact: Vec<DoubleDouble> = numbers.iter().map(|&x| DoubleDouble::from(x)).collect();
+        if self.rates.evaluate(time, numbers, &mut self.fresh).is_err()
+            || self.exact.evaluate(DoubleDouble::from(time), &exact).is_err()
+        {
+            return;
+        }
+        let sides = self.rates.sides();
+        if (0..sides.len()).any(|i| (self.exact.switch(i) > 0.0) != sides[i]) {
+            return;
+        }
+        for (i, (noise, fresh)) in self.noise.iter_mut().zip(&self.fresh).enumerate() {
+            let rounding = (self.exact.rate(i).high - fresh).abs();
+            if rounding.is_finite() {
+                *noise = noise.max(rounding);
             }
         }
     }
@@ -237,6 +265,7 @@ impl Stepper for DormandPrince {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.before.copy_from(&self.state);
         self.rates.set_parameters(parameters);
+        self.exact.set_parameters(&self.system.inputs(parameters));
         self.size = initial_step::of(&self.system, state, parameters) * FIRST;
         self.longest = 0.0;
         self.noise.fill(0.0);
