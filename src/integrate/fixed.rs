@@ -225,9 +225,13 @@ impl<S: Scheme> Stepper for FixedStep<S> {
 
 /// Adds `factor · rates` to the numbers of a state, with compensated summation.
 pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
-    for (i, &rate) in rates.iter().enumerate() {
+    let numbers = state.values.iter_mut().zip(&mut state.carry);
+    for ((value, carry), &rate) in numbers.zip(rates) {
         if rate != 0.0 {
-            state.set(i, state.exact(i) + DoubleDouble::from(factor * rate));
+            let sum = DoubleDouble::sum(*value, factor * rate);
+            let low = sum.low + *carry;
+            *value = sum.high + low;
+            *carry = low - (*value - sum.high);
         }
     }
 }

@@ -33,14 +33,13 @@ impl<R: Real> Evaluator<R> {
 
     /// Sets the parameters and evaluates everything that depends on them alone.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
-        let program = Arc::clone(&self.program);
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
         self.wide = None;
-        for &r in &program.prologue {
-            match program.ops[r as usize] {
+        for &r in &self.program.prologue {
+            match self.program.ops[r as usize] {
                 Op::Parameter(i) => self.registers[r as usize] = R::of(parameters[i as usize]),
-                _ => self.run(&program, r),
+                op => run(&self.program, &mut self.registers, r, op),
             }
         }
     }
@@ -86,15 +85,15 @@ impl<R: Real> Evaluator<R> {
     }
 
     fn evaluate_here(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
-        let program = Arc::clone(&self.program);
-        for (&r, &x) in program.inputs.iter().zip(inputs) {
+        for (&r, &x) in self.program.inputs.iter().zip(inputs) {
             self.registers[r as usize] = x;
         }
-        for &r in &program.body {
-            match program.ops[r as usize] {
+        for i in 0..self.program.body.len() {
+            let r = self.program.body[i];
+            match self.program.ops[r as usize] {
                 Op::Time => self.registers[r as usize] = time,
-                Op::Solve(block) => self.solve(&program, r, block)?,
-                _ => self.run(&program, r),
+                Op::Solve(block) => self.solve(r, block)?,
+                op => run(&self.program, &mut self.registers, r, op),
             }
         }
         Ok(())
@@ -121,19 +120,8 @@ impl<R: Real> Evaluator<R> {
         switches.map(|&r| self.registers[r as usize].value() > 0.0).collect()
     }
 
-    fn run(&mut self, program: &Program, register: Register) {
-        let at = register as usize;
-        let value = value_of(program, program.ops[at], |r| self.registers[r as usize]);
-        if let Some((value, companion)) = value {
-            self.registers[at] = value;
-            if let Some(companion) = companion {
-                self.registers[at + 1] = companion;
-            }
-        }
-    }
-
-    fn solve(&mut self, program: &Program, register: Register, at: u32) -> Result<(), Singular> {
-        let (block, factored) = (&program.blocks[at as usize], &mut self.blocks[at as usize]);
+    fn solve(&mut self, register: Register, at: u32) -> Result<(), Singular> {
+        let (block, factored) = (&self.program.blocks[at as usize], &mut self.blocks[at as usize]);
         let n = block.size();
         let registers = &mut self.registers;
         if !factored.factor(|i, j| registers[block.matrix[i * n + j] as usize]) {
@@ -145,6 +133,17 @@ impl<R: Real> Evaluator<R> {
         factored.solve(&mut self.right[..n]);
         registers[register as usize..][..n].copy_from_slice(&self.right[..n]);
         Ok(())
+    }
+}
+
+/// Sets the register of an operation and that of its companion.
+fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: Op) {
+    let at = register as usize;
+    if let Some((value, companion)) = value_of(program, op, |r| registers[r as usize]) {
+        registers[at] = value;
+        if let Some(companion) = companion {
+            registers[at + 1] = companion;
+        }
     }
 }
 
