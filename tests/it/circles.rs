@@ -9,7 +9,6 @@ const IN_CIRCLES: &[(&str, usize)] = &[
     ("analysis", 2),
     ("app", 18),
     ("cli", 5),
-    ("expr", 2),
     ("instrument", 6),
     ("integrate", 2),
     ("num", 2),
