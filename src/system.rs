@@ -32,6 +32,7 @@ mod projection;
 mod rates;
 mod resolution;
 mod rhs;
+mod separability;
 mod series;
 mod solve;
 mod state;
