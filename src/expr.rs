@@ -16,11 +16,15 @@ mod evaluate;
 mod expand;
 mod function;
 mod latex;
+mod measure;
+mod memo;
+mod node;
 mod notation;
 mod parse;
 mod pool;
 mod print;
 mod product;
+mod rewrite;
 mod sample;
 mod simplify;
 mod sum;
@@ -34,12 +38,12 @@ mod unicode;
 mod zero_test;
 
 pub use function::{
-    Branches, Convolution, Divisor, FUNCTIONS, Form, Function, FunctionId, Operand, Recurrence,
-    Rule,
+    Branches, Convolution, Divisor, FUNCTIONS, Form, Function, Operand, Recurrence, Rule,
 };
+pub use node::{Expr, FunctionId, Node};
 pub use notation::{latex_name, latex_of_unicode, unicode_name};
 pub use parse::parse;
-pub use pool::{Expr, NODE_LIMIT, Node, Pool};
+pub use pool::{NODE_LIMIT, Pool};
 pub use symbol::{Rank, Symbol, SymbolInfo};
 pub use syntax::{BinaryOperator, Resolve, Span, Syntax, SyntaxError, SyntaxKind};
 pub use zero_test::Zero;

@@ -5,6 +5,7 @@
 
 mod attitude;
 mod bracket;
+mod closed_forms;
 mod conservation;
 mod constrain;
 mod derive;
@@ -33,7 +34,7 @@ mod valuation;
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
-pub use derive::derive;
+pub use derive::{derive, derive_for_motion};
 pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,

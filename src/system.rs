@@ -34,6 +34,7 @@ mod rates;
 mod resolution;
 mod rhs;
 mod schedule;
+mod separability;
 mod series;
 mod solve;
 mod state;

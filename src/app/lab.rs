@@ -61,6 +61,8 @@ pub struct Lab {
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
+    /// The ticket of the job that finds the closed forms of the equations, once it was requested.
+    pub(super) closed_forms_asked: Option<u64>,
     /// Values requested and not yet confirmed by a snapshot.
     pub(super) pending: Vec<(ValueId, f64)>,
     /// Other changes requested and not yet confirmed.
@@ -120,6 +122,7 @@ impl Lab {
             zoomed: false,
             selection: Selection::default(),
             answers: Answers::default(),
+            closed_forms_asked: None,
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,

@@ -3,11 +3,13 @@
 //! In: what instruments and the prompt need. Out: [`Effect::Compute`], and the stored results. A result that is no
 //! longer wanted is dropped, because its ticket is unknown. Never here: threads, or what is computed.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::{App, Effect, Event, Lab, Overlay};
 use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
+use crate::mechanics::Equations;
 
 /// A job that takes longer than this is reported as under way.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -19,6 +21,8 @@ pub enum Asker {
     Plot(usize),
     /// The prompt for brackets.
     Prompt,
+    /// The lab, for the closed forms of its equations.
+    Equations,
 }
 
 /// A job to be run in the background.
@@ -169,6 +173,40 @@ impl Lab {
     }
 }
 
+impl Lab {
+    /// Returns the job that finds the closed forms of the equations, once for each system that came without them. The
+    /// motion runs meanwhile, because it does not need them.
+    fn ask_for_closed_forms(&mut self, tickets: &mut u64) -> Option<Computation> {
+        let equations = &self.loaded.equations;
+        if !equations.has_pending_forms() || self.closed_forms_asked.is_some() {
+            return None;
+        }
+        *tickets += 1;
+        self.closed_forms_asked = Some(*tickets);
+        let equations = Arc::clone(equations);
+        let job = Job::new("closed forms", move |progress| {
+            let mut equations = Equations::clone(&equations);
+            equations.pool.set_cancel(progress.token().clone());
+            equations.find_closed_forms();
+            Answer::new(Arc::new(equations))
+        });
+        Some(Computation { ticket: *tickets, asker: Asker::Equations, job })
+    }
+
+    /// Takes in the equations with their closed forms. Returns whether they were wanted.
+    fn take_closed_forms(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
+        if self.closed_forms_asked != Some(ticket) {
+            return false;
+        }
+        if let Outcome::Done(answer) = outcome
+            && let Some(equations) = answer.of::<Arc<Equations>>()
+        {
+            self.loaded.equations = Arc::clone(equations);
+        }
+        true
+    }
+}
+
 impl App {
     /// Creates a job with a new ticket.
     pub(super) fn computation(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
@@ -183,6 +221,7 @@ impl App {
         let stale = std::mem::take(&mut lab.answers.stale);
         let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
+        effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
         if self.aside {
             return;
         }
@@ -207,7 +246,9 @@ impl App {
                 prompt.take(&outcome);
                 true
             }
-            _ => lab.is_some_and(|lab| lab.answers.take(ticket, &outcome)),
+            _ => lab.is_some_and(|lab| {
+                lab.answers.take(ticket, &outcome) || lab.take_closed_forms(ticket, &outcome)
+            }),
         };
         match outcome {
             Outcome::Failed(sentence) if waited => self.notify(sentence),

@@ -39,6 +39,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
     let Derived { model, mut equations } = open::derive(&document, model)?;
+    equations.find_closed_forms();
     let further = Further::of(&model, &mut equations);
     let report = Report::of(&model, &equations);
     let text = match arguments.format {

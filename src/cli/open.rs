@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{METHODS, Settings, method_named};
 use crate::model::Model;
-use crate::preset::Catalog;
+use crate::preset;
 use crate::system::System;
 
 use super::failure::CommandError;
@@ -19,7 +19,7 @@ const AUTO: &str = "auto";
 
 /// Finds the document behind a preset's name or a file's path.
 pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, CommandError> {
-    Catalog::load().find(name).map_err(|why| CommandError::WrongUse(why.to_string()))
+    preset::find(name).map_err(|why| CommandError::WrongUse(why.to_string()))
 }
 
 /// Reads a document. Its mistakes are shown with their ranges.

@@ -24,12 +24,12 @@ pub struct Derived {
 }
 
 impl Derived {
-    /// Derives the equations of a model.
+    /// Derives the equations of a model, as far as its motion needs them.
     ///
     /// # Errors
     /// Returns an error if the expressions grow beyond the limits.
     pub fn of(model: Model) -> Result<Derived, NoClosedForm> {
-        let equations = mechanics::derive(&model)?;
+        let equations = mechanics::derive_for_motion(&model)?;
         Ok(Derived { model, equations })
     }
 

@@ -4,7 +4,8 @@
 use rustc_hash::FxHashMap;
 
 use super::evaluate::real_power;
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, Node};
+use super::pool::Pool;
 use super::symbol::Symbol;
 use crate::num::Number;
 use crate::num::math;

@@ -6,8 +6,9 @@ use std::collections::HashMap;
 
 use rustc_hash::FxHashMap;
 
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::measure::SymbolSet;
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use super::symbol::Symbol;
 use crate::num::Number;
 
@@ -21,15 +22,16 @@ impl Pool {
     /// zero. With `[(q, q'), (q', q''), (t, 1)]` it is d/dt.
     pub fn derivation(&mut self, e: Expr, seeds: &[(Symbol, Expr)]) -> Expr {
         let seeds: FxHashMap<Symbol, Expr> = seeds.iter().copied().collect();
+        let set = SymbolSet::of_all(seeds.keys().copied());
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
+        for part in self.reachable_until(&[e], |part| !self.may_hold(part, set)) {
             if self.is_stopped() {
                 return Expr::ZERO;
             }
             let derived = self.derive_node(part, &seeds, &done);
             done.insert(part, derived);
         }
-        done[&e]
+        slope_of(&done, e)
     }
 
     fn derive_node(
@@ -44,7 +46,7 @@ impl Pool {
             Node::Sum(_, terms) => {
                 let terms: Vec<(Number, Expr)> = terms
                     .iter()
-                    .map(|(c, t)| (*c, done[t]))
+                    .map(|(c, t)| (*c, slope_of(done, *t)))
                     .filter(|t| t.1 != Expr::ZERO)
                     .collect();
                 self.linear(Number::ZERO, &terms)
@@ -52,7 +54,7 @@ impl Pool {
             Node::Product(c, factors) => {
                 let mut terms = Vec::new();
                 for (i, &(base, n)) in factors.iter().enumerate() {
-                    let slope = done[&base];
+                    let slope = slope_of(done, base);
                     if slope == Expr::ZERO {
                         continue;
                     }
@@ -64,7 +66,7 @@ impl Pool {
                 self.linear(Number::ZERO, &terms)
             }
             Node::Power(base, exponent) => {
-                let (db, de) = (done[base], done[exponent]);
+                let (db, de) = (slope_of(done, *base), slope_of(done, *exponent));
                 let mut terms = Vec::new();
                 if db != Expr::ZERO {
                     let lowered = self.linear(Number::MINUS_ONE, &[(Number::ONE, *exponent)]);
@@ -80,7 +82,7 @@ impl Pool {
             Node::Call(function, arguments) => {
                 let mut terms = Vec::new();
                 for (i, argument) in arguments.iter().enumerate() {
-                    let slope = done[argument];
+                    let slope = slope_of(done, *argument);
                     if slope != Expr::ZERO {
                         let partial = (function.row().derivative)(self, arguments, i);
                         terms.push(self.mul(partial, slope));
@@ -100,32 +102,15 @@ impl Pool {
             }
             let replaced = match self.as_symbol(part) {
                 Some(s) => replacements.get(&s).copied().unwrap_or(part),
-                None => self.rebuild(part, &done),
+                None => self.rebuild_from(part, &done),
             };
             done.insert(part, replaced);
         }
         done[&e]
     }
+}
 
-    /// The same node with other parts; parts missing from the map stay.
-    pub(super) fn rebuild(&mut self, e: Expr, parts: &FxHashMap<Expr, Expr>) -> Expr {
-        let of = |p: &Expr| parts.get(p).copied().unwrap_or(*p);
-        match &*self.shared(e) {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => e,
-            Node::Sum(constant, terms) => {
-                let terms: Vec<(Number, Expr)> = terms.iter().map(|(c, t)| (*c, of(t))).collect();
-                self.linear(*constant, &terms)
-            }
-            Node::Product(c, factors) => {
-                let factors: Vec<(Expr, Number)> =
-                    factors.iter().map(|(b, n)| (of(b), *n)).collect();
-                self.monomial(*c, &factors)
-            }
-            Node::Power(base, exponent) => self.pow(of(base), of(exponent)),
-            Node::Call(function, arguments) => {
-                let arguments: Vec<Expr> = arguments.iter().map(of).collect();
-                self.call(*function, &arguments)
-            }
-        }
-    }
+/// The derivative of a part; one that no seed occurs in has none.
+fn slope_of(done: &FxHashMap<Expr, Expr>, part: Expr) -> Expr {
+    done.get(&part).copied().unwrap_or(Expr::ZERO)
 }

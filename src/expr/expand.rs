@@ -2,11 +2,13 @@
 //! of cosines become sines. Expressions that are equal as polynomials in their symbols, sines and
 //! cosines expand to the same one.
 
-use rustc_hash::FxHashMap;
-
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::memo::Pass;
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use crate::num::Number;
+
+/// The largest number of terms in a trial; a longer result would not be chosen.
+pub(super) const TRIAL_TERMS: usize = 120;
 
 /// The largest number of monomials in a product that is multiplied out in a proof.
 pub(super) const PROOF_TERMS: usize = 4000;
@@ -15,16 +17,9 @@ impl Pool {
     /// Multiplies out products of sums and small positive powers of sums, everywhere in `e`, if the
     /// result has no more than `most` terms.
     pub(super) fn expand(&mut self, e: Expr, most: usize) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            if self.is_stopped() {
-                return e;
-            }
-            let rebuilt = self.rebuild(part, &done);
-            let expanded = self.expand_top(rebuilt, most);
-            done.insert(part, expanded);
-        }
-        done[&e]
+        let pass = if most == PROOF_TERMS { Pass::ExpandInProof } else { Pass::ExpandInTrial };
+        debug_assert!(most == PROOF_TERMS || most == TRIAL_TERMS, "results are kept for each");
+        self.rewrite(pass, e, |pool, rebuilt| pool.expand_top(rebuilt, most))
     }
 
     /// Expands the product at the top of `e`, whose factors are already expanded.
@@ -103,19 +98,13 @@ impl Pool {
     /// Expands sines and cosines of sums and multiples, and writes tan, cot and tanh as quotients.
     /// The result has only sines and cosines of the simplest arguments.
     pub(super) fn open_angles(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            if self.is_stopped() {
-                return e;
-            }
-            let rebuilt = self.rebuild(part, &done);
-            let opened = match self.shared(rebuilt).as_ref() {
-                Node::Call(function, arguments) => self.open_call(*function, arguments[0]),
+        self.rewrite(Pass::OpenAngles, e, |pool, rebuilt| {
+            let opened = match pool.shared(rebuilt).as_ref() {
+                Node::Call(function, arguments) => pool.open_call(*function, arguments[0]),
                 _ => None,
             };
-            done.insert(part, opened.unwrap_or(rebuilt));
-        }
-        done[&e]
+            opened.unwrap_or(rebuilt)
+        })
     }
 
     fn open_call(&mut self, function: FunctionId, argument: Expr) -> Option<Expr> {

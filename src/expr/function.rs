@@ -1,6 +1,6 @@
 //! The functions that an expression may call: one row and one file each, which holds the value, the
 //! derivative and the Taylor rule. To add a function, write its file and add a line to
-//! [`FUNCTIONS`] and to [`FunctionId`]; the parser, printers, derivatives and integrators use the
+//! [`FUNCTIONS`] and to [`FunctionId`] (`node`); the parser, printers, derivatives and integrators use the
 //! row.
 
 mod abs;
@@ -23,34 +23,10 @@ mod sqrt;
 mod tan;
 mod tanh;
 
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use crate::num::{Number, Real};
 pub use recurrence::{Convolution, Divisor, Form, Operand, Recurrence};
-
-/// A function, identified by the index of its row in [`FUNCTIONS`].
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-#[expect(missing_docs, reason = "each variant is the function of that name; its row describes it")]
-#[repr(u8)]
-pub enum FunctionId {
-    Sin,
-    Cos,
-    Tan,
-    Cot,
-    Asin,
-    Acos,
-    Atan,
-    Atan2,
-    Sinh,
-    Cosh,
-    Tanh,
-    Exp,
-    Ln,
-    Sqrt,
-    Abs,
-    Sign,
-    Min,
-    Max,
-}
 
 /// The functions, in the order of [`FunctionId`].
 pub const FUNCTIONS: [Function; 18] = [

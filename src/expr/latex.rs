@@ -1,7 +1,7 @@
 //! Expressions in LaTeX: `\frac{1}{2} m l^{2} \dot\theta^{2}`.
 
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use super::print::{Level, Piece, Printer, Style};
 use crate::num::Number;
 

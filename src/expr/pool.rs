@@ -5,7 +5,9 @@
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-use super::function::FunctionId;
+use super::measure::{DISTINCT, Measure, SymbolSet};
+use super::memo::Memo;
+use super::node::{Expr, Node};
 use super::notation::{latex_name, unicode_name};
 use super::symbol::{Rank, Symbol, SymbolInfo};
 use crate::cancel::Cancel;
@@ -14,60 +16,11 @@ use crate::num::Number;
 /// The largest number of nodes in one pool, so that an untrusted file cannot fill the memory.
 pub const NODE_LIMIT: usize = 1_000_000;
 
-/// A handle to an expression of one [`Pool`]. Equal handles mean equal canonical expressions.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct Expr(pub(super) u32);
-
-impl Expr {
-    /// The number 0, the same in every pool.
-    pub const ZERO: Expr = Expr(0);
-    /// The number 1, the same in every pool.
-    pub const ONE: Expr = Expr(1);
-
-    /// The index of the node in its pool; parts come before the whole.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// One canonical node.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub enum Node {
-    /// A number.
-    Number(Number),
-    /// The number π.
-    Pi,
-    /// A name.
-    Symbol(Symbol),
-    /// `constant + Σ coefficient · term`, terms ascending, no term a number or a sum, no
-    /// coefficient zero, at least two summands.
-    Sum(Number, Box<[(Number, Expr)]>),
-    /// `coefficient · Π base ^ exponent`, bases ascending, no exponent zero, never a lone factor.
-    Product(Number, Box<[(Expr, Number)]>),
-    /// `base ^ exponent` with an exponent that is not a number.
-    Power(Expr, Expr),
-    /// A function applied to its arguments.
-    Call(FunctionId, Box<[Expr]>),
-}
-
-impl Node {
-    /// The parts of this node.
-    pub fn parts(&self) -> Vec<Expr> {
-        match self {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
-            Node::Sum(_, terms) => terms.iter().map(|&(_, e)| e).collect(),
-            Node::Product(_, factors) => factors.iter().map(|&(e, _)| e).collect(),
-            Node::Power(base, exponent) => vec![*base, *exponent],
-            Node::Call(_, arguments) => arguments.to_vec(),
-        }
-    }
-}
-
 /// The store of expressions and symbols; see the module documentation.
 #[derive(Clone, Debug)]
 pub struct Pool {
     nodes: Vec<Arc<Node>>,
-    depths: Vec<u32>,
+    measures: Vec<Measure>,
     index: FxHashMap<Arc<Node>, Expr>,
     symbols: Vec<SymbolInfo>,
     names: FxHashMap<String, Symbol>,
@@ -76,6 +29,7 @@ pub struct Pool {
     cancel: Cancel,
     /// Radicands whose roots a power has removed; they are not negative.
     under_roots: Vec<Expr>,
+    pub(super) memo: Memo,
 }
 
 impl Default for Pool {
@@ -89,7 +43,7 @@ impl Pool {
     pub fn new() -> Pool {
         let mut pool = Pool {
             nodes: Vec::new(),
-            depths: Vec::new(),
+            measures: Vec::new(),
             index: FxHashMap::default(),
             symbols: Vec::new(),
             names: FxHashMap::default(),
@@ -97,6 +51,7 @@ impl Pool {
             full: false,
             cancel: Cancel::new(),
             under_roots: Vec::new(),
+            memo: Memo::default(),
         };
         pool.intern(Node::Number(Number::ZERO));
         pool.intern(Node::Number(Number::ONE));
@@ -173,7 +128,7 @@ impl Pool {
 
     /// The length of the longest chain of parts below an expression.
     pub fn depth(&self, e: Expr) -> usize {
-        self.depths[e.index()] as usize
+        self.measures[e.index()].depth as usize
     }
 
     /// The symbol with this name. A new one is displayed according to [`unicode_name`] and
@@ -248,17 +203,54 @@ impl Pool {
         self.intern(Node::Pi)
     }
 
+    /// The number of nodes in an expression when it is written out; a common part counts each time
+    /// it occurs. Saturates at `u64::MAX`.
+    pub fn weight(&self, e: Expr) -> u64 {
+        // once stopped: too heavy for any further step
+        if self.is_stopped() { u64::MAX } else { self.measures[e.index()].weight }
+    }
+
+    /// What an expression costs to read: its weight, with a penalty for denominators.
+    pub(super) fn cost(&self, e: Expr) -> u64 {
+        self.measures[e.index()].cost
+    }
+
     /// All nodes of some expressions, the roots included, parts before wholes.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
-        let mut seen: rustc_hash::FxHashSet<Expr> = rustc_hash::FxHashSet::default();
-        let mut stack: Vec<Expr> = roots.to_vec();
-        while let Some(e) = stack.pop() {
-            if seen.insert(e) {
-                stack.extend(self.node(e).parts());
+        self.reachable_until(roots, |_| false)
+    }
+
+    /// Like [`Pool::reachable`], without the nodes at which `stop` holds and what is below them
+    /// alone.
+    pub(super) fn reachable_until(&self, roots: &[Expr], stop: impl Fn(Expr) -> bool) -> Vec<Expr> {
+        let Some(top) = roots.iter().max() else { return Vec::new() };
+        // parts have smaller handles than wholes: one walk downwards over a set of bits meets every
+        // node after all that it is a part of
+        let mut marked = vec![0_u64; top.index() / 64 + 1];
+        let place = |e: Expr| (e.index() / 64, 1_u64 << (e.index() % 64));
+        for &root in roots {
+            let (word, bit) = place(root);
+            marked[word] |= bit;
+        }
+        let mut all: Vec<Expr> = Vec::new();
+        for word in (0..marked.len()).rev() {
+            // what is marked meanwhile in this word lies below what is taken from it
+            let mut below = u64::MAX;
+            while marked[word] & below != 0 {
+                let bit = 63 - (marked[word] & below).leading_zeros();
+                below = (1 << bit) - 1;
+                let e = Expr((word * 64) as u32 + bit);
+                if stop(e) {
+                    continue;
+                }
+                all.push(e);
+                self.node(e).for_each_part(|part| {
+                    let (word, bit) = place(part);
+                    marked[word] |= bit;
+                });
             }
         }
-        let mut all: Vec<Expr> = seen.into_iter().collect();
-        all.sort_unstable();
+        all.reverse();
         all
     }
 
@@ -269,6 +261,9 @@ impl Pool {
 
     /// The symbols in an expression, in order of introduction.
     pub fn symbols_of(&self, e: Expr) -> Vec<Symbol> {
+        if self.symbols.len() <= DISTINCT {
+            return self.measures[e.index()].symbols.bits().map(|i| Symbol(i as u32)).collect();
+        }
         let mut symbols: Vec<Symbol> =
             self.reachable(&[e]).into_iter().filter_map(|e| self.as_symbol(e)).collect();
         symbols.sort_unstable();
@@ -277,14 +272,23 @@ impl Pool {
 
     /// Returns whether a symbol occurs in an expression.
     pub fn depends(&self, e: Expr, symbol: Symbol) -> bool {
-        self.reachable(&[e]).into_iter().any(|e| self.as_symbol(e) == Some(symbol))
+        self.depends_on_any(e, &[symbol])
     }
 
     /// Returns whether any of the symbols occurs in an expression.
     pub fn depends_on_any(&self, e: Expr, symbols: &[Symbol]) -> bool {
-        self.reachable(&[e])
-            .into_iter()
-            .any(|e| self.as_symbol(e).is_some_and(|s| symbols.contains(&s)))
+        let set = SymbolSet::of_all(symbols.iter().copied());
+        self.may_hold(e, set)
+            && (self.symbols.len() <= DISTINCT
+                || self
+                    .reachable_until(&[e], |part| !self.may_hold(part, set))
+                    .into_iter()
+                    .any(|e| self.as_symbol(e).is_some_and(|s| symbols.contains(&s))))
+    }
+
+    /// Returns whether any symbol of a set may occur in an expression; `false` is certain.
+    pub(super) fn may_hold(&self, e: Expr, symbols: SymbolSet) -> bool {
+        self.measures[e.index()].symbols.meets(symbols)
     }
 
     /// Stores a canonical node, or finds the existing one. Only the constructors call this.
@@ -293,17 +297,17 @@ impl Pool {
         if let Some(&e) = self.index.get(&node).filter(|_| !stopped) {
             return e;
         }
-        let parts = node.parts();
         if self.full || self.size > NODE_LIMIT || stopped {
             self.full = true;
             return Expr::ZERO;
         }
-        let depth = parts.iter().map(|p| self.depths[p.index()] + 1).max().unwrap_or(0);
         let e = Expr(self.nodes.len() as u32);
+        let mut parts = 0;
+        node.for_each_part(|_| parts += 1);
+        self.size += 1 + parts / 4;
+        self.measures.push(Measure::of(&node, &self.measures));
         let node = Arc::new(node);
-        self.size += 1 + parts.len() / 4;
         self.nodes.push(Arc::clone(&node));
-        self.depths.push(depth);
         self.index.insert(node, e);
         e
     }

@@ -1,8 +1,8 @@
 //! Printing of expressions: the order of terms and factors, the parentheses, the fractions. The
 //! three notations (file, Unicode, LaTeX) differ only in a [`Style`].
 
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use super::symbol::Rank;
 use crate::num::Number;
 
@@ -204,25 +204,5 @@ impl Printer<'_> {
             Node::Call(..) => 6,
         };
         (class, e.0)
-    }
-}
-
-impl Pool {
-    /// The number of nodes in an expression when it is written out; a common part counts each time
-    /// it occurs. Saturates at `u64::MAX`.
-    pub fn weight(&self, e: Expr) -> u64 {
-        if self.is_stopped() {
-            // too heavy for any further step
-            return u64::MAX;
-        }
-        let mut weights = rustc_hash::FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let mut weight = 1_u64;
-            for below in self.node(part).parts() {
-                weight = weight.saturating_add(weights[&below]);
-            }
-            weights.insert(part, weight);
-        }
-        weights[&e]
     }
 }

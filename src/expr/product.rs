@@ -2,8 +2,8 @@
 //! sums in them primitive, exponentials joined. No rule changes a value where the original has one:
 //! `sqrt(x^2)` stays as it is.
 
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use crate::num::Number;
 use crate::num::math;
 

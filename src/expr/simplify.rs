@@ -1,9 +1,10 @@
 //! Shortening an expression without changing its value: terms are combined by trigonometric
 //! identities, common factors are taken out, and products are multiplied out if that is shorter.
 
-use rustc_hash::FxHashMap;
-
-use super::pool::{Expr, Node, Pool};
+use super::expand::TRIAL_TERMS;
+use super::memo::Pass;
+use super::node::{Expr, Node};
+use super::pool::Pool;
 use crate::num::Number;
 
 /// The largest weight of an expression that is multiplied out on trial; heavier ones are only
@@ -13,15 +14,21 @@ const TRIAL_LIMIT: u64 = 400;
 /// The largest number of sums that are combined into one denominator.
 const MOST_DENOMINATORS: usize = 3;
 
-/// The largest number of terms in a trial; a longer result would not be chosen.
-const TRIAL_TERMS: usize = 120;
-
 impl Pool {
     /// An equal expression, no longer than `e` and often shorter.
     pub fn simplify(&mut self, e: Expr) -> Expr {
         if self.is_stopped() {
             return e;
         }
+        if let Some(known) = self.memo.get(Pass::Simplify, e) {
+            return known;
+        }
+        let simpler = self.simplified_anew(e);
+        self.remember(Pass::Simplify, e, simpler);
+        simpler
+    }
+
+    fn simplified_anew(&mut self, e: Expr) -> Expr {
         let mut best = self.simplify_parts(e);
         if self.weight(e) <= TRIAL_LIMIT {
             let expanded = self.expand(e, TRIAL_TERMS);
@@ -88,44 +95,12 @@ impl Pool {
         if self.cost(b) < self.cost(a) { b } else { a }
     }
 
-    /// The reading cost of an expression: its weight, with a penalty for denominators.
-    fn cost(&self, e: Expr) -> u64 {
-        let mut costs: FxHashMap<Expr, u64> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let own = match self.node(part) {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Power(..) => 2,
-                Node::Sum(constant, terms) => {
-                    let coefficients = terms.iter().filter(|(c, _)| !c.abs().is_one()).count();
-                    1 + 2 * u64::from(!constant.is_zero()) + coefficients as u64
-                }
-                Node::Product(c, factors) => {
-                    let powers = factors.iter().filter(|(_, n)| !n.abs().is_one()).count();
-                    1 + u64::from(!c.abs().is_one()) + powers as u64
-                }
-                Node::Call(..) => 3,
-            };
-            let mut total = own;
-            for below in self.node(part).parts() {
-                total = total.saturating_add(costs[&below]);
-            }
-            costs.insert(part, total);
-        }
-        costs[&e]
-    }
-
     fn simplify_parts(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            if self.is_stopped() {
-                return e;
-            }
-            let rebuilt = self.rebuild(part, &done);
-            let joined = self.join_terms(rebuilt);
-            let factored = self.factor_out(joined);
-            let better = self.lighter(joined, factored);
-            done.insert(part, better);
-        }
-        done[&e]
+        self.rewrite(Pass::Shorten, e, |pool, rebuilt| {
+            let joined = pool.join_terms(rebuilt);
+            let factored = pool.factor_out(joined);
+            pool.lighter(joined, factored)
+        })
     }
 
     /// A sum with its common factors taken out: `a x² + a x y → a x (x + y)`.

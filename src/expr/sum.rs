@@ -1,6 +1,7 @@
 //! Sums in canonical form: like terms collected, nested sums flattened, numbers combined.
 
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, Node};
+use super::pool::Pool;
 use crate::num::Number;
 
 impl Pool {

@@ -1,8 +1,9 @@
 //! The syntax tree that the parser returns, with a span at every node and names not yet resolved.
 //! [`Syntax::lower`] converts it to a canonical expression with the help of a [`Resolve`].
 
-use super::function::{FUNCTIONS, FunctionId};
-use super::pool::{Expr, Pool};
+use super::function::FUNCTIONS;
+use super::node::{Expr, FunctionId};
+use super::pool::Pool;
 use crate::diagnostic::nearest;
 use crate::num::Number;
 

@@ -5,8 +5,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::function::FunctionId;
-use super::pool::{Expr, Node, Pool};
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use crate::num::Number;
 
 impl Pool {

@@ -1,7 +1,7 @@
 //! Expressions in the syntax of preset files, which parse back to the same expression.
 
-use super::function::FunctionId;
-use super::pool::{Expr, Pool};
+use super::node::{Expr, FunctionId};
+use super::pool::Pool;
 use super::print::{Level, Piece, Printer, Style};
 use crate::num::Number;
 

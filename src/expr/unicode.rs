@@ -1,8 +1,8 @@
 //! Expressions in Unicode notation: `½ m l² θ̇² + m g l cos θ`.
 
-use super::function::FunctionId;
+use super::node::{Expr, FunctionId, Node};
 use super::notation::superscript;
-use super::pool::{Expr, Node, Pool};
+use super::pool::Pool;
 use super::print::{Level, Piece, Printer, Style};
 use crate::num::Number;
 

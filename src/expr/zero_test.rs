@@ -5,8 +5,9 @@
 use rustc_hash::FxHashMap;
 
 use super::expand::PROOF_TERMS;
-use super::function::{FunctionId, Rule};
-use super::pool::{Expr, Node, Pool};
+use super::function::Rule;
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
 use super::sample::sample;
 use super::symbol::Symbol;
 use crate::num::Number;
@@ -159,7 +160,7 @@ impl Pool {
     fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
-            let mut rebuilt = self.rebuild(part, &done);
+            let mut rebuilt = self.rebuild_from(part, &done);
             if let Some((own, turned)) = self.switch_of(rebuilt)
                 && own == switch
                 && let Node::Call(function, arguments) = &*self.shared(rebuilt)
@@ -177,7 +178,7 @@ impl Pool {
     fn open_roots(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
-            let rebuilt = self.rebuild(part, &done);
+            let rebuilt = self.rebuild_from(part, &done);
             if let Node::Call(FunctionId::Exp, arguments) = &*self.shared(rebuilt)
                 && let Node::Call(FunctionId::Ln, inner) = &*self.shared(arguments[0])
             {

@@ -49,7 +49,7 @@ pub fn rate_by_bracket(
     equations: &mut Equations,
     f: Expr,
 ) -> Result<Expr, NoClosedForm> {
-    let hamiltonian = equations.hamiltonian.clone()?;
+    let hamiltonian = equations.hamiltonian().clone()?;
     let auxiliary = bracket(model, equations, f, hamiltonian)?;
     let f = in_phase_space(equations, f)?;
     let own = equations.pool.derivative(f, equations.symbols.time);
@@ -81,25 +81,29 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
     if !equations.is_lagrangian() {
         return Ok(equations.open(e));
     }
-    let energy = equations.hamiltonian.clone().unwrap_or(equations.energy);
-    let energy = HashMap::from([(equations.symbols.energy, energy)]);
-    let e = equations.pool.substitute(e, &energy);
+    let mut e = e;
+    if equations.pool.depends(e, equations.symbols.energy) {
+        let energy = equations.hamiltonian().clone().unwrap_or(equations.energy);
+        let energy = HashMap::from([(equations.symbols.energy, energy)]);
+        e = equations.pool.substitute(e, &energy);
+    }
     let mut e = equations.pool.substitute(e, &equations.attitude_map());
     let mut replacements = HashMap::new();
     let accelerations: Vec<Symbol> = equations.coordinates.iter().map(|c| c.acceleration).collect();
     if equations.pool.depends_on_any(e, &accelerations) {
-        let solved = equations.solved.clone().map_err(|why| unknown("q̈", "the state", &why))?;
+        let solved = equations.solved().clone().map_err(|why| unknown("q̈", "the state", &why))?;
         replacements.extend(accelerations.into_iter().zip(solved));
     }
     let multipliers: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
     if equations.pool.depends_on_any(e, &multipliers) {
-        let known = equations.multipliers.clone().map_err(|why| unknown("λ", "the state", &why))?;
+        let known =
+            equations.multipliers().clone().map_err(|why| unknown("λ", "the state", &why))?;
         replacements.extend(multipliers.into_iter().zip(known));
     }
     e = equations.pool.substitute(e, &replacements);
     let velocities: Vec<Symbol> = equations.coordinates.iter().map(|c| c.velocity).collect();
     if equations.pool.depends_on_any(e, &velocities) {
-        let known = equations.velocities.clone().map_err(|why| unknown("q̇", "p", &why))?;
+        let known = equations.velocities().clone().map_err(|why| unknown("q̇", "p", &why))?;
         e = equations.pool.substitute(e, &velocities.into_iter().zip(known).collect());
     }
     Ok(e)
@@ -197,7 +201,7 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedFor
     let mut e = equations.open(e);
     let accelerations: Vec<Symbol> = equations.coordinates.iter().map(|c| c.acceleration).collect();
     if equations.pool.depends_on_any(e, &accelerations) {
-        let solved = equations.solved.clone().map_err(|why| unknown("q̈", "the state", &why))?;
+        let solved = equations.solved().clone().map_err(|why| unknown("q̈", "the state", &why))?;
         e = equations.pool.substitute(e, &accelerations.into_iter().zip(solved).collect());
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();

@@ -19,6 +19,17 @@ use crate::model::{Mechanics, Model};
 /// # Errors
 /// Returns an error if the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
 pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
+    let mut equations = derive_for_motion(model)?;
+    equations.find_closed_forms();
+    Ok(equations)
+}
+
+/// Derives what a motion needs and what is conserved. The closed forms that take elimination are
+/// found when they are asked for: [`Equations::find_closed_forms`].
+///
+/// # Errors
+/// Returns an error if the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
+pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut pool = model.pool.clone();
     let constraints = model.constraints.iter().map(|c| c.expression);
     let given = [model.mechanics.function().1, model.mechanics.dissipation()];
@@ -47,10 +58,6 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
         equations.supplements.vakonomic =
             Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    if !equations.supplements.auxiliary.is_empty() {
-        let why = "numbers are carried along that do not follow from H";
-        equations.separable = Err(NoClosedForm(why.to_owned()));
-    }
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
         return Err(too_large());
@@ -58,7 +65,7 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
     Ok(equations)
 }
 
-fn too_large() -> NoClosedForm {
+pub(super) fn too_large() -> NoClosedForm {
     NoClosedForm(format!("what follows from this law grows beyond {NODE_LIMIT} nodes"))
 }
 

@@ -6,6 +6,11 @@ use crate::model::{CommonSymbols, Model, Point};
 
 /// Everything derived from one model.
 ///
+/// What takes elimination (q̈ and λ solved for, the Legendre transform, the test whether H
+/// separates) is found when it is first asked for, by the method of the same name as the field, or
+/// all at once by [`Equations::find_closed_forms`]. Until then the field holds an error that says
+/// so. No motion needs these forms: it is integrated from M and f.
+///
 /// All expressions live in `pool`. Unless noted otherwise they are functions of (q, q̇, t) for a
 /// Lagrangian system and of (q, p, t) for a Hamiltonian one.
 #[derive(Clone, Debug)]
@@ -20,12 +25,15 @@ pub struct Equations {
     pub momenta: Vec<Expr>,
     /// The equations of motion in the form in which they are integrated.
     pub flow: Flow,
-    /// L, as given or obtained from H by the inverse Legendre transform.
+    /// L or H, as given.
+    pub law: Expr,
+    /// L, as given or obtained from H by the inverse Legendre transform; see
+    /// [`Equations::lagrangian`].
     pub lagrangian: Result<Expr, NoClosedForm>,
-    /// H(q, p, t), as given or obtained from L.
+    /// H(q, p, t), as given or obtained from L; see [`Equations::hamiltonian`].
     pub hamiltonian: Result<Expr, NoClosedForm>,
     /// q̇(q, p, t), where it exists in closed form, for a Lagrangian system; ∂H/∂p for a
-    /// Hamiltonian one.
+    /// Hamiltonian one; see [`Equations::velocities`].
     pub velocities: Result<Vec<Expr>, NoClosedForm>,
     /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L, or H.
     pub energy: Expr,
@@ -38,18 +46,24 @@ pub struct Equations {
     /// d(action)/dt = L (for a Hamiltonian system Σ p ∂H/∂p − H).
     pub action_rate: Expr,
     /// q̈ as a function of (q, q̇, t), solved symbolically (Lagrangian), or q̇ then ṗ
-    /// (Hamiltonian).
+    /// (Hamiltonian); see [`Equations::solved`].
     pub solved: Result<Vec<Expr>, NoClosedForm>,
     /// The constraints on the motion.
     pub constraints: Vec<ConstraintRow>,
-    /// λ of each constraint as a function of (q, q̇, t), solved symbolically.
+    /// λ of each constraint as a function of (q, q̇, t), solved symbolically; see
+    /// [`Equations::multipliers`].
     pub multipliers: Result<Vec<Expr>, NoClosedForm>,
     /// The cyclic coordinates, by index.
     pub cyclic: Vec<usize>,
     /// The conserved quantities, each with its reason.
     pub conserved: Vec<Conserved>,
-    /// H = T(p) + V(q, t), if H separates in this way and no force acts. Splitting methods need it.
+    /// H = T(p) + V(q, t), if H separates in this way and no force acts, which splitting methods
+    /// need; see [`Equations::separable`].
     pub separable: Result<Separable, NoClosedForm>,
+    /// Which of the closed forms have not been looked for yet.
+    pub(super) pending: Pending,
+    /// What acts beside the law, so that the motion does not follow from H alone.
+    pub(super) beside: Option<&'static str>,
     /// What accompanies the equations of motion.
     pub supplements: Supplements,
 }
@@ -235,10 +249,28 @@ pub struct Separable {
     pub momentum_rates: Vec<Expr>,
 }
 
+/// The closed forms that have not been looked for yet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(super) struct Pending {
+    /// q̈ and λ.
+    pub(super) solved: bool,
+    /// H and q̇(q, p, t) of a Lagrangian system, L of a Hamiltonian one.
+    pub(super) transform: bool,
+    /// H = T(p) + V(q, t).
+    pub(super) separable: bool,
+}
+
 /// Why something does not exist in closed form, as a sentence for the user.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct NoClosedForm(pub String);
+
+impl NoClosedForm {
+    /// The error in the place of a closed form that has not been looked for yet.
+    pub(super) fn pending() -> NoClosedForm {
+        NoClosedForm("it has not been derived yet".to_owned())
+    }
+}
 
 impl Equations {
     /// Returns whether the state consists of positions and velocities (Lagrangian) rather than

@@ -1,8 +1,9 @@
 //! Hamilton's equations: q̇ = ∂H/∂p, ṗ = −∂H/∂q + force.
 //! Source: *The Principles of Dynamics*, § 3.1.
 
-use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Separable, Supplements};
-use super::legendre;
+use super::equations::{
+    CoordinateSymbols, Equations, Flow, NoClosedForm, Pending, Separable, Supplements,
+};
 use super::slope::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
@@ -41,17 +42,16 @@ pub(super) fn equations(
     parts.push((Number::MINUS_ONE, hamiltonian));
     let action_rate = pool.linear(Number::ZERO, &parts);
     let action_rate = pool.simplify_terms(action_rate);
-    let lagrangian = legendre::hamiltonian_to_lagrangian(pool, &coordinates, hamiltonian);
     let solved = velocities.iter().chain(&momentum_rates).copied().collect();
-    let others = forces.iter().any(|&f| f != Expr::ZERO).then_some(FORCED);
-    let separable = separate(pool, &coordinates, time, Ok(&hamiltonian), others);
+    let beside = forces.iter().any(|&f| f != Expr::ZERO).then_some(FORCED);
     Equations {
         pool: Pool::new(),
         coordinates,
         symbols: model.symbols,
         momenta,
         flow: Flow::Hamilton { velocities: velocities.clone(), momentum_rates },
-        lagrangian,
+        law: hamiltonian,
+        lagrangian: Err(NoClosedForm::pending()),
         hamiltonian: Ok(hamiltonian),
         velocities: Ok(velocities),
         energy: hamiltonian,
@@ -62,7 +62,9 @@ pub(super) fn equations(
         multipliers: Ok(Vec::new()),
         cyclic: Vec::new(),
         conserved: Vec::new(),
-        separable,
+        separable: Err(NoClosedForm::pending()),
+        pending: Pending { solved: false, transform: true, separable: true },
+        beside,
         supplements: Supplements::of(model),
     }
 }

@@ -100,8 +100,12 @@ fn is_free(model: &Model) -> bool {
 
 /// The reason for a quantity whose rate is proved to vanish: by the bracket if the motion is
 /// Hamiltonian.
-fn proved(equations: &Equations, model: &Model) -> Reason {
-    if is_free(model) && equations.hamiltonian.is_ok() { Reason::Commutes } else { Reason::Proved }
+fn proved(equations: &mut Equations, model: &Model) -> Reason {
+    if is_free(model) && equations.hamiltonian().is_ok() {
+        Reason::Commutes
+    } else {
+        Reason::Proved
+    }
 }
 
 /// Why the energy's rate vanishes: either the law does not contain the time and nothing else acts
@@ -263,15 +267,11 @@ impl Equations {
 
     /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
     fn law_jumps(&self) -> bool {
-        let given = [&self.lagrangian, &self.hamiltonian];
-        let law = if self.is_lagrangian() { given[0] } else { given[1] };
         let mut moving: Vec<Symbol> = vec![self.symbols.time];
         moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
-        law.as_ref().is_ok_and(|&law| {
-            self.pool.reachable(&[law]).into_iter().any(|part| {
-                matches!(self.pool.node(part), Node::Call(FunctionId::Sign, _))
-                    && self.pool.depends_on_any(part, &moving)
-            })
+        self.pool.reachable(&[self.law]).into_iter().any(|part| {
+            matches!(self.pool.node(part), Node::Call(FunctionId::Sign, _))
+                && self.pool.depends_on_any(part, &moving)
         })
     }
 
@@ -314,12 +314,12 @@ impl Equations {
             if !self.pool.depends_on_any(rate, &multipliers) {
                 return Some(rate);
             }
-            if self.multipliers.is_ok() {
+            if self.multipliers().is_ok() {
                 return Some(self.open(rate));
             }
         }
         let g = self.open(observable);
-        let solved = self.solved.clone().ok()?;
+        let solved = self.solved().clone().ok()?;
         let accelerations = self.coordinates.iter().map(|c| c.acceleration);
         let multipliers = self.constraints.iter().map(|c| c.multiplier);
         let unknown: Vec<Symbol> =

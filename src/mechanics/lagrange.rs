@@ -2,9 +2,9 @@
 //! M q̈ = f + Aᵀλ.
 //! Source: *The Principles of Dynamics*, §§ 1.2.3, 1.3.1, 1.4.2.
 
-use super::equations::{CoordinateSymbols, Equations, Flow, Supplements};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Pending, Supplements};
 use super::slope::{tidy_derivative, zero_if_proved};
-use super::{constrain, hamilton, legendre, linear};
+use super::{constrain, hamilton};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
@@ -70,46 +70,34 @@ pub(super) fn equations(
     let energy_rate = zero_if_proved(pool, energy_rate);
     let energy = energy_function(pool, &coordinates, lagrangian);
 
-    let (solved, multipliers) = if constraints.is_empty() {
-        let solved = linear::solve(pool, &mass, &force).and_then(|solution| solution.x);
-        (solved, Ok(Vec::new()))
-    } else {
-        match constrain::solve(pool, &mass, &force, &constraints) {
-            Ok((solved, multipliers)) => (Ok(solved), Ok(multipliers)),
-            Err(why) => (Err(why.clone()), Err(why)),
-        }
-    };
-    let transformed = legendre::lagrangian_to_hamiltonian(pool, &coordinates, lagrangian);
-    let (hamiltonian, found) = match transformed {
-        Ok((h, v)) => (Ok(h), v),
-        Err(why) => (Err(why.clone()), Err(why)),
-    };
-    let others = if !constraints.is_empty() {
+    let beside = if !constraints.is_empty() {
         Some("the motion is held to constraints")
     } else if dissipation != Expr::ZERO || forces.iter().any(|&f| f != Expr::ZERO) {
         Some(hamilton::FORCED)
     } else {
         None
     };
-    let separable = hamilton::separate(pool, &coordinates, time, hamiltonian.as_ref(), others);
     Equations {
         pool: Pool::new(),
         coordinates,
         symbols: model.symbols,
         momenta,
         flow: Flow::Lagrange { mass, force, momentum_rates },
+        law: lagrangian,
         lagrangian: Ok(lagrangian),
-        hamiltonian,
-        velocities: found,
+        hamiltonian: Err(NoClosedForm::pending()),
+        velocities: Err(NoClosedForm::pending()),
         energy,
         energy_rate,
         action_rate: lagrangian,
-        solved,
+        solved: Err(NoClosedForm::pending()),
+        multipliers: Err(NoClosedForm::pending()),
         constraints,
-        multipliers,
         cyclic: Vec::new(),
         conserved: Vec::new(),
-        separable,
+        separable: Err(NoClosedForm::pending()),
+        pending: Pending { solved: true, transform: true, separable: true },
+        beside,
         supplements: Supplements::of(model),
     }
 }

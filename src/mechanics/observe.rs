@@ -44,9 +44,11 @@ impl Equations {
                 for (c, &p) in self.coordinates.iter().zip(&self.momenta) {
                     replacements.insert(c.momentum, p);
                 }
-                if let Ok(multipliers) = &self.multipliers {
-                    let symbols = self.constraints.iter().map(|c| c.multiplier);
-                    replacements.extend(symbols.zip(multipliers.iter().copied()));
+                let symbols: Vec<Symbol> = self.constraints.iter().map(|c| c.multiplier).collect();
+                if self.pool.depends_on_any(e, &symbols)
+                    && let Ok(multipliers) = self.multipliers()
+                {
+                    replacements.extend(symbols.into_iter().zip(multipliers.iter().copied()));
                 }
             }
             Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {

@@ -1,7 +1,7 @@
 //! Motion given by brackets of variables that are not canonical: ẋ = {x, H} + force.
 //! Source: *The Principles of Dynamics*, §§ 2.2.1, 3.2.3.
 
-use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Supplements};
+use super::equations::{CoordinateSymbols, Equations, Flow, NoClosedForm, Pending, Supplements};
 use super::slope::{tidy_derivative, zero_if_proved};
 use crate::expr::{Expr, Pool};
 use crate::model::Model;
@@ -41,6 +41,7 @@ pub(super) fn equations(
         symbols: model.symbols,
         momenta: Vec::new(),
         flow: Flow::Poisson { rates: rates.clone() },
+        law: hamiltonian,
         lagrangian: Err(none("Lagrangian")),
         hamiltonian: Ok(hamiltonian),
         velocities: Ok(rates.clone()),
@@ -53,6 +54,8 @@ pub(super) fn equations(
         cyclic: Vec::new(),
         conserved: Vec::new(),
         separable: Err(none("momenta to split H by")),
+        pending: Pending::default(),
+        beside: None,
         supplements: Supplements::of(model),
     }
 }

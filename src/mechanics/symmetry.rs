@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::equations::{Conserved, Equations, Reason};
+use super::equations::{Conserved, Equations, Flow, Reason};
 use crate::expr::{Expr, Zero};
 use crate::model::{Coordinate, Model};
 use crate::num::Number;
@@ -112,8 +112,8 @@ fn angular_momentum(
     pairs: &[(usize, usize)],
     rates: &[Expr],
 ) -> (Expr, Expr) {
-    let speeds: Vec<Expr> = match (&equations.velocities, equations.is_lagrangian()) {
-        (Ok(v), false) => v.clone(),
+    let speeds: Vec<Expr> = match &equations.flow {
+        Flow::Hamilton { velocities, .. } => velocities.clone(),
         _ => {
             let symbols: Vec<_> = equations.coordinates.iter().map(|c| c.velocity).collect();
             symbols.into_iter().map(|s| equations.pool.variable(s)).collect()

@@ -60,7 +60,7 @@ pub struct Model {
 }
 
 /// The descriptive texts of a file.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Info {
     /// The title.
     pub title: String,

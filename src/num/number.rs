@@ -39,6 +39,12 @@ impl Number {
 
     /// `numerator / denominator`; NaN if the denominator is zero.
     pub fn ratio(numerator: i128, denominator: i128) -> Number {
+        if let (Ok(n), Ok(d @ 1..)) = (i64::try_from(numerator), i64::try_from(denominator))
+            && n != i64::MIN
+        {
+            let divisor = gcd_of_words(n.unsigned_abs(), d.unsigned_abs()) as i64;
+            return Number::Rational(n / divisor, d / divisor);
+        }
         if denominator == 0 {
             return Number::Real(f64::NAN);
         }
@@ -134,7 +140,10 @@ impl Number {
 
     /// Returns whether it is negative.
     pub fn is_negative(self) -> bool {
-        self.value() < 0.0
+        match self {
+            Number::Rational(n, _) => n < 0,
+            Number::Real(x) => x < 0.0,
+        }
     }
 
     /// The absolute value.
@@ -201,6 +210,10 @@ impl Number {
     #[must_use]
     pub fn common_divisor(self, other: Number) -> Number {
         match (self, other) {
+            (Number::Rational(a, 1), Number::Rational(c, 1)) if a != 0 && c != 0 => {
+                let divisor = gcd_of_words(a.unsigned_abs(), c.unsigned_abs());
+                Number::ratio(i128::from(divisor), 1)
+            }
             (Number::Rational(a, b), Number::Rational(c, d)) if a != 0 && c != 0 => {
                 let n = gcd(u128::from(a.unsigned_abs()), u128::from(c.unsigned_abs()));
                 let m = gcd(b as u128, d as u128);
@@ -218,9 +231,26 @@ impl Number {
 
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
+        if let (Ok(a), Ok(b)) = (u64::try_from(a), u64::try_from(b)) {
+            return u128::from(gcd_of_words(a, b));
+        }
         (a, b) = (b, a % b);
     }
     a.max(1)
+}
+
+/// The greatest common divisor, and 1 for two zeros, by subtraction and shifts (Stein).
+fn gcd_of_words(a: u64, b: u64) -> u64 {
+    if a == 0 || b == 0 {
+        return (a | b).max(1);
+    }
+    let shift = (a | b).trailing_zeros();
+    let (mut a, mut b) = (a >> a.trailing_zeros(), b);
+    while b != 0 {
+        b >>= b.trailing_zeros();
+        (a, b) = (a.min(b), a.max(b) - a.min(b));
+    }
+    a << shift
 }
 
 /// The integer `r` with `r^degree = n`, if there is one.
@@ -229,9 +259,19 @@ fn exact_root(n: i64, degree: i64) -> Option<i64> {
     (guess.max(1) - 1..=guess + 1).find(|&r| Number::integer(r).powi(degree) == Number::integer(n))
 }
 
+/// An integer that fits, as a number.
+fn whole(n: Option<i64>) -> Option<Number> {
+    n.filter(|&n| n != i64::MIN).map(Number::integer)
+}
+
 impl Add for Number {
     type Output = Number;
     fn add(self, other: Number) -> Number {
+        if let (Number::Rational(a, 1), Number::Rational(c, 1)) = (self, other)
+            && let Some(sum) = whole(a.checked_add(c))
+        {
+            return sum;
+        }
         match (self, other) {
             (Number::Rational(a, b), Number::Rational(c, d)) => {
                 let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
@@ -251,6 +291,11 @@ impl Add for Number {
 impl Mul for Number {
     type Output = Number;
     fn mul(self, other: Number) -> Number {
+        if let (Number::Rational(a, 1), Number::Rational(c, 1)) = (self, other)
+            && let Some(product) = whole(a.checked_mul(c))
+        {
+            return product;
+        }
         match (self, other) {
             (Number::Rational(a, b), Number::Rational(c, d)) => {
                 Number::ratio(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
@@ -292,6 +337,7 @@ impl Ord for Number {
     /// Compares by value; a rational and a real of the same value are distinct.
     fn cmp(&self, other: &Number) -> Ordering {
         match (self, other) {
+            (Number::Rational(a, b), Number::Rational(c, d)) if b == d => a.cmp(c),
             (Number::Rational(a, b), Number::Rational(c, d)) => {
                 (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
             }

@@ -7,6 +7,7 @@
 
 mod entry;
 mod folder;
+mod shipped;
 
 use std::ffi::OsStr;
 use std::io;
@@ -14,15 +15,12 @@ use std::path::{Path, PathBuf};
 
 use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
-use include_dir::{Dir, DirEntry, include_dir};
 
 use crate::diagnostic::Document;
 use crate::diagnostic::nearest;
 use crate::printable;
 
 pub use entry::{Entry, Origin};
-
-static SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
 
 /// All available presets.
 #[derive(Clone, Debug)]
@@ -73,7 +71,7 @@ impl Catalog {
             entries.extend(found.files.iter().map(|path| Entry::of_user(folder, path)));
         }
         let own: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
-        let shipped = shipped(&SHIPPED).into_iter().map(|(path, text)| Entry::shipped(path, text));
+        let shipped = shipped::INDEX.iter().map(Entry::shipped);
         entries.extend(shipped.filter(|entry| !own.contains(&entry.name)));
         entry::sort(&mut entries);
         Catalog { entries, cut }
@@ -109,9 +107,7 @@ impl Catalog {
     pub fn find(&self, wanted: impl AsRef<OsStr>) -> Result<Document, NotFound> {
         let wanted = wanted.as_ref();
         if is_path(wanted) {
-            let path = Path::new(wanted);
-            return Document::open(path)
-                .map_err(|reason| NotFound::File { path: path.to_owned(), reason });
+            return open(Path::new(wanted));
         }
         match self.entries.iter().find(|entry| wanted == entry.name.as_str()) {
             Some(entry) => entry.document(),
@@ -125,18 +121,48 @@ impl Catalog {
     }
 }
 
+/// Finds the document that a user names, as [`Catalog::find`] does, without reading any other.
+///
+/// # Errors
+/// Returns an error with the nearest name if there is none.
+pub fn find(wanted: impl AsRef<OsStr>) -> Result<Document, NotFound> {
+    find_beside(Catalog::user_folder().as_deref(), wanted.as_ref())
+}
+
+/// The same with another folder for the user's presets.
+///
+/// # Errors
+/// Returns the errors of [`find`].
+pub fn find_beside(user: Option<&Path>, wanted: &OsStr) -> Result<Document, NotFound> {
+    if is_path(wanted) {
+        return open(Path::new(wanted));
+    }
+    let own = user.map(folder::presets).unwrap_or_default().files;
+    let own: Vec<&PathBuf> = own.iter().filter(|path| path.file_stem() == Some(wanted)).collect();
+    let shipped =
+        shipped::INDEX.iter().map(Entry::shipped).find(|entry| wanted == entry.name.as_str());
+    match (own.as_slice(), shipped) {
+        ([path], _) => open(path),
+        ([], Some(entry)) => entry.document(),
+        // several files of one name, of which the list decides, or none
+        _ => Catalog::with_folder(user).find(wanted),
+    }
+}
+
+fn open(path: &Path) -> Result<Document, NotFound> {
+    Document::open(path).map_err(|reason| NotFound::File { path: path.to_owned(), reason })
+}
+
 /// The shipped demo of a preset, `presets/demos/<preset>.demo`: a script for the `record` module.
 pub fn demo(preset: &str) -> Option<Document> {
     let path = format!("demos/{preset}.demo");
-    let text = SHIPPED.get_file(&path)?.contents_utf8()?;
+    let text = shipped::text(&path)?;
     Some(Document::new(format!("presets/{path}"), text))
 }
 
 /// The presets that have a shipped demo, by name.
 pub fn demos() -> Vec<&'static str> {
-    let folder = SHIPPED.get_dir("demos").map(Dir::files).into_iter().flatten();
-    let mut names: Vec<&str> =
-        folder.filter_map(|file| file.path().file_stem()?.to_str()).collect();
+    let mut names: Vec<&str> = shipped::names_in("demos").collect();
     names.sort_unstable();
     names
 }
@@ -146,21 +172,6 @@ pub fn is_path(wanted: impl AsRef<OsStr>) -> bool {
     let wanted = wanted.as_ref();
     let ends = Path::new(wanted).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     wanted.as_encoded_bytes().iter().any(|&byte| std::path::is_separator(byte.into())) || ends
-}
-
-/// The files of the embedded folder, with paths relative to `presets/`.
-fn shipped(folder: &Dir<'static>) -> Vec<(&'static Path, &'static str)> {
-    let mut all = Vec::new();
-    for entry in folder.entries() {
-        match entry {
-            DirEntry::Dir(folder) => all.extend(shipped(folder)),
-            DirEntry::File(file) => {
-                let text = file.contents_utf8().filter(|_| is_preset(file.path()));
-                all.extend(text.map(|text| (file.path(), text)));
-            }
-        }
-    }
-    all
 }
 
 fn is_preset(path: &Path) -> bool {

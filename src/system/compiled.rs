@@ -11,6 +11,7 @@ use super::legendre::{self, Legendre, LegendreError};
 use super::observables::{ObservableList, Observables};
 use super::program::{Program, Singular};
 use super::rhs::{ProgramBuilder, Quadratures, Split};
+use super::separability::NotSeparable;
 use super::terms::{Quantities, TermWatch, Terms};
 use super::value::Evaluator;
 use super::{Channel, Discontinuities, Form, Observer, State};
@@ -63,7 +64,7 @@ pub(super) struct MotionPrograms {
     /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
     pub(super) canonical: (Arc<Program>, bool),
     /// The two parts of a separable system, or the reason why it is not separable.
-    pub(super) split: Result<Split, String>,
+    pub(super) split: Result<Split, NotSeparable>,
 }
 
 /// Returns what the file specifies about an initial rate.
@@ -93,6 +94,15 @@ impl System {
         let mut equations = equations.clone();
         let list = ObservableList::of(model, &mut equations, extra);
         let quantities = Quantities::of(&mut equations);
+        if !equations.has_moving_mass() {
+            // splitting methods need it; where M moves there is nothing to find
+            equations.separable();
+        }
+        if equations.is_lagrangian() && !equations.is_quadratic() {
+            // where L is not quadratic, no block of linear equations gives q̇ in terms of p
+            equations.velocities();
+        }
+        let equations = Arc::new(equations);
         let quadratures = Quadratures {
             action: list.depends(&equations, equations.symbols.action),
             work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
@@ -111,8 +121,8 @@ impl System {
         let constraints =
             Constrained::of(model, &mut builder, inertia.as_ref()).map_err(unknown)?;
         let (constraints, holding) = constraints.unzip();
-        let shared =
-            Self::write(model, &mut builder, (list, quantities), constraints).map_err(unknown)?;
+        let shared = Self::write(model, &equations, &mut builder, (list, quantities), constraints)
+            .map_err(unknown)?;
         if builder.pool.is_full() {
             return Err(CompileError::TooLarge);
         }
@@ -129,16 +139,14 @@ impl System {
 
     fn write(
         model: &Model,
+        equations: &Arc<Equations>,
         builder: &mut ProgramBuilder<'_>,
         (list, quantities): (ObservableList, Quantities),
         constraints: Option<Constrained>,
     ) -> Result<Shared, Symbol> {
         let split = match builder.split() {
             Some(split) => Ok(split?),
-            None => Err(match (&builder.equations.hamiltonian, &builder.equations.separable) {
-                (_, Err(why)) | (Err(why), _) => why.to_string(),
-                _ => String::new(),
-            }),
+            None => Err(NotSeparable::of(equations)),
         };
         let motion = MotionPrograms {
             native: builder.native_rates()?,

@@ -141,7 +141,7 @@ impl Discontinuities {
             variation: expansion::program(builder, &functions)?,
             change: observables::program(builder, &changes)?,
             schedule,
-            quadratic: builder.is_quadratic(),
+            quadratic: builder.equations.is_quadratic(),
         })
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::legendre::{Legendre, LegendreError};
 use super::program::Program;
+use super::separability::NotSeparable;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
 use crate::num::DoubleDouble;
@@ -62,7 +63,7 @@ impl System {
 
     /// Whether H = T(p) + V(q, t) with no other forces, and if not, why.
     pub fn separable(&self) -> Result<(), &str> {
-        self.motion().split.as_ref().map(|_| ()).map_err(String::as_str)
+        self.motion().split.as_ref().map(|_| ()).map_err(NotSeparable::why)
     }
 
     /// Returns the rates of change of states (q, p) under T(p) alone and under V(q, t) alone, where

@@ -56,18 +56,6 @@ impl ProgramBuilder<'_> {
         }
     }
 
-    /// Whether L is quadratic in the velocities.
-    pub(super) fn is_quadratic(&self) -> bool {
-        let velocities: Vec<Symbol> =
-            self.equations.coordinates.iter().map(|c| c.velocity).collect();
-        match &self.equations.flow {
-            Flow::Lagrange { mass, .. } => {
-                mass.iter().flatten().all(|&m| !self.pool.depends_on_any(m, &velocities))
-            }
-            Flow::Hamilton { .. } | Flow::Poisson { .. } => false,
-        }
-    }
-
     /// A program whose inputs are a state in the native form.
     pub(super) fn on_native_state(&mut self) -> Lowering<'_> {
         let (form, equations) = (self.native(), self.equations);
@@ -137,7 +125,7 @@ impl ProgramBuilder<'_> {
             return Some(self.on_native_state());
         };
         let velocity_symbols: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
-        if self.is_quadratic() {
+        if self.equations.is_quadratic() {
             // L is quadratic in q̇, so M q̇ = p − b with b the momentum at q̇ = 0
             let rest: HashMap<Symbol, Expr> =
                 velocity_symbols.iter().map(|&v| (v, Expr::ZERO)).collect();

@@ -6,6 +6,8 @@ use proptest::prelude::*;
 
 use crate::build::{names, read, sample, try_read};
 
+mod pool;
+
 fn text(source: &str, f: impl Fn(&mut Pool, Expr) -> Expr) -> String {
     let mut model = names(&["q", "u", "theta", "phi"], &["m", "g", "l", "k", "a", "b"]);
     let e = read(&mut model, source);

@@ -8,6 +8,7 @@ use phaselab::app::{App, Asker, Computation, Effect, Event, Saved};
 use phaselab::experiment::{Command, Snapshot};
 use phaselab::instrument::{Answer, INSTRUMENTS, NOT_YET, Plot, SavedPlot, named, offers};
 use phaselab::job::{Outcome, Progress, Share};
+use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
 
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
@@ -150,6 +151,34 @@ fn aside() -> (App, Vec<Computation>) {
     app.update(Event::Loaded(Ok(pendulum())));
     let effects = app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     (app, computations(effects))
+}
+
+#[test]
+fn the_motion_is_shown_before_its_equations_are_solved() {
+    let (mut app, _) = App::new(catalog(), Some("double-pendulum"));
+    app.aside = true;
+    let unsolved = |name, epoch| {
+        let mut loaded = loaded(name, epoch);
+        loaded.equations = Arc::new(derive_for_motion(&loaded.model).unwrap());
+        loaded
+    };
+    let system = unsolved("double-pendulum", 1);
+    let asked = computations(app.update(Event::Loaded(Ok(system.clone()))));
+    let shown = |app: &App| app.lab.as_ref().unwrap().loaded.equations.hamiltonian.clone();
+    assert_eq!(shown(&app).unwrap_err().to_string(), "it has not been derived yet");
+    // it is asked once, and another system does not take the answer for its own
+    let seen = Event::Snapshot(Arc::new(snapshot(&system, 1.0)));
+    assert!(computations(app.update(seen)).iter().all(|c| c.asker != Asker::Equations));
+    let late = ran(&asked[0]);
+    let again = computations(app.update(Event::Loaded(Ok(unsolved("pendulum", 2)))));
+    app.update(late);
+    assert!(shown(&app).is_err());
+    app.update(ran(&again[0]));
+    assert!(shown(&app).is_ok());
+    // what is shown at last is what a lab without a background shows at once
+    let equations = &app.lab.as_ref().unwrap().loaded.equations;
+    assert!(!equations.has_pending_forms());
+    assert!(equations.solved.is_ok() && equations.separable.is_ok());
 }
 
 fn computations(effects: Vec<Effect>) -> Vec<Computation> {

@@ -1,7 +1,7 @@
 //! The functions that an expression may call, evaluated on balls.
 
 use super::{Ball, ROUNDING, shifted};
-use crate::expr::function::FunctionId;
+use crate::expr::node::FunctionId;
 use crate::num::math;
 
 /// The relative accuracy of an elementary function of `math`.

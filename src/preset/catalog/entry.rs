@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::NotFound;
+use super::shipped::{self, Listed};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::Info;
@@ -33,18 +34,24 @@ pub struct Entry {
     pub info: Info,
     /// The first mistake of an invalid preset, as `file:line:column: reason`.
     pub fault: Option<String>,
-    text: &'static str,
 }
 
 impl Entry {
-    pub(super) fn shipped(path: &Path, text: &'static str) -> Entry {
+    pub(super) fn shipped(listed: &Listed) -> Entry {
+        let path = Path::new(listed.path);
         Entry {
             name: stem(path),
             folder: folder_of(path),
             origin: Origin::Shipped,
-            info: head(text),
+            info: Info {
+                title: listed.title.to_owned(),
+                summary: listed.summary.to_owned(),
+                source: listed.source.to_owned(),
+                chapter: listed.chapter.to_owned(),
+                topics: listed.topics.iter().map(|&topic| topic.to_owned()).collect(),
+                notes: String::new(),
+            },
             fault: None,
-            text,
         }
     }
 
@@ -57,7 +64,6 @@ impl Entry {
             origin: Origin::User(path.to_owned()),
             info: Info::default(),
             fault: None,
-            text: "",
         };
         match entry.document() {
             Err(unreadable) => entry.fault = Some(unreadable.to_string()),
@@ -88,12 +94,11 @@ impl Entry {
     /// Returns an error if a user's file cannot be read.
     pub fn document(&self) -> Result<Document, NotFound> {
         match &self.origin {
-            Origin::Shipped if self.folder.is_empty() => {
-                Ok(Document::new(format!("presets/{}.toml", self.name), self.text))
-            }
             Origin::Shipped => {
-                let path = format!("presets/{}/{}.toml", self.folder, self.name);
-                Ok(Document::new(path, self.text))
+                let folder = if self.folder.is_empty() { "" } else { "/" };
+                let path = format!("{}{folder}{}.toml", self.folder, self.name);
+                let text = shipped::text(&path).unwrap_or_default();
+                Ok(Document::new(format!("presets/{path}"), text))
             }
             Origin::User(path) => {
                 Document::open(path).map_err(|reason| NotFound::File { path: path.clone(), reason })
@@ -135,12 +140,10 @@ pub(super) fn sort(entries: &mut [Entry]) {
             *earliest = chapter;
         }
     }
-    entries.sort_by(|a, b| {
-        let topic = |entry: &Entry| (first.get(entry.topic()).cloned(), entry.topic().to_owned());
-        let within = |entry: &Entry| {
-            (Chapter::of(&entry.info.chapter), entry.info.title.clone(), entry.name.clone())
-        };
-        topic(a).cmp(&topic(b)).then_with(|| within(a).cmp(&within(b)))
+    entries.sort_by_cached_key(|entry| {
+        let topic = (first.get(entry.topic()).cloned(), entry.topic().to_owned());
+        let chapter = Chapter::of(&entry.info.chapter);
+        (topic, chapter, entry.info.title.clone(), entry.name.clone())
     });
 }
 

@@ -47,6 +47,25 @@ fn what_has_no_closed_form_is_null_and_says_why() {
     let object = with_file(file, &["derive", "system.toml", "--format", "json"]).json();
     assert!(object["hamiltonian"].is_null(), "{object}");
     assert!(text(&object["why"]).contains("hamiltonian: "), "{object}");
+    // five coordinates coupled each with each by a mass matrix that moves
+    let names = ["a", "b", "c", "d", "e"];
+    let starts: Vec<String> = names.iter().map(|q| format!("{q} = {{ initial = 1 }}")).collect();
+    let speed: Vec<String> = names.iter().map(|q| format!("{q}'*cos({q})")).collect();
+    let squares: Vec<String> = names.iter().map(|q| format!("{q}'^2")).collect();
+    let file = format!(
+        "title = \"T\"\n[coordinates]\n{}\n[lagrangian]\nL = \"{} + ({})^2\"\n",
+        starts.join("\n"),
+        squares.join(" + "),
+        speed.join(" + ")
+    );
+    let object = with_file(&file, &["derive", "system.toml", "--format", "json"]).json();
+    assert!(object["equations"].is_null() && object["hamiltonian"].is_null(), "{object}");
+    assert_eq!(object["mass_matrix"].as_array().map(Vec::len), Some(5));
+    let why = text(&object["why"]);
+    for part in ["equations: ", "; hamiltonian: "] {
+        let sentence = "the mass matrix changes during the motion and couples 5 coordinates each";
+        assert!(why.contains(&format!("{part}{sentence}")), "{why}");
+    }
 }
 
 #[test]

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use phaselab::preset::{Catalog, Entry, NotFound, Origin};
+use phaselab::model::Info;
+use phaselab::preset::{self, Catalog, Entry, NotFound, Origin};
 use tempfile::TempDir;
 
 use super::GOOD;
@@ -33,6 +34,49 @@ fn shipped_presets_are_those_of_the_folder() {
     assert_eq!(pendulum.path, "presets/pendulums/pendulum.toml");
     let on_disk = fs::read_to_string(presets.join("pendulums/pendulum.toml")).unwrap();
     assert_eq!(pendulum.text, on_disk);
+}
+
+#[test]
+fn the_index_says_what_the_files_say() {
+    for entry in Catalog::with_folder(None).entries() {
+        let document = entry.document().unwrap();
+        let info =
+            document.read().unwrap_or_else(|why| panic!("{}: {why:?}", entry.name)).model.info;
+        assert_eq!(entry.info, Info { notes: String::new(), ..info }, "{}", entry.name);
+        assert!(!entry.info.title.is_empty() && entry.info.notes.is_empty());
+        assert!(document.path.ends_with(&format!("/{}.toml", entry.name)), "{}", document.path);
+    }
+}
+
+#[test]
+fn a_name_finds_the_same_with_and_without_the_list() {
+    let user = folder(&[
+        ("pendulum.toml", GOOD.as_bytes()),
+        ("mine.toml", GOOD.as_bytes()),
+        ("a/twice.toml", GOOD.as_bytes()),
+        ("b/twice.toml", GOOD.replace("Oscillator", "Another").as_bytes()),
+        ("broken.toml", b"title = "),
+    ]);
+    let listed = Catalog::with_folder(Some(user.path()));
+    let shipped = Catalog::with_folder(None);
+    let names =
+        ["pendulum", "mine", "twice", "broken", "heavy-top", "heavy-topp", "nothing at all"];
+    let path = user.path().join("mine.toml");
+    for name in names.into_iter().chain([path.to_str().unwrap(), "no/such.toml"]) {
+        for (catalog, folder) in [(&listed, Some(user.path())), (&shipped, None)] {
+            let (found, expected) =
+                (preset::find_beside(folder, name.as_ref()), catalog.find(name));
+            match (found, expected) {
+                (Ok(found), Ok(expected)) => {
+                    assert_eq!((found.path, found.text), (expected.path, expected.text), "{name}");
+                }
+                (Err(found), Err(expected)) => {
+                    assert_eq!(found.to_string(), expected.to_string(), "{name}");
+                }
+                (found, expected) => panic!("{name}: {found:?}, {expected:?}"),
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,70 @@
+//! Rewriting an expression from its parts upwards.
+//!
+//! A pass gives every node one result, whatever the node is a part of; what was rewritten once is
+//! not looked at again. In: an expression, and what a pass does with one node. Out: an expression.
+//! Never here: the passes.
+
+use rustc_hash::FxHashMap;
+
+use super::memo::Pass;
+use super::node::{Expr, Node};
+use super::pool::Pool;
+use crate::num::Number;
+
+impl Pool {
+    /// Rewrites an expression from its parts upwards: `rewrite` is handed each node with its parts
+    /// already rewritten. Nodes whose result is known are not visited.
+    pub(super) fn rewrite(
+        &mut self,
+        pass: Pass,
+        e: Expr,
+        mut rewrite: impl FnMut(&mut Pool, Expr) -> Expr,
+    ) -> Expr {
+        for part in self.reachable_until(&[e], |part| self.memo.get(pass, part).is_some()) {
+            if self.is_stopped() {
+                return e;
+            }
+            let rebuilt = self.rebuild(part, |pool, p| pool.memo.get(pass, p).unwrap_or(p));
+            let rewritten = rewrite(self, rebuilt);
+            self.remember(pass, part, rewritten);
+        }
+        self.memo.get(pass, e).unwrap_or(e)
+    }
+
+    /// Remembers a result, if it is valid.
+    pub(super) fn remember(&mut self, pass: Pass, e: Expr, result: Expr) {
+        if !self.is_full() && !self.is_stopped() {
+            self.memo.insert(pass, e, result);
+        }
+    }
+
+    /// The same node with its parts replaced as `of` says.
+    pub(super) fn rebuild(&mut self, e: Expr, of: impl Fn(&Pool, Expr) -> Expr) -> Expr {
+        match &*self.shared(e) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => e,
+            Node::Sum(constant, terms) => {
+                let terms: Vec<(Number, Expr)> =
+                    terms.iter().map(|&(c, t)| (c, of(self, t))).collect();
+                self.linear(*constant, &terms)
+            }
+            Node::Product(c, factors) => {
+                let factors: Vec<(Expr, Number)> =
+                    factors.iter().map(|&(b, n)| (of(self, b), n)).collect();
+                self.monomial(*c, &factors)
+            }
+            &Node::Power(base, exponent) => {
+                let (base, exponent) = (of(self, base), of(self, exponent));
+                self.pow(base, exponent)
+            }
+            Node::Call(function, arguments) => {
+                let arguments: Vec<Expr> = arguments.iter().map(|&a| of(self, a)).collect();
+                self.call(*function, &arguments)
+            }
+        }
+    }
+
+    /// The same node with its parts replaced where the map has something for them.
+    pub(super) fn rebuild_from(&mut self, e: Expr, parts: &FxHashMap<Expr, Expr>) -> Expr {
+        self.rebuild(e, |_, part| parts.get(&part).copied().unwrap_or(part))
+    }
+}
