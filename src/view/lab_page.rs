@@ -10,6 +10,7 @@ use super::layout::{Slot, panes};
 use super::number::brief;
 use super::quantity::Quantities;
 use super::region::Region;
+use super::text_page::draw_rows;
 use super::theme::Role;
 use super::values::Values;
 use super::wrap::{capitalised, words};
@@ -48,7 +49,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
             Slot::Law => {
                 let title = [canvas.span(Role::Title, "Law of motion")];
                 let inner = canvas.pane(place, &title, false);
-                equations::law(lab, canvas.look).draw(canvas, inner, 0);
+                let mut kept = std::mem::take(&mut canvas.kept);
+                let rows = kept.law(&lab.loaded.equations, inner.width, || {
+                    equations::law(lab, canvas.look).laid_out(canvas, inner.width)
+                });
+                draw_rows(canvas, inner, 0, rows);
+                canvas.kept = kept;
             }
         }
     }

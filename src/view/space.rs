@@ -9,7 +9,8 @@ mod scene;
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, row};
-use super::plot::{Camera, Frame, Marker, Pen, Raster};
+use super::kept::{self, Kept, Track, TrailKey};
+use super::plot::{Ages, Camera, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -42,11 +43,21 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist =
-        ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
+    let mut artist = ScenePainter {
+        raster,
+        frame,
+        camera,
+        q,
+        reference_frame,
+        seen: eye.frame,
+        tracks: 0,
+        bodies: 0,
+    };
+    let mut kept = std::mem::take(&mut canvas.kept);
     for (shape, _) in q.lab.shapes(*eye) {
-        artist.shape(shape);
+        artist.shape(shape, &mut kept);
     }
+    canvas.kept = kept;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
@@ -92,12 +103,14 @@ struct ScenePainter<'a> {
     camera: Camera,
     q: &'a Quantities<'a>,
     reference_frame: Option<ReferenceFrame>,
+    /// The index of the reference frame.
+    seen: Option<usize>,
     tracks: usize,
     bodies: usize,
 }
 
 impl ScenePainter<'_> {
-    fn shape(&mut self, shape: &Shape) {
+    fn shape(&mut self, shape: &Shape, kept: &mut Kept) {
         let theme = &self.q.look.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
@@ -120,7 +133,7 @@ impl ScenePainter<'_> {
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
-            Shape::Trace { at } => self.track(at),
+            Shape::Trace { at } => self.track(at, kept),
             Shape::Vector { at, components } => {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
@@ -271,22 +284,25 @@ impl ScenePainter<'_> {
         }
     }
 
-    fn track(&mut self, point: &Point) {
+    fn track(&mut self, point: &Point, kept: &mut Kept) {
         let sources = point.map(|expression| self.q.place(expression));
-        let rows = self.q.snapshot.trail.rows().filter_map(|row| row.get(1..));
+        let rows = &self.q.snapshot.trail;
+        let track = Track::Point(sources, self.camera, self.seen);
+        let key = TrailKey { epoch: self.q.snapshot.epoch, frame: self.frame, track };
+        let projection = self.camera.projection();
+        let present = self.flat(self.point(point));
         // Each past point is transformed to the reference frame at its own time.
-        let past = rows.map(|row| {
+        let drawn = kept.trail(key, (rows, self.q.look.glyphs), |row| {
+            let row = row.get(1..)?;
             let r = sources.map(|source| source.read(row));
-            self.flat(
-                self.reference_frame
-                    .as_ref()
-                    .map_or(r, |reference_frame| reference_frame.point(row, r)),
-            )
+            let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
+            let [right, up, _] = projection.of(seen);
+            Some([right, up])
         });
-        let mut points: Vec<[f64; 2]> = past.collect();
-        points.push(self.flat(self.point(point)));
         let ramp = self.q.look.theme.trail(self.tracks);
-        self.raster.trail(&self.frame, &points, ramp, TRACK);
+        let since = kept::since(rows, ramp.len());
+        let ages = Ages { since: &since, ramp, layer: TRACK };
+        drawn.draw(&mut self.raster, ages, present);
         self.tracks += 1;
     }
 

@@ -5,26 +5,28 @@
 //! Never here: axes, or the meaning of the curves.
 
 mod cloud;
+mod course;
+mod kept_trail;
 mod letter;
 mod polyline;
+
+use std::cmp::Ordering;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
-use super::scale::{Frame, Scale};
+use super::scale::Frame;
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
+pub use kept_trail::{Ages, KeptTrail};
 use letter::letter;
 use polyline::Polyline;
 
 /// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
-
-/// The distance, in plot lengths, beyond which a point is moved; nearer points keep their exact direction.
-const FAR: f64 = 1e7;
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -207,7 +209,7 @@ impl Raster {
     pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
         let size = self.size();
         for point in points {
-            let place = position(frame, point, size);
+            let place = frame.dot(point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
                 self.dot(std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1)), pen);
             }
@@ -274,6 +276,11 @@ impl Raster {
         if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
             return;
         }
+        self.set((index, bit), pen, sign);
+    }
+
+    /// Sets a dot of a cell by its bit.
+    fn set(&mut self, (index, bit): (usize, u8), pen: &Pen, sign: Option<char>) {
         let cell = &mut self.cells[index];
         cell.dots |= bit;
         let rank = (pen.layer, false, pen.fresh);
@@ -284,6 +291,24 @@ impl Raster {
             cell.rank = rank;
             cell.style = pen.style;
             cell.sign = sign;
+        }
+    }
+
+    /// Adds everything on another raster of the same area.
+    pub fn lay(&mut self, other: &Self) {
+        for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
+            if other.dots == 0 && other.sign.is_none() {
+                continue;
+            }
+            cell.dots |= other.dots;
+            match other.rank.0.cmp(&cell.rank.0) {
+                Ordering::Greater => cell.upper = other.upper,
+                Ordering::Equal => cell.upper |= other.upper,
+                Ordering::Less => {}
+            }
+            if other.rank >= cell.rank {
+                (cell.rank, cell.style, cell.sign) = (other.rank, other.style, other.sign);
+            }
         }
     }
 
@@ -305,15 +330,6 @@ impl Raster {
         let cell = y / rows * usize::from(self.area.width) + x / columns;
         Some((cell, 1 << (y % rows * columns + x % columns)))
     }
-}
-
-/// The position of a point in dots, with y downwards; NaN if a coordinate is not finite.
-fn position(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
-    let fraction = |scale: &Scale, value: f64| {
-        if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
-    };
-    let (right, up) = (fraction(&frame.x, x), fraction(&frame.y, y));
-    [right * f64::from(wide), (1.0 - up) * f64::from(high)]
 }
 
 /// A value in 0..1 fixed to a dot, spread evenly along every direction (M. Roberts' R2 sequence, 2018), so that

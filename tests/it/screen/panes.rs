@@ -262,7 +262,7 @@ fn what_happened_is_marked_where_it_was_and_named() {
         (1..120).filter(|&x| (2..38).any(|y| buffer[(x, y)].symbol() == "◆")).collect();
     let zero = find(&buffer, "└").unwrap().0 + 1;
     let width = 118 - zero;
-    let wanted = [0.5, 1.0].map(|t: f64| zero + (t / 20.0 * f64::from(width)) as u16);
+    let wanted = [0.5, 1.0].map(|t: f64| zero + (t / 2.5 * f64::from(width)) as u16);
     assert_eq!(columns.len(), 2, "{columns:?}");
     assert!(columns.iter().zip(wanted).all(|(x, w)| x.abs_diff(w) <= 1), "{columns:?} {wanted:?}");
 }
