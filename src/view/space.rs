@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, row};
 use super::kept::{self, Kept, Track, TrailKey};
-use super::plot::{Ages, Camera, Frame, Marker, Pen, Raster};
+use super::plot::{Ages, Camera, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -50,8 +50,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         q,
         reference_frame,
         seen: eye.frame,
-        tracks: 0,
-        bodies: 0,
+        colours: colours(q, *eye),
     };
     let mut kept = std::mem::take(&mut canvas.kept);
     for (shape, _) in q.lab.shapes(*eye) {
@@ -67,19 +66,57 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
 }
 
-/// Draws the directions of the axes in the lower left corner.
+/// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
+/// and the second colour, an amber, is left to a single mass that stays where it is.
+fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
+    let stays = |at: &Point| at.iter().all(|e| matches!(q.place(*e), Source::Number(_)));
+    let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
+    let masses: Vec<Point> = shapes()
+        .filter_map(|shape| match shape {
+            Shape::Mass { at, .. } => Some(*at),
+            _ => None,
+        })
+        .collect();
+    let (fixed, mut points): (Vec<_>, Vec<_>) = masses.into_iter().partition(stays);
+    let traces = shapes().filter_map(|shape| match shape {
+        Shape::Trace { at } => Some(*at),
+        _ => None,
+    });
+    for at in traces {
+        if !points.contains(&at) {
+            points.push(at);
+        }
+    }
+    for (index, at) in fixed.into_iter().enumerate() {
+        points.insert((1 + index).min(points.len()), at);
+    }
+    points
+}
+
+/// Draws the directions of the axes in the lower left corner, each as an arm with its name.
 fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     if area.width < 30 || area.height < 14 {
         return;
     }
-    let centre = (f64::from(area.x) + 5.0, f64::from(area.bottom()) - 3.5);
-    for (name, axis) in [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])] {
+    let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
+    let reach = Scale::linear(-1.3, 1.3);
+    let frame = Frame::equal(reach, reach, corner);
+    let mut arms = Raster::new(corner, canvas.look.glyphs);
+    let pen = Pen::new(canvas.style(Role::Dim), GROUND);
+    let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
+    let tips = axes.map(|(name, axis)| {
         let [right, up, _] = camera.project(axis);
-        let at = ((centre.0 + 4.0 * right).round() as u16, (centre.1 - 2.0 * up).round() as u16);
-        canvas.write(at.into(), 1, name, canvas.style(Role::Dim));
+        (name, [right, up])
+    });
+    for (_, tip) in tips {
+        arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
     }
-    let origin = (centre.0.round() as u16, centre.1.round() as u16);
-    canvas.write(origin.into(), 1, "·", canvas.style(Role::Dim));
+    arms.draw(canvas.buffer);
+    for (name, tip) in tips {
+        if let Some(at) = frame.cell(tip) {
+            canvas.write(at, 1, name, canvas.style(Role::Dim));
+        }
+    }
 }
 
 /// Draws the names of the apparent forces in their colours in the upper left corner.
@@ -105,8 +142,8 @@ struct ScenePainter<'a> {
     reference_frame: Option<ReferenceFrame>,
     /// The index of the reference frame.
     seen: Option<usize>,
-    tracks: usize,
-    bodies: usize,
+    /// The points that have a colour of their own.
+    colours: Vec<Point>,
 }
 
 impl ScenePainter<'_> {
@@ -129,7 +166,6 @@ impl ScenePainter<'_> {
                 self.curve(&rim, &solid);
             }
             Shape::Mass { at, radius } => {
-                let at = self.point(at);
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
@@ -238,22 +274,24 @@ impl ScenePainter<'_> {
     }
 
     /// Draws a point mass: a disc of its radius, or a marker if that is smaller than a cell.
-    fn mass(&mut self, at: [f64; 3], radius: Option<f64>) {
-        let style = self.q.look.theme.curve(self.bodies);
+    fn mass(&mut self, point: &Point, radius: Option<f64>) {
+        let at = self.point(point);
+        let style = self.q.look.theme.curve(self.colour(point));
         let pen = Pen::new(style, BODY);
         let centre = self.flat(at);
         let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
         let cells = radius.map_or(0.0, |radius| radius.abs() / cell);
         if cells.is_finite() && cells > 1.2 {
-            let rings = (cells * 3.0).min(120.0) as u32;
-            for ring in 0..=rings {
-                let share = f64::from(ring) / f64::from(rings);
-                self.raster.circle(&self.frame, centre, share * cells * cell, &pen);
-            }
+            self.raster.disc(&self.frame, centre, cells * cell, &pen);
         } else {
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
-        self.bodies += 1;
+    }
+
+    /// The colour of the mass at a point, and of its trace: the masses that move are counted first, then one that stays
+    /// where it is, such as a sun, then the traces of other points.
+    fn colour(&self, point: &Point) -> usize {
+        self.colours.iter().position(|other| other == point).unwrap_or(self.colours.len())
     }
 
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.
@@ -279,7 +317,7 @@ impl ScenePainter<'_> {
             self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
         }
         for point in points {
-            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(self.bodies), BODY));
+            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(0), BODY));
             self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
         }
     }
@@ -299,11 +337,10 @@ impl ScenePainter<'_> {
             let [right, up, _] = projection.of(seen);
             Some([right, up])
         });
-        let ramp = self.q.look.theme.trail(self.tracks);
+        let ramp = self.q.look.theme.trail(self.colour(point));
         let since = kept::since(rows, ramp.len());
         let ages = Ages { since: &since, ramp, layer: TRACK };
         drawn.draw(&mut self.raster, ages, present);
-        self.tracks += 1;
     }
 
     /// Draws a shaft with a head of two strokes, an eighth of its length.

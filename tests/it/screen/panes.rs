@@ -90,9 +90,9 @@ fn verdicts_have_their_colours() {
     for (verdict, word, role) in [
         (Verdict::Exact(Growth::Root), "exact", Role::Good),
         (Verdict::Bounded, "bounded", Role::Good),
-        (Verdict::Secular(1e-9), "secular", Role::Bad),
+        (Verdict::Secular(1e-9), "drifting", Role::Bad),
         (Verdict::Lost, "lost", Role::Bad),
-        (Verdict::Broken("−2F".into()), "broken", Role::Warn),
+        (Verdict::Broken("−2F".into()), "varies", Role::Warn),
     ] {
         let mut app = in_lab();
         let mut seen = snapshot(&pendulum(), 2.0);
@@ -275,7 +275,7 @@ fn an_ended_motion_says_by_what_and_how_to_go_on() {
     app.update(Event::Snapshot(Arc::new(seen)));
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &rich(), size);
-        assert!(find(&buffer, "ground ended the motion: r begins it again").is_some(), "{size:?}");
+        assert!(find(&buffer, "finished by ground: r to restart").is_some(), "{size:?}");
     }
 }
 

@@ -46,6 +46,9 @@ impl Raster {
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
             cell.dots |= dots;
+            if pen.layer >= cell.rank.0 {
+                cell.upper = if pen.layer > cell.rank.0 { dots } else { cell.upper | dots };
+            }
             let rank = (pen.layer, false, pen.fresh);
             if rank >= cell.rank {
                 cell.rank = rank;
