@@ -1,12 +1,15 @@
-//! The number of bytes in frames: `view::frame` compared with ratatui's `CrosstermBackend` alone.
+//! Frames: their bytes, `view::frame` compared with ratatui's `CrosstermBackend` alone; and the time to draw one,
+//! `view::Painter`, which keeps what does not change, compared with drawing everything anew.
 //!
 //! `cargo bench --bench frames` prints a line for each system and each depth of colour: the mean bytes of a frame in ten
-//! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds.
+//! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds. Then a line for each system: the
+//! median time of a frame at 120 × 40 over a full trail, both ways in turn.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
+use std::hint::black_box;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use phaselab::app::{App, Event, Loaded};
 use phaselab::experiment::{Experiment, Prepared};
@@ -15,7 +18,7 @@ use phaselab::view::colour::ColourDepth;
 use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
-use phaselab::view::{self, RenderStyle};
+use phaselab::view::{self, Painter, RenderStyle};
 use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
@@ -23,6 +26,10 @@ use ratatui::layout::{Rect, Size};
 const SIZE: Size = Size { width: 80, height: 24 };
 const FIRST: u32 = 60;
 const COUNT: u32 = 300;
+
+/// The frame after which the trail is full, and the number of frames that are timed.
+const FULL: u32 = 18_000;
+const TIMED: u32 = 200;
 
 /// A system in motion that is drawn.
 struct Motion {
@@ -46,11 +53,15 @@ impl Motion {
         Self { app, experiment, look }
     }
 
-    fn picture(&mut self, frame: u32) -> Buffer {
+    fn advance(&mut self, frame: u32) {
         let time = f64::from(frame) / 30.0 * self.experiment.speed();
         self.experiment.advance(time, u64::MAX);
         self.app.update(Event::Tick(Duration::from_secs(1) / 30));
         self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+    }
+
+    fn picture(&mut self, frame: u32) -> Buffer {
+        self.advance(frame);
         let area = Rect::from((ratatui::layout::Position::ORIGIN, SIZE));
         let mut buffer = Buffer::empty(area);
         view::draw(&self.app, &self.look, area, &mut buffer);
@@ -79,6 +90,29 @@ fn bytes(name: &str, depth: ColourDepth) -> (f64, f64) {
     (mean(plain), mean(frugal))
 }
 
+/// The median time of a frame over a full trail: drawn anew, and by a painter.
+fn times(name: &str) -> (Duration, Duration) {
+    let mut motion = Motion::of(name, ColourDepth::True);
+    let area = Rect::new(0, 0, 120, 40);
+    let (mut painter, mut anew, mut kept) = (Painter::default(), Vec::new(), Vec::new());
+    for frame in FULL..FULL + TIMED {
+        motion.advance(frame);
+        let mut buffer = Buffer::empty(area);
+        let begun = Instant::now();
+        view::draw(&motion.app, &motion.look, area, black_box(&mut buffer));
+        anew.push(begun.elapsed());
+        let mut again = Buffer::empty(area);
+        let begun = Instant::now();
+        painter.draw(&motion.app, &motion.look, area, black_box(&mut again));
+        kept.push(begun.elapsed());
+    }
+    let median = |mut times: Vec<Duration>| {
+        times.sort_unstable();
+        times[times.len() / 2]
+    };
+    (median(anew), median(kept))
+}
+
 fn main() {
     crossterm::style::force_color_output(true);
     println!("{:16} {:8} {:>10} {:>10} {:>6}", "system", "colours", "crossterm", "frames", "saved");
@@ -93,5 +127,11 @@ fn main() {
             let saved = 100.0 * (1.0 - frugal / plain);
             println!("{name:16} {called:8} {plain:10.0} {frugal:10.0} {saved:5.0}%");
         }
+    }
+    println!("{:16} {:>10} {:>10} {:>6}", "system", "anew", "kept", "ratio");
+    for name in ["pendulum", "heavy-top", "double-pendulum", "chain-pendulum", "henon-heiles"] {
+        let (anew, kept) = times(name);
+        let ratio = anew.as_secs_f64() / kept.as_secs_f64();
+        println!("{name:16} {:>10.1?} {:>10.1?} {ratio:6.1}", anew, kept);
     }
 }

@@ -9,6 +9,8 @@ use super::{EditCommand, Page};
 pub enum Action {
     /// End the program.
     Quit,
+    /// Leave the program, whatever lies over the page.
+    QuitAll,
     /// Suspend the process, as Ctrl-Z does in a shell.
     Suspend,
     /// Redraw every cell.

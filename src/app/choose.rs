@@ -65,7 +65,7 @@ impl App {
         let Some((kind, offer)) = offers(physics).into_iter().nth(index) else {
             return Vec::new();
         };
-        let begun = Plot::new(kind, (offer.columns, offer.view), physics.model);
+        let begun = Plot::new(kind, (offer.columns, offer.view), physics.model).opened(physics);
         self.choose_on(plot, begun, offer.label)
     }
 
@@ -108,7 +108,7 @@ impl App {
     fn accept_line(&mut self, menu: Menu) -> Vec<Effect> {
         let Some((_, item)) = menu.current() else {
             self.overlay = Some(Overlay::Menu(menu));
-            return self.notify("Nothing fits what is typed.");
+            return self.notify("No match.");
         };
         if let Some(reason) = &item.refusal {
             let sentence = format!("{} cannot be used here: {reason}", item.label);

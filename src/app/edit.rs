@@ -185,13 +185,13 @@ impl App {
             EditCommand::PutBack => buffer.editor.put_back(),
             EditCommand::Undo => {
                 if !buffer.editor.undo() {
-                    return self.notify("There is nothing to take back.");
+                    return self.notify("Nothing to undo.");
                 }
                 true
             }
             EditCommand::Redo => {
                 if !buffer.editor.redo() {
-                    return self.notify("There is nothing to do again.");
+                    return self.notify("Nothing to redo.");
                 }
                 true
             }
@@ -389,8 +389,7 @@ impl App {
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
-                    let message =
-                        format!("{title}: built anew in {time:.0} ms; the motion goes on.");
+                    let message = format!("{title}: rebuilt in {time:.0} ms; the motion goes on.");
                     self.notice = Some(Notification::info(message));
                 }
                 self.rebuilt(loaded)

@@ -93,9 +93,11 @@ impl Word {
             let score = self.named(name, matcher)?.score.saturating_sub(SECOND);
             Some(Fit { score, messages: Vec::new() })
         });
-        // The label wins a tie.
+        // The label wins a tie, and its letters are highlighted even if another name fits better.
+        let letters = label.as_ref().map(|fit| fit.messages.clone()).unwrap_or_default();
         let named = label.into_iter().chain(names);
-        named.reduce(|a, b| if b.score > a.score { b } else { a }).or_else(|| {
+        let best = named.reduce(|a, b| if b.score > a.score { b } else { a });
+        best.map(|fit| Fit { messages: letters, ..fit }).or_else(|| {
             let described = texts.about.iter().filter_map(|text| self.described(text, matcher));
             described.max().map(|score| Fit { score: score / DESCRIBED, messages: Vec::new() })
         })

@@ -182,15 +182,15 @@ const SHIFT_RIGHT: KeyEvent = shift(KeyCode::Right);
 /// All key bindings.
 #[rustfmt::skip]
 pub const KEYS: &[Binding] = &[
-    row(Place::Always, &[ctrl('c')], Action::Quit, "", "quit, whatever is being typed"),
+    row(Place::Always, &[ctrl('c')], Action::QuitAll, "", "quit, whatever is being typed"),
     row(Place::Always, &[ctrl('z')], Action::Suspend, "", "suspend until the shell's fg"),
     row(Place::Always, &[ctrl('l')], Action::Repaint, "", "redraw the screen"),
 
     row(Place::Anywhere, &[c('?'), plain(KeyCode::F(1))], Action::Help, "help", "show these keys"),
-    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave at once; the session is saved"),
+    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave, or close what lies on top; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
-    row(Place::Anywhere, &[ESC], Action::Back, "", "back: close, shrink, or return to the list of systems"),
+    row(Place::Anywhere, &[ESC], Action::Back, "", "back: close or shrink; twice in the lab: the list of systems"),
 
     row(Place::Picker, &[UP], Action::Move(Direction::Up), "", "the system above"),
     row(Place::Picker, &[DOWN], Action::Move(Direction::Down), "choose", "the system below"),
@@ -228,8 +228,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
     row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
-    row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "fewer frames a second, for a slow line"),
-    row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "more frames a second"),
+    row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "lower frame rate, for a slow line"),
+    row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "higher frame rate"),
     row(Place::Experiment, &[c('M')], Action::Mouse, "", "use the mouse here, or leave it to the terminal to select text"),
 
     row(Place::Experiment, &[c('9')], Action::Show(Page::Plain), "", "page 9: the screen as plain text that stays still, to be read line by line"),
@@ -257,7 +257,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('y')], Action::Closer(Axes::Upwards), "", "stretch the vertical axis"),
     row(Place::Plot, &[c('Y')], Action::Farther(Axes::Upwards), "", "shrink the vertical axis"),
     row(Place::Plot, &[c('g')], Action::Log, "", "make the vertical axis logarithmic, or linear again"),
-    row(Place::Plot, &[c('o')], Action::Equal, "", "one to one: equal scales on both axes, or fill the pane again"),
+    row(Place::Plot, &[c('o')], Action::Equal, "", "equal scales on both axes, or fill the pane again"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
     row(Place::Plot, &[LEFT, c('h')], Action::Move(Direction::Left), "move", "move the window, or the cursor, to the left"),
     row(Place::Plot, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "move the window, or the cursor, to the right"),
@@ -297,6 +297,8 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Menu, &[UP], Action::Move(Direction::Up), "", "the line above"),
     row(Place::Menu, &[DOWN], Action::Move(Direction::Down), "choose", "the line below"),
+    row(Place::Menu, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
+    row(Place::Menu, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 

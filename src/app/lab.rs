@@ -54,6 +54,8 @@ pub struct Lab {
     pub plots: Vec<Plot>,
     /// The pane with the keyboard focus.
     pub focus: Pane,
+    /// The picture that was focused last.
+    pub front: Option<usize>,
     /// Whether that pane is zoomed to fill the page.
     pub zoomed: bool,
     /// What is selected in the lists.
@@ -119,6 +121,7 @@ impl Lab {
             snapshot: None,
             plots,
             focus: Pane::Parameters,
+            front: None,
             zoomed: false,
             selection: Selection::default(),
             answers: Answers::default(),

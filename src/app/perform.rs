@@ -12,11 +12,18 @@ use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
 use crate::integrate::{METHODS, Stepping};
 
+/// What the first Esc in the lab says.
+const LEAVING: &str = "Esc again for the list of systems.";
+
 impl App {
     /// Carries out an action. It does nothing if the action does not apply.
     pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
+        if action != Action::Back && self.asked_to_leave() {
+            self.notice = None;
+        }
         match action {
-            Action::Quit => self.quit(),
+            Action::Quit if self.closes_with_quit() => self.back(),
+            Action::Quit | Action::QuitAll => self.quit(),
             Action::Suspend => vec![Effect::Suspend],
             Action::Repaint => vec![Effect::Repaint],
             Action::Help => self.help(),
@@ -87,11 +94,11 @@ impl App {
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, report)) => self.report(report, effects),
-                None => self.notify("There is nothing to take back."),
+                None => self.notify("Nothing to undo."),
             },
             Action::Redo => match lab.redo() {
                 Some((effects, report)) => self.report(report, effects),
-                None => self.notify("There is nothing to do again."),
+                None => self.notify("Nothing to redo."),
             },
             Action::ApplyImpulse => self.apply_one_impulse(),
             Action::Export => vec![Effect::Export],
@@ -214,9 +221,9 @@ impl App {
     fn switch_mouse(&mut self) -> Vec<Effect> {
         self.mouse = !self.mouse;
         self.notice = Some(Notification::info(if self.mouse {
-            "The mouse is phaselab's now; M gives it back, to select text with."
+            "Mouse on: click a phase portrait to start there, drag sliders; M to select text."
         } else {
-            "The mouse is the terminal's again."
+            "Mouse off: the terminal selects text; M switches it on."
         }));
         vec![Effect::Mouse(self.mouse)]
     }
@@ -257,10 +264,15 @@ impl App {
             self.notice = Some(Notification::info(format!("{name} is no longer being loaded.")));
             return vec![Effect::StopLoading];
         }
+        let leaves = self.asked_to_leave();
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
             (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
+            (Page::Lab, Some(_)) if !leaves => {
+                return self.notify(LEAVING);
+            }
             (Page::Lab, _) | (_, None) => {
+                self.notice = None;
                 if let Some(lab) = &self.lab {
                     self.picker.select(&lab.loaded.name);
                 }
@@ -271,6 +283,16 @@ impl App {
             }
         }
         Vec::new()
+    }
+
+    /// Whether something lies over the page that the key for quitting closes.
+    fn closes_with_quit(&self) -> bool {
+        matches!(self.overlay, Some(Overlay::Help { .. } | Overlay::Message(_) | Overlay::Menu(_)))
+    }
+
+    /// Whether the last Esc has asked for another one, which leaves the lab.
+    fn asked_to_leave(&self) -> bool {
+        self.notice.as_ref().is_some_and(|notice| notice.text == LEAVING)
     }
 
     fn shift(&mut self, way: Direction) -> Vec<Effect> {

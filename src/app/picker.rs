@@ -49,7 +49,15 @@ impl Picker {
         let entries = self.entries.iter().enumerate();
         let mut found: Vec<(usize, Fit)> =
             entries.filter_map(|(index, entry)| Some((index, fit(entry)?))).collect();
-        found.sort_by_key(|(_, fit)| Reverse(fit.score));
+        // The system whose own name begins so comes first, and of several the one with the shortest name.
+        let sought = sought.to_lowercase();
+        let begins =
+            |index: usize| sought.len() > 2 && self.entries[index].name.starts_with(&sought);
+        let length = |index: usize| self.entries[index].name.len();
+        found.sort_by_key(|(index, fit)| {
+            let begins = begins(*index);
+            (Reverse(begins), if begins { length(*index) } else { 0 }, Reverse(fit.score))
+        });
         found
     }
 

@@ -8,9 +8,9 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::editor::beginning;
 use super::field::{edit, paste};
-use super::key::pressed;
+use super::key::{self, pressed};
 use super::keymap::{self, Place};
-use super::{App, Effect, Event, Lab, LoadError, Loaded, Notification, Overlay, Page};
+use super::{App, Effect, Event, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane};
 use crate::experiment::Snapshot;
 
 /// The maximum size of one paste, in bytes.
@@ -25,6 +25,11 @@ impl App {
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
         let mut effects = self.handle(event);
         self.look_after_jobs(&mut effects);
+        if let Some(lab) = &mut self.lab
+            && let Pane::Plot(index) = lab.focus
+        {
+            lab.front = Some(index);
+        }
         effects
     }
 
@@ -114,15 +119,25 @@ impl App {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
             }
-            Some(Overlay::Help { .. } | Overlay::Message(_)) => {}
+            Some(Overlay::Help { .. } | Overlay::Message(_)) => return self.unknown(key),
             None if searching => {
                 self.picker.search(|input| {
                     edit(input, key);
                 });
             }
-            None => {}
+            None => return self.unknown(key),
         }
         Vec::new()
+    }
+
+    /// Tells that a key has no effect here.
+    fn unknown(&mut self, key: KeyEvent) -> Vec<Effect> {
+        match key.code {
+            KeyCode::Char(_) | KeyCode::F(_) => {
+                self.notify(format!("{} does nothing here; ? shows the keys.", key::name(&key)))
+            }
+            _ => Vec::new(),
+        }
     }
 
     fn paste(&mut self, text: &str) -> Vec<Effect> {

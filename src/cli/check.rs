@@ -1,5 +1,6 @@
 //! `phaselab check`: every mistake in files, and whether their claims are true.
 
+use std::io::{IsTerminal, stdout};
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -11,12 +12,14 @@ use super::{open, stderr};
 use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::Derived;
+use crate::mechanics::{Constant, Report};
 use crate::printable;
 
 /// Tell every mistake in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion. Without a mistake nothing is said.
+/// integrating the motion. Without a mistake a terminal is told what was found, and
+/// nothing else is written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -46,10 +49,17 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let mut errors = 0;
     for path in &arguments.files {
         let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
-        let mistakes = mistakes(&document);
+        let (mistakes, found) = findings(&document);
         errors += mistakes.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
-            Format::Text => stderr::show(&document.report(&mistakes, stderr::has_colour())),
+            Format::Text => {
+                stderr::show(&document.report(&mistakes, stderr::has_colour()));
+                let found = found.filter(|_| mistakes.is_empty() && stdout().is_terminal());
+                if let Some(found) = found {
+                    let name = printable::path(path);
+                    Output::print(Form::Text, &format!("{name}: no mistakes; {found}\n"))?;
+                }
+            }
             Format::Json => files.push(object(&document, &mistakes)),
         }
     }
@@ -65,12 +75,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-/// All mistakes of a file: those of its text, otherwise of its equations, otherwise of its claims.
-fn mistakes(document: &Document) -> Vec<Diagnostic> {
+/// All mistakes of a file: those of its text, otherwise of its equations, otherwise of its claims; and what it describes.
+fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
     let checked = match document.read() {
         Ok(checked) => checked,
-        Err(mistakes) => return mistakes,
+        Err(mistakes) => return (mistakes, None),
     };
+    let mut found = None;
     let mut mistakes = checked.warnings;
     let unknown_method = open::unknown_method(&checked.model);
     let is_known = unknown_method.is_none();
@@ -78,6 +89,7 @@ fn mistakes(document: &Document) -> Vec<Diagnostic> {
     let place = checked.model.law_place.clone();
     match Derived::of(checked.model) {
         Ok(derived) => {
+            found = Some(description(&derived));
             mistakes.extend(false_claims(&derived.model, &derived.equations));
             if is_known && let Ok(system) = derived.compile(&[]) {
                 mistakes.extend(open::unfit_method(&derived.model, &system));
@@ -86,7 +98,27 @@ fn mistakes(document: &Document) -> Vec<Diagnostic> {
         Err(why) => mistakes.push(Diagnostic::error(place, why.to_string())),
     }
     mistakes.sort_by_key(|mistake| mistake.place.start);
-    mistakes
+    (mistakes, found)
+}
+
+/// What a system consists of and what it conserves: `2 coordinates, conserved: p_x, E`.
+fn description(derived: &Derived) -> String {
+    let report = Report::of(&derived.model, &derived.equations);
+    let name = |constant: &Constant<'_>| match constant {
+        Constant::Momentum(p) => derived.equations.pool.symbol_info(*p).name.clone(),
+        Constant::Energy => "E".to_owned(),
+        Constant::Casimir(name) | Constant::Other(name) => (*name).to_owned(),
+    };
+    let conserved: Vec<String> = report.conserved.iter().map(|kept| name(&kept.constant)).collect();
+    let coordinates = match derived.model.coordinates.len() {
+        1 => "1 coordinate".to_owned(),
+        count => format!("{count} coordinates"),
+    };
+    if conserved.is_empty() {
+        format!("{coordinates}, nothing conserved that could be found")
+    } else {
+        format!("{coordinates}, conserved: {}", conserved.join(", "))
+    }
 }
 
 fn object(document: &Document, mistakes: &[Diagnostic]) -> Value {

@@ -1,10 +1,11 @@
 //! `phaselab [PRESET|FILE]`: the laboratory on the screen, and `--demo`: a demo in it.
 
 use std::ffi::OsString;
+use std::io::IsTerminal;
 
 use super::failure::CommandError;
 use super::output::{Form, Output};
-use super::{config, play, record};
+use super::{config, play, record, stderr};
 use crate::preset::{Catalog, Origin, is_path};
 use crate::record::ScriptRunner;
 use crate::shell::{self, Ending, LabError, Options, Request, SessionError, options};
@@ -58,6 +59,9 @@ pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), C
         // a session is resumed only if there is one; here there is none yet, or none that can be resumed
         request.resume = false;
         ended = shell::run(&request);
+    }
+    if matches!(ended, Ok(Ending::Quit)) && std::io::stderr().is_terminal() {
+        stderr::tell("`phaselab --resume` takes up where you left");
     }
     how_it_ended(ended)
 }

@@ -82,7 +82,7 @@ fn heading(entry: &Entry) -> (usize, &'static str) {
     let number = entry.info.chapter.split('.').next().and_then(|first| first.parse().ok());
     match number.and_then(|n: usize| Some((n, *CHAPTERS.get(n)?))) {
         Some(chapter) => chapter,
-        None => (CHAPTERS.len(), "Beyond the notes"),
+        None => (CHAPTERS.len(), "Further systems"),
     }
 }
 

@@ -46,6 +46,18 @@ impl Trail {
         self.len() == 0
     }
 
+    /// The row at an index, counted from the oldest.
+    pub fn row(&self, index: usize) -> Option<&[f64]> {
+        let mut from = index.checked_mul(self.width)?;
+        for chunk in self.sealed.iter().chain(std::iter::once(&self.open)) {
+            if from < chunk.len() {
+                return chunk.get(from..from + self.width);
+            }
+            from -= chunk.len();
+        }
+        None
+    }
+
     /// The rows, the oldest first: `row[0]` is the time, `row[1 + channel]` a channel's value.
     pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[f64]> {
         let width = self.width.max(1);

@@ -78,7 +78,9 @@ impl Instrument for Phase {
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let title = plot.title(present.physics);
         Some(Heading {
-            title: title.unwrap_or("Phase").to_owned(),
+            title: title
+                .unwrap_or(if plot.is_plane(present.physics) { "Plane" } else { "Phase" })
+                .to_owned(),
             given: title.is_some(),
             entries: vec![
                 Entry::Channel(plot.column(0)?),

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::table::is_view_of;
 use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, named};
 use crate::model::Model;
-use crate::system::Channel;
+use crate::system::{Channel, ChannelKind};
 
 /// The channels of each axis, in the order of the axes.
 pub type Columns = Vec<Vec<usize>>;
@@ -88,7 +88,7 @@ impl Plot {
         let of_file = views.filter_map(|view| Self::of_view(physics, view));
         let of_every = INSTRUMENTS.into_iter().flat_map(|kind| {
             let all = kind.opening(physics).into_iter();
-            all.map(move |columns| Self::new(kind, (columns, None), physics.model))
+            all.map(move |columns| Self::new(kind, (columns, None), physics.model).opened(physics))
         });
         for plot in of_file.chain(of_every) {
             if !plots.iter().any(|p| p.shows_the_same(&plot, physics.model)) {
@@ -111,7 +111,32 @@ impl Plot {
             .collect();
         let whole = columns.iter().all(|column| !column.is_empty());
         let view = chosen.is_empty().then_some(index);
-        whole.then(|| Self::new(kind, (columns, view), physics.model))
+        whole.then(|| Self::new(kind, (columns, view), physics.model).opened(physics))
+    }
+
+    /// The same plot as it is first shown: a plane has equal units.
+    #[must_use]
+    pub fn opened(mut self, physics: Physics<'_>) -> Self {
+        let equal = self.is_plane(physics);
+        if let Some(viewport) = self.viewport_mut() {
+            viewport.equal = equal;
+        }
+        self
+    }
+
+    /// Whether it shows places in a plane: two coordinates, or two observed quantities, of the same unit.
+    pub fn is_plane(&self, physics: Physics<'_>) -> bool {
+        let place = |axis: usize| {
+            let channel = physics.system.channels().get(self.column(axis)?)?;
+            let observed =
+                matches!(channel.kind, ChannelKind::Observable(_) | ChannelKind::Expression);
+            let placed = matches!(channel.kind, ChannelKind::Position(_));
+            (placed || observed && !channel.unit.is_empty()).then_some((placed, &channel.unit))
+        };
+        let places = (place(0), place(1));
+        self.kind.has_equal_axes()
+            && self.column(0) != self.column(1)
+            && matches!(places, (Some(x), Some(y)) if x == y)
     }
 
     /// The only channel, or the first, of an axis.
@@ -230,7 +255,9 @@ impl Plot {
     pub fn home(&mut self, model: &Model) {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
-            Sight::Axes(_) => Sight::Axes(Viewport::WHOLE),
+            Sight::Axes(viewport) => {
+                Sight::Axes(Viewport { equal: viewport.equal, ..Viewport::WHOLE })
+            }
         };
     }
 }

@@ -117,10 +117,10 @@ pub struct Axis {
 impl Axis {
     /// One quantity on the horizontal axis.
     pub const ACROSS: Self =
-        Self { key: "x", heading: "Along the axis", several: false, coordinate: false };
+        Self { key: "x", heading: "Horizontal axis", several: false, coordinate: false };
     /// One quantity on the vertical axis.
     pub const UPWARDS: Self =
-        Self { key: "y", heading: "Upwards", several: false, coordinate: false };
+        Self { key: "y", heading: "Vertical axis", several: false, coordinate: false };
 }
 
 /// A choice for the contents of a pane.

@@ -201,7 +201,7 @@ impl Scope {
     }
 
     fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
-        let error = SyntaxError::new(span, format!("the name `{name}` is not known here"));
+        let error = SyntaxError::new(span, format!("unknown name `{name}`"));
         if self.mistakes.len() >= MOST_MISTAKES {
             return error;
         }

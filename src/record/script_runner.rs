@@ -20,7 +20,7 @@ use crate::app::{Drawn, Event, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
 use crate::view::caption::{self, Caption};
-use crate::view::{self, RenderStyle};
+use crate::view::{Painter, RenderStyle};
 
 /// How long a key is shown beside the caption.
 const KEY_SHOWN: Micros = 1_200_000;
@@ -46,6 +46,7 @@ pub struct ScriptRunner {
     keys: Vec<ShownKey>,
     /// The size of the screen when it was last drawn.
     size: Size,
+    painter: Painter,
 }
 
 /// The unfinished part of a step.
@@ -110,6 +111,7 @@ impl ScriptRunner {
             caption: String::new(),
             keys: Vec::new(),
             size,
+            painter: Painter::default(),
         })
     }
 
@@ -358,7 +360,9 @@ impl ScriptRunner {
     /// Draws the current state, and reports the result to the application.
     pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
         self.size = area.as_size();
-        let drawn = self.paint(style, area, buffer);
+        let mut painter = std::mem::take(&mut self.painter);
+        let drawn = self.paint(&mut painter, style, area, buffer);
+        self.painter = painter;
         self.lab.happen(Event::Drawn(drawn));
         drawn
     }
@@ -372,15 +376,21 @@ impl ScriptRunner {
     pub fn picture(&self, style: &RenderStyle) -> Buffer {
         let area = Rect::from(self.size);
         let mut buffer = Buffer::empty(area);
-        self.paint(style, area, &mut buffer);
+        self.paint(&mut Painter::default(), style, area, &mut buffer);
         buffer
     }
 
     /// Draws the lab, and the caption below it.
-    fn paint(&self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
+    fn paint(
+        &self,
+        painter: &mut Painter,
+        style: &RenderStyle,
+        area: Rect,
+        buffer: &mut Buffer,
+    ) -> Drawn {
         let rows = self.caption_rows(area.width).min(area.height);
         let height = area.height - rows;
-        let drawn = view::draw(&self.lab.app, style, Rect { height, ..area }, buffer);
+        let drawn = painter.draw(&self.lab.app, style, Rect { height, ..area }, buffer);
         if rows > 0 {
             let below = Rect { y: area.y + height, height: rows, ..area };
             let written = |key: &ShownKey| match key.count {

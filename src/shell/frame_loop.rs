@@ -33,6 +33,11 @@ pub trait Screen {
     /// Advances the time to the next frame. Returns whether anything visible has changed.
     fn advance(&mut self, elapsed: Duration) -> bool;
 
+    /// How long nothing visible will change without input, if that is known; until then no frame is asked for.
+    fn rest(&self) -> Option<Duration> {
+        None
+    }
+
     /// Draws on a blank area. Returns the position of the terminal's cursor, or `None` to hide it.
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position>;
 
@@ -162,6 +167,9 @@ impl<E: EventSource> FrameLoop<'_, E> {
                 // Even if the size is the same again, the terminal may have lost its contents.
                 self.screen.forget();
             }
+            if pending.stop || pending.resumed || pending.resized {
+                due = due.min(Instant::now());
+            }
             while let Some(event) = self.events.next(Instant::now()) {
                 changed = true;
                 due = due.min(self.governor.soon(Instant::now()));
@@ -183,6 +191,9 @@ impl<E: EventSource> FrameLoop<'_, E> {
                 let bytes = if changed { self.frame(page)? } else { 0 };
                 changed = self.count(bytes, page);
                 (last, due) = (now, self.governor.due());
+                if let (false, Some(rest)) = (changed, page.rest()) {
+                    due = due.max(now + rest);
+                }
             }
             self.send()?;
             if page.is_done() && !changed && !self.queue.is_busy() {

@@ -10,7 +10,7 @@ use tracing::{error, info};
 use super::cast_player::CastPlayer;
 use super::demo::Demo;
 use super::diagnosis::diagnosis;
-use super::frame_loop::{Ending, perform};
+use super::frame_loop::{Ending, Pace, perform};
 use super::log::Log;
 use super::regular;
 use super::request::{LabError, Request};
@@ -84,7 +84,9 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
 pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    perform(&mut CastPlayer::new(cast, request.look(&variable)), request.pace(&variable))
+    // Nothing in a cast can be clicked, and its text can be selected.
+    let pace = Pace { mouse: false, ..request.pace(&variable) };
+    perform(&mut CastPlayer::new(cast, request.look(&variable)), pace)
 }
 
 /// Performs a demo on the terminal until it ends or the user leaves it. Returns its last picture as text with
@@ -101,7 +103,8 @@ pub fn perform_demo(
     let look = request.look(&variable);
     let palette = look.theme.palette();
     let mut demo = Demo::new(performance, look);
-    let ending = perform(&mut demo, request.pace(&variable))?;
+    let pace = Pace { mouse: false, ..request.pace(&variable) };
+    let ending = perform(&mut demo, pace)?;
     let text = |picture| screenshot::write(&picture, palette, screenshot::Form::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
 }

@@ -61,11 +61,11 @@ pub struct Options {
     #[arg(long, short, value_name = "WORD", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "off", default_missing_value = "state")]
     pub log: LogTarget,
-    /// Use the mouse from the beginning; in the lab M switches it on and off.
+    /// Use the mouse from the beginning; false leaves it to the terminal to select text. M switches in the lab.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, hide_possible_values = true)]
-    #[arg(default_value = "false", default_missing_value = "true", value_name = SWITCH)]
+    #[arg(default_value = "true", default_missing_value = "true", value_name = SWITCH)]
     pub mouse: bool,
-    /// Leave out the marks round each frame, for a terminal that shows them.
+    /// Disable synchronized output, for a terminal that shows its marks.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, hide_possible_values = true)]
     #[arg(default_value = "false", default_missing_value = "true", value_name = SWITCH)]
     pub no_sync: bool,
@@ -349,7 +349,7 @@ mod tests {
         let options = Options::from_arg_matches(&matches.expect("good words")).expect("options");
         assert_eq!(options.glyphs, GlyphSet::Half);
         assert_eq!(options.fps, Auto::Is(Frames(20)));
-        assert_eq!((options.color, options.mouse), (Color::True, false));
+        assert_eq!((options.color, options.mouse), (Color::True, true));
         assert!(options.no_sync, "an empty variable says nothing");
     }
 

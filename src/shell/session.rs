@@ -25,8 +25,8 @@ use super::request::Request;
 use super::store::{Store, StoreError};
 use super::writer::{WriteReport, Writer};
 use crate::app::{
-    App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Saved,
-    Unsaved,
+    App, Asker, Checked, Computation, Effect, Event, LoadError, Loaded, Notification, Overlay,
+    Saved, Unsaved,
 };
 use crate::diagnostic::Document;
 use crate::experiment::{Export, Prepared, Snapshot, Status};
@@ -36,7 +36,7 @@ use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{PALETTES, Palette, Theme};
-use crate::view::{self, Detail, RenderStyle};
+use crate::view::{self, Detail, Painter, RenderStyle};
 use crate::worker::{Side, Worker};
 
 /// The running laboratory.
@@ -66,6 +66,10 @@ pub(super) struct Session {
     fault: Option<String>,
     /// The recording under way, if there is one.
     recorder: Option<Recorder>,
+    /// What draws the screen, and keeps what does not change.
+    painter: Painter,
+    /// How long nothing visible has changed.
+    still: Duration,
     /// The screen's size when it was last drawn.
     size: Size,
     /// The result of saving at the end.
@@ -84,6 +88,11 @@ pub(super) struct Left {
 const SAVING: Duration = Duration::from_secs(15);
 const TEXTS: Duration = Duration::from_secs(1);
 const TAKING_OVER: Duration = Duration::from_secs(1);
+
+/// How long nothing has to change before the page rests, and how long it rests then, with a watched file or without.
+const SETTLED: Duration = Duration::from_millis(500);
+const WATCHING: Duration = Duration::from_millis(250);
+const RESTING: Duration = Duration::from_secs(1);
 
 /// How long to wait for the disk at the end: at a normal exit; at a forced exit with unsaved texts, which could not
 /// be recovered; and at any other forced exit.
@@ -134,6 +143,8 @@ impl Session {
             warning: None,
             fault: None,
             recorder: None,
+            painter: Painter::default(),
+            still: Duration::ZERO,
             size: Size::default(),
             left: None,
         };
@@ -639,7 +650,22 @@ impl Screen for Session {
             TerminalEvent::FocusLost => Event::Focus(false),
             TerminalEvent::Resize(columns, rows) => Event::Resize(columns, rows),
         };
+        self.still = Duration::ZERO;
         self.update(event)
+    }
+
+    /// Nothing changes while time is paused and nobody is at work. Whatever comes later all the same, such as the text
+    /// of a watched file, is looked for now and then.
+    fn rest(&self) -> Option<Duration> {
+        let app = &self.app;
+        let paused = app.snapshot().is_some_and(|snapshot| snapshot.status != Status::Running);
+        let awaited = app.loading().is_some()
+            || app.notice.is_some()
+            || self.writer.is_busy()
+            || self.sides.values().any(Side::is_busy);
+        let editing = matches!(app.overlay, Some(Overlay::Workbench));
+        let rests = self.still >= SETTLED && paused && !awaited && !editing;
+        rests.then_some(if self.watch.is_some() { WATCHING } else { RESTING })
     }
 
     /// The passing of time changes nothing visible by itself, except that a notification disappears.
@@ -676,13 +702,14 @@ impl Screen for Session {
             self.update(Event::Snapshot(snapshot));
             changed = true;
         }
+        self.still = if changed { Duration::ZERO } else { self.still.saturating_add(elapsed) };
         changed
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let reduced = (self.detail != Detail::default()).then(|| self.look.reduced(self.detail));
         let look = reduced.as_ref().unwrap_or(&self.look);
-        let drawn = view::draw(&self.app, look, area, buffer);
+        let drawn = self.painter.draw(&self.app, look, area, buffer);
         self.size = area.as_size();
         if let Some(recorder) = &mut self.recorder
             && let Err(why) = recorder.take(buffer)

@@ -45,6 +45,11 @@ impl Writer {
         Ok(())
     }
 
+    /// Whether a file is being written.
+    pub(super) fn is_busy(&self) -> bool {
+        self.side.is_busy()
+    }
+
     /// Returns the outcome as soon as there is one.
     pub(super) fn take(&mut self) -> Option<WriteReport> {
         self.side.take().and_then(|(_, outcome)| report(outcome))

@@ -11,6 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::RenderStyle;
 use super::colour::ColourDepth;
+use super::kept::Kept;
 use super::region::Region;
 use super::theme::Role;
 use crate::app::HitTarget;
@@ -24,6 +25,8 @@ pub(super) struct Canvas<'a> {
     pub(super) regions: Option<Vec<(Rect, Region)>>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
+    /// What is kept from the last frame.
+    pub(super) kept: Kept,
 }
 
 /// A styled piece of a row.
@@ -32,7 +35,7 @@ pub(super) type Span = (String, Style);
 impl<'a> Canvas<'a> {
     /// Creates a canvas that draws on `buffer`.
     pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
-        Self { buffer, look, regions: None, cursor: None }
+        Self { buffer, look, regions: None, cursor: None, kept: Kept::default() }
     }
 }
 

@@ -4,6 +4,7 @@
 
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
 use super::glyphs::Glyphs;
@@ -18,10 +19,15 @@ use crate::analysis::{Growth, Verdict};
 use crate::app::HitTarget;
 use crate::experiment::{Gauge, Snapshot};
 
-/// The widths, in columns, of a verdict, a drift and a value.
-const VERDICT: u16 = 7;
-const DRIFT: u16 = 8;
+/// The widths, in columns, of a verdict in a word and in full, of a drift and of a value.
+const VERDICT: u16 = 8;
+const IN_FULL: u16 = 17;
+const DRIFT: u16 = 9;
 const VALUE: u16 = 9;
+
+/// The widths of a drift and of a value in a single row.
+const SHORT_DRIFT: u16 = 8;
+const SHORT_VALUE: u16 = 8;
 
 /// The greatest width of a history.
 const HISTORY: u16 = 24;
@@ -29,9 +35,9 @@ const HISTORY: u16 = 24;
 /// The least width at which the columns get headings.
 const HEADED: u16 = 34;
 
-/// The range of drifts shown by the sparkline's height.
+/// The least drift that the sparkline shows, and the least ratio between the ends of its scale.
 const FLOOR: f64 = 1e-17;
-const CEILING: f64 = 1.0;
+const LEAST_RATIO: f64 = 100.0;
 
 /// Draws the gauges around the selected one: two rows for each if there is room, else one.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
@@ -81,7 +87,9 @@ fn reason_below(
     count: usize,
     gauge: &Gauge,
 ) -> (Rect, Vec<String>) {
-    let text = format!("{}; {}", gauge.reason, finding(gauge, canvas.look.glyphs));
+    let glyphs = canvas.look.glyphs;
+    let reason = number::with_minus_signs(&gauge.reason, glyphs);
+    let text = format!("{reason}; {}", finding(gauge, glyphs));
     let lines = words(&canvas.text(&text), usize::from(area.width.saturating_sub(3)));
     let spare = usize::from(area.height).saturating_sub(count.min(MOST_ABOVE));
     if lines.len() > spare {
@@ -96,28 +104,39 @@ const MOST_ABOVE: usize = 3;
 /// Writes the headings of the columns.
 fn heads(canvas: &mut Canvas<'_>, area: Rect, height: usize) {
     let verdict = area.width.saturating_sub(VERDICT);
-    canvas.left(columns(area, verdict, VERDICT), Role::Dim, "verdict");
+    canvas.right(columns(area, verdict, VERDICT), Role::Dim, "verdict");
     if height == 2 {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
         canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "drift");
     } else {
-        let drift = verdict.saturating_sub(DRIFT + 1);
-        canvas.right(columns(area, drift, DRIFT), Role::Dim, "drift");
-        let value = drift.saturating_sub(VALUE + 1);
-        canvas.right(columns(area, value, VALUE), Role::Dim, "value");
+        let drift = verdict.saturating_sub(SHORT_DRIFT + 1);
+        canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "drift");
+        let value = drift.saturating_sub(SHORT_VALUE + 1);
+        canvas.right(columns(area, value, SHORT_VALUE), Role::Dim, "value");
     }
 }
 
+/// A verdict in full, and its role.
+pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
+    let (word, role) = word(verdict);
+    let words = match verdict {
+        Verdict::Exact(_) => "conserved (exact)",
+        Verdict::Broken(_) => "not conserved",
+        _ => word,
+    };
+    (words, role)
+}
+
 /// The word for a verdict, short enough for a column, and its role.
-pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
+fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
         Verdict::Open => ("…", Role::Dim),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
         Verdict::Exact(Growth::Faster) => ("exact", Role::Warn),
         Verdict::Bounded => ("bounded", Role::Good),
-        Verdict::Secular(_) => ("secular", Role::Bad),
+        Verdict::Secular(_) => ("drifting", Role::Bad),
         Verdict::Lost => ("lost", Role::Bad),
-        Verdict::Broken(_) => ("broken", Role::Warn),
+        Verdict::Broken(_) => ("varies", Role::Warn),
     }
 }
 
@@ -133,13 +152,13 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
     let drift = gauge.max_drift;
     let drift = match drift {
         0.01..10.0 => format!("{:.0} %", 100.0 * drift),
-        _ => number::drift(drift),
+        _ => number::drift(drift, glyphs),
     };
     Some((role, format!("! {name} {word} {drift}")))
 }
 
 /// A sentence that explains a verdict.
-fn sentence(verdict: &Verdict) -> String {
+fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
         Verdict::Open => "too short a motion to tell".to_owned(),
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
@@ -151,7 +170,10 @@ fn sentence(verdict: &Verdict) -> String {
         }
         Verdict::Bounded => "swings without trend, as under a symplectic method".to_owned(),
         Verdict::Secular(slope) => {
-            format!("grows by {} per unit of time: the method eats it", number::drift(*slope))
+            format!(
+                "grows by {} per unit of time, an error of the method",
+                number::drift(*slope, glyphs)
+            )
         }
         Verdict::Lost => "has left its value by more than a tenth of what moves".to_owned(),
         Verdict::Broken(law) => format!("not conserved, by the physics: {law}"),
@@ -160,10 +182,19 @@ fn sentence(verdict: &Verdict) -> String {
 
 /// Draws the name, the reason for its conservation and, at the right, the verdict.
 fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
-    verdict(canvas, columns(area, area.width.saturating_sub(VERDICT), VERDICT), gauge);
-    let area = columns(area, 0, area.width.saturating_sub(VERDICT + 1));
-    let used = name(canvas, area, gauge, here);
-    canvas.left(columns(area, used + 2, area.width), Role::Dim, &gauge.reason);
+    let full = area.width >= HEADED - 3;
+    let words = if full { in_full(&gauge.verdict) } else { word(&gauge.verdict) };
+    let room = if full { IN_FULL + 2 } else { VERDICT };
+    let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);
+    let area = columns(area, 0, area.width.saturating_sub(used + 1));
+    let used = name(canvas, area, gauge, here) + 2;
+    // A reason is shown whole, or in a word.
+    let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
+    let proved = if gauge.proved { "proved" } else { "" };
+    let room = usize::from(area.width.saturating_sub(used));
+    if let Some(reason) = [&*reason, proved].into_iter().find(|text| text.width() <= room) {
+        canvas.left(columns(area, used, area.width), Role::Dim, reason);
+    }
 }
 
 /// Draws value, drift, and the history of the drift on a logarithmic scale.
@@ -173,9 +204,12 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
     let sparkline = columns(area, area.width.saturating_sub(room.min(HISTORY)), HISTORY);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
+    let shown = || values.iter().copied().filter(|drift| *drift >= FLOOR && drift.is_finite());
+    let most = shown().fold(FLOOR * LEAST_RATIO, f64::max);
+    let least = shown().fold(most / LEAST_RATIO, f64::min);
     let history = History {
         values: &values,
-        scale: Scale::log(FLOOR, CEILING),
+        scale: Scale::log(least, most),
         style: canvas.style(drift_role(gauge)),
         glyphs: canvas.look.glyphs,
     };
@@ -185,22 +219,24 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
 /// Draws name, value, drift and verdict in a single row.
 fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
     let at = area.width.saturating_sub(VERDICT);
-    verdict(canvas, columns(area, at, VERDICT), gauge);
-    let at = at.saturating_sub(DRIFT + 1);
-    drift(canvas, columns(area, at, DRIFT), gauge);
-    let at = at.saturating_sub(VALUE + 1);
-    value(canvas, columns(area, at, VALUE), gauge, 4);
+    verdict(canvas, columns(area, at, VERDICT), gauge, word(&gauge.verdict));
+    let at = at.saturating_sub(SHORT_DRIFT + 1);
+    drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
+    let at = at.saturating_sub(SHORT_VALUE + 1);
+    value(canvas, columns(area, at, SHORT_VALUE), gauge, 4);
     name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
 }
 
-/// Draws the word for the verdict, followed by a sign if impulses have changed the value.
-fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    let (text, role) = word(&gauge.verdict);
-    let used = canvas.left(area, role, text);
-    if given_by_impulses(gauge).is_some() && used + 2 <= area.width {
-        let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
-        canvas.left(columns(area, used + 1, 1), Role::Warn, &sign);
+/// Draws the words for the verdict at the right, after a sign if impulses have changed the value. Returns the number of
+/// columns used.
+fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, (text, role): (&str, Role)) -> u16 {
+    let used = canvas.right(area, role, text);
+    if given_by_impulses(gauge).is_none() || used + 2 > area.width {
+        return used;
     }
+    let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
+    canvas.left(columns(area, area.width - used - 2, 1), Role::Warn, &sign);
+    used + 2
 }
 
 /// The change of the value by impulses since the reference was taken, or `None` if it is within rounding.
@@ -214,7 +250,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Describes a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
-    let sentence = sentence(&gauge.verdict);
+    let sentence = sentence(&gauge.verdict, glyphs);
     match given_by_impulses(gauge) {
         None => sentence,
         Some(given) => {
@@ -234,7 +270,8 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    canvas.right(area, drift_role(gauge), &number::drift(gauge.drift));
+    let text = number::drift_in(gauge.drift, area.width.into(), canvas.look.glyphs);
+    canvas.right(area, drift_role(gauge), &text);
 }
 
 /// The role of a drift: a change with a physical cause is not an error of the method.

@@ -257,7 +257,7 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
 /// What ended the motion, and how to continue.
 fn ended(snapshot: &Snapshot) -> Option<String> {
     let Status::Ended(event) = &snapshot.status else { return None };
-    Some(format!("{event} ended the motion: r begins it again"))
+    Some(format!("finished by {event}: r to restart"))
 }
 
 /// The meaning, unit and range of the selected item.

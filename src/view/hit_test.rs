@@ -23,7 +23,8 @@ pub struct HitMap {
 /// Collects the regions of an application's screen.
 pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
     let mut buffer = Buffer::empty(area);
-    let mut canvas = Canvas { buffer: &mut buffer, look, regions: Some(Vec::new()), cursor: None };
+    let mut canvas = Canvas::over(&mut buffer, look);
+    canvas.regions = Some(Vec::new());
     paint(&mut canvas, app, area);
     HitMap { regions: canvas.regions.unwrap_or_default(), hold: app.hold }
 }

@@ -5,13 +5,14 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, Span, columns, row, wide};
 use super::layout::{Slot, panes};
 use super::number::brief;
 use super::quantity::Quantities;
 use super::region::Region;
+use super::text_page::draw_rows;
 use super::theme::Role;
-use super::values::Values;
+use super::values::{Values, window};
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, picture};
 use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, ValueId};
@@ -23,9 +24,18 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
         Some(Overlay::Field(field)) => Some(field),
         _ => None,
     };
-    for (slot, place) in panes(area, lab) {
+    let slots = panes(area, lab);
+    let shown: Vec<usize> = slots.iter().filter_map(|(slot, _)| slot.plot()).collect();
+    for (slot, place) in slots {
         match slot {
-            Slot::Pane(Pane::Plot(index)) => plot(canvas, place, lab, index),
+            Slot::Pane(Pane::Plot(index)) => {
+                // The last picture takes turns with those that have no slot.
+                let here = |other: &usize| *other == index || !shown.contains(other);
+                let last = shown.last() == Some(&index);
+                let sharing: Vec<usize> =
+                    (0..lab.plots.len()).filter(here).take_while(|_| last).collect();
+                plot(canvas, place, lab, (index, &sharing));
+            }
             Slot::Pane(pane) => {
                 let mut title = vec![canvas.span(Role::Title, name(pane))];
                 if pane == Pane::Gauges {
@@ -48,7 +58,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
             Slot::Law => {
                 let title = [canvas.span(Role::Title, "Law of motion")];
                 let inner = canvas.pane(place, &title, false);
-                equations::law(lab, canvas.look).draw(canvas, inner, 0);
+                let mut kept = std::mem::take(&mut canvas.kept);
+                let rows = kept.law(&lab.loaded.equations, inner.width, || {
+                    equations::law(lab, canvas.look).laid_out(canvas, inner.width)
+                });
+                draw_rows(canvas, inner, 0, rows);
+                canvas.kept = kept;
             }
         }
     }
@@ -112,6 +127,7 @@ fn list(
     let inner = canvas.pane(area, title, focused);
     canvas.target(area, HitTarget::Pane(pane));
     let values = |kind, selected| Values { lab, kind, selected, focused, field };
+    beyond(canvas, area, lab, pane);
     match pane {
         Pane::Parameters => {
             values(ValueId::Parameter, lab.selection.parameter).draw(canvas, inner);
@@ -126,7 +142,36 @@ fn list(
     }
 }
 
-fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
+/// Says in the lower border of a list how many of its lines are out of sight.
+fn beyond(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, pane: Pane) {
+    let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len());
+    let (count, selected) = match pane {
+        Pane::Parameters => (lab.count(ValueId::Parameter), lab.selection.parameter),
+        Pane::Initial => (lab.count(ValueId::Initial), lab.selection.initial),
+        Pane::Gauges => (gauges, lab.selection.gauge),
+        Pane::Plot(_) => return,
+    };
+    let rows = usize::from(area.height.saturating_sub(2));
+    let hidden = count.saturating_sub(rows);
+    if hidden == 0 || area.width < 16 {
+        return;
+    }
+    let above = window(selected, count, rows);
+    let glyphs = canvas.look.glyphs;
+    let mut parts = Vec::new();
+    if above > 0 {
+        parts.push(format!("+{above} {}", glyphs.pick("↑", "up")));
+    }
+    if hidden > above {
+        parts.push(format!("+{} {}", hidden - above, glyphs.pick("↓", "down")));
+    }
+    let border = row(area, usize::from(area.height - 1));
+    let place = columns(border, 2, border.width.saturating_sub(4));
+    canvas.right(place, Role::Dim, &format!(" {} ", parts.join(" ")));
+}
+
+/// Draws a picture; `sharing` are the pictures that take turns in its frame.
+fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize, &[usize])) {
     let focused = lab.focus == Pane::Plot(index);
     let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.look)) else {
         canvas.pane(area, &[], focused);
@@ -134,12 +179,29 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, index: usize) {
     };
     // Between the corners, with a blank at each side.
     let room = usize::from(area.width.saturating_sub(6));
-    let mut title = picture::title(canvas, &q, plot, room);
+    let tabs = picture::tabs(canvas, &q, (index, sharing), room);
+    let mut title = match tabs {
+        Some(tabs) => {
+            let used = wide(&tabs) + 1;
+            let own = picture::title(canvas, &q, plot, room.saturating_sub(used));
+            let label = picture::label(&q, plot);
+            let rest = own.into_iter().filter(|(text, _)| text.trim() != label);
+            let gap = canvas.span(Role::Dim, "  ");
+            let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();
+            // Values are shown beside tabs where all of them fit.
+            if wide(&whole) <= room { whole } else { tabs }
+        }
+        None => picture::title(canvas, &q, plot, room),
+    };
     if let Some((role, _)) = gauges::departed(q.snapshot, canvas.look.glyphs) {
         title.insert(0, canvas.span(role, "! "));
     }
     let inner = canvas.pane(area, &title, focused);
     canvas.target(area, HitTarget::Pane(Pane::Plot(index)));
+    if sharing.len() > 1 {
+        let panes: Vec<Pane> = sharing.iter().copied().map(Pane::Plot).collect();
+        tab_targets(canvas, area, &title, &panes);
+    }
     match picture::draw(canvas, inner, &q, plot) {
         Some(frame) => canvas.region(frame.area, Region::Plot(index, frame)),
         None if plot.kind.is_scene() => canvas.region(inner, Region::Space(index)),

@@ -48,6 +48,16 @@ pub(super) enum Slot {
     Law,
 }
 
+impl Slot {
+    /// The index of the picture in it, if it has one.
+    pub(super) fn plot(self) -> Option<usize> {
+        match self {
+            Self::Pane(Pane::Plot(index)) => Some(index),
+            _ => None,
+        }
+    }
+}
+
 /// The areas of the lab's panes.
 pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let Rect { width, height, .. } = area;
@@ -70,6 +80,10 @@ pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 
 /// Rows for the reason of the selected gauge.
 const REASON: u16 = 3;
+
+/// The least rows of a list and of the law of motion, with their frames.
+const SHORTEST: u16 = 4;
+const LAW: u16 = 6;
 
 /// Places plots at the left and lists in a column at the right.
 fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
@@ -119,16 +133,22 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         lab.count(ValueId::Initial) as u16 + 2,
         2 * gauges.max(1) + 3 + REASON,
     ];
-    let mut heights = wants.map(|want| want.max(4));
+    let mut heights = wants.map(|want| want.max(SHORTEST));
     let mut total: u16 = heights.iter().sum();
-    while total > area.height {
+    while total + LAW > area.height && heights.iter().any(|height| *height > SHORTEST) {
         // The tallest list shrinks first.
         let tallest = (0..3).max_by_key(|&i| heights[i]).unwrap_or(0);
         heights[tallest] -= 1;
         total -= 1;
     }
-    let spare = area.height - total;
-    let law = spare >= 6;
+    // What two rows a gauge are not enough for is left to the law.
+    let focused = if lab.focus == Pane::Gauges { REASON } else { 0 };
+    if heights[2] < 2 * gauges + 3 {
+        heights[2] = heights[2].min((gauges + 3 + focused).max(SHORTEST));
+    }
+    let total: u16 = heights.iter().sum();
+    let spare = area.height.saturating_sub(total);
+    let law = spare >= LAW;
     if !law {
         heights[2] += spare;
     }
@@ -154,11 +174,24 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
     (longest.unwrap_or(0) + 1).clamp(2, 4)
 }
 
-/// The first `room` plots; a focused plot beyond them replaces the last.
+/// As many plots as there is room for, in their order; those against time come last and have the wide slots, where
+/// one of them replaces a phase portrait if there is none. The plot in front of the rest, which is focused or was last,
+/// takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
+    let kind = |index: &usize| lab.plots[*index].kind.name();
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
-    if let (Pane::Plot(focused), Some(last)) = (lab.focus, shown.last_mut()) {
-        *last = (*last).max(focused);
+    let against_time = (0..lab.plots.len()).find(|index| kind(index) == "time");
+    if let (Some(time), Some(last)) = (against_time.filter(|t| *t >= room), shown.get_mut(2..))
+        && let Some(last) = last.last_mut().filter(|last| kind(last) == "phase")
+    {
+        *last = time;
+    }
+    shown.sort_by_key(|index| kind(index) == "time");
+    if let (Some(front), Some(last)) = (lab.front, shown.len().checked_sub(1))
+        && front < lab.plots.len()
+        && !shown.contains(&front)
+    {
+        shown[last] = front;
     }
     shown.into_iter().map(Pane::Plot).collect()
 }

@@ -64,7 +64,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         }
     }
     if shown.is_empty() {
-        canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, "nothing fits what is typed");
+        canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, "no match");
     }
     if let Some((_, item)) = menu.current() {
         let (role, text) = match &item.refusal {

@@ -27,15 +27,45 @@ pub fn brief(value: f64, significant: usize, glyphs: Glyphs) -> String {
     format(value, significant, glyphs, true)
 }
 
-/// Formats the size of an error: two digits and an exponent (`3.1e-16`); an exact zero is `0`.
-pub fn drift(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else if value.is_finite() {
-        format!("{value:.1e}")
-    } else {
-        format(value, 2, Glyphs::Ascii, false)
+/// Formats a constant value in a column: like [`brief`], with as many of the digits as fit.
+pub fn brief_in(value: f64, significant: usize, width: usize, glyphs: Glyphs) -> String {
+    let mut texts = (1..=significant.max(1)).rev().map(|digits| brief(value, digits, glyphs));
+    texts.find(|text| text.width() <= width).unwrap_or_else(|| fitted(value, 1, width, glyphs))
+}
+
+/// Formats the size of an error: two digits and a power of ten (`3.1×10⁻¹⁶`); an exact zero is `0`.
+pub fn drift(value: f64, glyphs: Glyphs) -> String {
+    drift_in(value, usize::MAX, glyphs)
+}
+
+/// Formats the size of an error in a column: like [`drift`], with one digit if two do not fit.
+pub fn drift_in(value: f64, width: usize, glyphs: Glyphs) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format(value, 2, glyphs, false);
     }
+    let written = |digits: usize| {
+        let text = format!("{value:.digits$e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        times_power(mantissa, exponent.parse().unwrap_or(0), glyphs)
+    };
+    Some(written(1)).filter(|text| text.width() <= width).unwrap_or_else(|| written(0))
+}
+
+/// Replaces the hyphen before a number in a text by the minus sign of these glyphs.
+pub fn with_minus_signs(text: &str, glyphs: Glyphs) -> String {
+    if glyphs.is_ascii() {
+        return text.to_owned();
+    }
+    let mut before = ' ';
+    let mut characters = text.chars().peekable();
+    let mut out = String::with_capacity(text.len());
+    while let Some(character) = characters.next() {
+        let number = characters.peek().is_some_and(char::is_ascii_digit);
+        let joins = before.is_alphanumeric();
+        out.push(if character == '-' && number && !joins { '−' } else { character });
+        before = character;
+    }
+    out
 }
 
 /// Formats a power of ten as a factor: `×10⁻³`, or `x1e-3`.
@@ -74,7 +104,11 @@ fn format(value: f64, significant: usize, glyphs: Glyphs, trim: bool) -> String 
         let text = format!("{value:.decimals$}");
         return signed(if trim { trimmed(&text).to_owned() } else { text }, glyphs);
     }
-    let mantissa = if trim { trimmed(mantissa) } else { mantissa };
+    times_power(if trim { trimmed(mantissa) } else { mantissa }, exponent, glyphs)
+}
+
+/// Joins a mantissa and a power of ten.
+fn times_power(mantissa: &str, exponent: i32, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() {
         format!("{mantissa}e{exponent}")
     } else {

@@ -2,7 +2,7 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
-use super::gauges::word;
+use super::gauges::in_full;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
@@ -52,10 +52,10 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
-        let (text, role) = word(&gauge.verdict);
+        let (text, role) = in_full(&gauge.verdict);
         let rest = vec![
-            (Role::Dim, format!("  drift {:<8} ", drift(gauge.drift))),
-            (role, format!("{text:<9}")),
+            (Role::Dim, format!("  drift {:<9} ", drift(gauge.drift, glyphs))),
+            (role, format!("{text:<18}")),
             (Role::Dim, gauge.reason.clone()),
         ];
         page.value(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "", rest);

@@ -8,10 +8,11 @@ use ratatui::style::Style;
 
 use super::canvas::{Canvas, Span, groups, wide};
 use super::colour::ColourDepth;
+use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
 use super::number::readable;
 use super::plot::ticks::nice_range;
-use super::plot::{Axes, Axis, Frame, Marker, Pen, Raster, Scale};
+use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::{cursor, space};
@@ -19,9 +20,13 @@ use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
 };
+use crate::num::math;
 
-/// The length of a time window in seconds of the wall clock, at the file's own speed.
+/// The greatest length of a time window in seconds of the wall clock, at the file's own speed.
 const SECONDS: f64 = 20.0;
+
+/// How often the length of a time window is doubled until it is the greatest.
+const DOUBLINGS: i32 = 3;
 
 /// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
 const CROWDED: [f64; 2] = [0.25, 0.35];
@@ -52,6 +57,44 @@ pub(super) fn title(
         pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {status}"))]);
     }
     groups(pieces, room)
+}
+
+/// The name of a picture in a row of tabs.
+pub(super) fn label(q: &Quantities<'_>, plot: &Plot) -> String {
+    let heading = plot.kind.heading(plot, &q.present());
+    heading.map_or_else(|| "Picture".to_owned(), |heading| heading.title)
+}
+
+/// The names of the pictures that take turns in a frame, with a line between neighbours; names that occur twice are
+/// followed by the first quantity. If they do not fit, the place of the shown one among all; `None` if it is alone.
+pub(super) fn tabs(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    (shown, sharing): (usize, &[usize]),
+    room: usize,
+) -> Option<Vec<Span>> {
+    if sharing.len() < 2 {
+        return None;
+    }
+    let plots = || sharing.iter().filter_map(|index| Some((*index, q.lab.plots.get(*index)?)));
+    let labels: Vec<String> = plots().map(|(_, plot)| label(q, plot)).collect();
+    let mut spans = Vec::new();
+    for ((index, plot), label) in plots().zip(&labels) {
+        if !spans.is_empty() {
+            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
+        }
+        let alike = labels.iter().filter(|other| *other == label).count() > 1;
+        let first = plot.column(0).filter(|_| alike);
+        let label = first.map_or_else(|| label.clone(), |c| format!("{label} {}", q.name(c)));
+        spans.push(canvas.span(if index == shown { Role::Title } else { Role::Dim }, label));
+    }
+    if wide(&spans) <= room {
+        return Some(spans);
+    }
+    let place = sharing.iter().position(|index| *index == shown)? + 1;
+    let own = label(q, q.lab.plots.get(shown)?);
+    let counted = canvas.span(Role::Dim, format!(" {place}/{}", sharing.len()));
+    Some(vec![canvas.span(Role::Title, own), counted])
 }
 
 /// An entry of a heading other than a curve.
@@ -101,7 +144,7 @@ fn keys(
         let others = heading.entries.iter().filter(|entry| !matches!(entry, Entry::Curve(..)));
         let others = others.map(|entry| piece(canvas, q, entry)).collect();
         [vec![head], valued, others].concat()
-    } else if heading.given {
+    } else if heading.given || wide(&[head.clone(), named.concat()].concat()) <= room {
         [vec![head], named].concat()
     } else {
         // The names of the curves have priority over the name of the picture.
@@ -135,7 +178,9 @@ pub(super) fn draw(
     let across = match plot.kind.across(plot, &present, answer) {
         Across::Nothing => None,
         Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
-        Across::Time => Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport))),
+        Across::Time => {
+            Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport, 1)))
+        }
     };
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
     let (upwards, layers, occurrences) = match plot.kind.picture(plot, &present, seen, answer)? {
@@ -147,7 +192,11 @@ pub(super) fn draw(
     };
     let look = canvas.look;
     let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
-    let axes = if viewport.equal { axes.equal() } else { axes };
+    let mut axes = if viewport.equal { axes.equal() } else { axes };
+    if let Across::Time = plot.kind.across(plot, &present, answer) {
+        let cells = axes.frame(area, look.glyphs).area.width;
+        axes.x.scale = window(q, viewport, cells);
+    }
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
     for (level, layer) in &layers {
@@ -180,27 +229,45 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Ax
 }
 
 fn draw_layer(
-    canvas: &Canvas<'_>,
+    canvas: &mut Canvas<'_>,
     raster: &mut Raster,
     (frame, q): (&Frame, &Quantities<'_>),
     (level, layer): (Level, &Layer),
 ) {
     let look = canvas.look;
     match layer {
-        Layer::Landscape(landscape) => levels(canvas, raster, frame, landscape, level),
+        Layer::Landscape(landscape) => {
+            let mut kept = std::mem::take(&mut canvas.kept);
+            raster.lay(kept.levels(landscape, (frame, level), || {
+                let mut fresh = Raster::new(frame.area, look.glyphs);
+                levels(canvas, &mut fresh, frame, landscape, level);
+                fresh
+            }));
+            canvas.kept = kept;
+        }
         Layer::Trail([x, y]) => {
-            let rows = q.snapshot.trail.rows();
-            let past = rows.filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
-            let points: Vec<_> = past.chain([[q.value(*x), q.value(*y)]]).collect();
-            raster.trail(frame, &points, look.theme.trail(0), level);
+            let rows = &q.snapshot.trail;
+            let track = Track::Channels([*x, *y]);
+            let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
+            let kept = canvas
+                .kept
+                .trail(key, (rows, look.glyphs), |row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+            let ramp = look.theme.trail(0);
+            let since = kept::since(rows, ramp.len());
+            let ages = Ages { since: &since, ramp, layer: level };
+            kept.draw(raster, ages, [q.value(*x), q.value(*y)]);
         }
         Layer::Curve { index, channel } => {
             let now = [q.snapshot.time, q.value(*channel)];
-            let rows = q.snapshot.trail.rows();
-            let points = rows.filter_map(|row| Some([*row.first()?, *row.get(1 + channel)?]));
-            let shown = points.filter(|point| point[0] >= frame.x.lo - (frame.x.hi - frame.x.lo));
-            let pen = Pen::shaded(look.theme.series(*index), level);
-            raster.polyline(frame, shown.chain([now]), &pen);
+            let shade = look.theme.series(*index);
+            let since = frame.x.lo - (frame.x.hi - frame.x.lo);
+            let track = Track::Curve(*channel, shade.dash, since);
+            let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
+            let kept = canvas.kept.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
+                Some([*row.first()?, *row.get(1 + channel)?])
+            });
+            let since = [f64::MIN];
+            kept.draw(raster, kept::whole(&since, &[shade], level), now);
         }
         Layer::Line(points, stroke) => {
             let pen = pen(canvas, stroke.ink, level);
@@ -272,12 +339,22 @@ fn levels(
     }
 }
 
-/// The time window: it is fixed until it is full, then moves along.
-fn window(q: &Quantities<'_>, viewport: Viewport) -> Scale {
+/// The time window over this many columns: it doubles its length as the motion fills it, up to the greatest, then
+/// moves along by whole columns.
+fn window(q: &Quantities<'_>, viewport: Viewport, columns: u16) -> Scale {
     let speed = q.lab.loaded.model.run.speed;
-    let span = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
+    let most = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
     let start = q.lab.loaded.model.run.start;
-    let end = q.snapshot.time.max(start + span);
+    let passed = q.snapshot.time - start;
+    let lengths = (0..=DOUBLINGS).rev().map(|halved| most / math::powi(2.0, halved));
+    let span = lengths.clone().find(|length| passed <= *length);
+    let (span, end) = span.map_or_else(
+        || {
+            let column = most / f64::from(columns.max(1));
+            (most, start + (passed / column).ceil() * column)
+        },
+        |span| (span, start + span),
+    );
     let span = span / viewport.zoom[0];
     let shift = viewport.pan[0] * span;
     Scale::linear(end - span + shift, end + shift)

@@ -2,7 +2,7 @@
 //!
 //! In: the lab and the snapshot to be read. Out: a page of text. Never here: anything that changes without input.
 
-use super::gauges::{finding, word};
+use super::gauges::{finding, in_full};
 use super::header_footer::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
@@ -53,14 +53,14 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         let shown = q.look.glyphs.pick(&gauge.shown, &gauge.name);
         let called =
             if *shown == gauge.name { String::new() } else { format!(" ({})", gauge.name) };
-        let verdict = match word(&gauge.verdict).0 {
+        let verdict = match in_full(&gauge.verdict).0 {
             "…" => "open",
             word => word,
         };
         write(format!(
             "{shown}{called} is {}; drift {} since t = {}; {verdict}: {}. Why it is watched: {}.",
             readable(gauge.value, 8, q.look.glyphs),
-            drift(gauge.drift),
+            drift(gauge.drift, q.look.glyphs),
             brief(gauge.reference_time, 6, q.look.glyphs),
             finding(gauge, q.look.glyphs),
             gauge.reason
@@ -83,7 +83,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
 fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, write: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
-        write("Told, the newest first:".to_owned());
+        write("Messages, the newest first:".to_owned());
         notices.into_iter().for_each(&mut *write);
     }
     let happened = snapshot.occurrences.count();

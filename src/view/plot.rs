@@ -12,5 +12,5 @@ pub mod ticks;
 
 pub use axes::{Axes, Axis};
 pub use camera::{Bounds, Camera};
-pub use raster::{Marker, Pen, Raster};
+pub use raster::{Ages, KeptTrail, Marker, Pen, Raster};
 pub use scale::{Frame, Kind, Scale};

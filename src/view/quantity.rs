@@ -141,7 +141,7 @@ fn turn_of(lo: f64, hi: f64, period: f64) -> f64 {
 }
 
 /// The source of a number.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Source {
     /// A constant.
     Number(f64),

@@ -9,6 +9,7 @@ use super::canvas::{Canvas, row};
 use super::equations;
 use super::header_footer;
 use super::help;
+use super::kept::Kept;
 use super::lab_page;
 use super::layout::{LEAST, Screen};
 use super::look::RenderStyle;
@@ -27,11 +28,35 @@ use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
 pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
-    let themed = look.chosen_by(app);
-    let look = themed.as_ref().unwrap_or(look);
-    let mut canvas = Canvas::over(buffer, look);
-    let drawn = paint(&mut canvas, app, area);
-    Drawn { cursor: canvas.cursor.map(|at| (at.x, at.y)), ..drawn }
+    Painter::default().draw(app, look, area, buffer)
+}
+
+/// Draws one screen after the other, the same as [`draw`], and keeps what does not change between them.
+#[derive(Debug, Default)]
+pub struct Painter {
+    kept: Kept,
+}
+
+impl Painter {
+    /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
+    pub fn draw(
+        &mut self,
+        app: &App,
+        look: &RenderStyle,
+        area: Rect,
+        buffer: &mut Buffer,
+    ) -> Drawn {
+        let themed = look.chosen_by(app);
+        let look = themed.as_ref().unwrap_or(look);
+        let mut canvas = Canvas::over(buffer, look);
+        canvas.kept = std::mem::take(&mut self.kept);
+        canvas.kept.begin(look);
+        let drawn = paint(&mut canvas, app, area);
+        let cursor = canvas.cursor.map(|at| (at.x, at.y));
+        self.kept = canvas.kept;
+        self.kept.end();
+        Drawn { cursor, ..drawn }
+    }
 }
 
 pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {

@@ -9,7 +9,8 @@ mod scene;
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, row};
-use super::plot::{Camera, Frame, Marker, Pen, Raster};
+use super::kept::{self, Kept, Track, TrailKey};
+use super::plot::{Ages, Camera, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -42,11 +43,20 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
-    let mut artist =
-        ScenePainter { raster, frame, camera, q, reference_frame, tracks: 0, bodies: 0 };
+    let mut artist = ScenePainter {
+        raster,
+        frame,
+        camera,
+        q,
+        reference_frame,
+        seen: eye.frame,
+        colours: colours(q, *eye),
+    };
+    let mut kept = std::mem::take(&mut canvas.kept);
     for (shape, _) in q.lab.shapes(*eye) {
-        artist.shape(shape);
+        artist.shape(shape, &mut kept);
     }
+    canvas.kept = kept;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
@@ -56,19 +66,57 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
 }
 
-/// Draws the directions of the axes in the lower left corner.
+/// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
+/// and the second colour, an amber, is left to a single mass that stays where it is.
+fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
+    let stays = |at: &Point| at.iter().all(|e| matches!(q.place(*e), Source::Number(_)));
+    let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
+    let masses: Vec<Point> = shapes()
+        .filter_map(|shape| match shape {
+            Shape::Mass { at, .. } => Some(*at),
+            _ => None,
+        })
+        .collect();
+    let (fixed, mut points): (Vec<_>, Vec<_>) = masses.into_iter().partition(stays);
+    let traces = shapes().filter_map(|shape| match shape {
+        Shape::Trace { at } => Some(*at),
+        _ => None,
+    });
+    for at in traces {
+        if !points.contains(&at) {
+            points.push(at);
+        }
+    }
+    for (index, at) in fixed.into_iter().enumerate() {
+        points.insert((1 + index).min(points.len()), at);
+    }
+    points
+}
+
+/// Draws the directions of the axes in the lower left corner, each as an arm with its name.
 fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     if area.width < 30 || area.height < 14 {
         return;
     }
-    let centre = (f64::from(area.x) + 5.0, f64::from(area.bottom()) - 3.5);
-    for (name, axis) in [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])] {
+    let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
+    let reach = Scale::linear(-1.3, 1.3);
+    let frame = Frame::equal(reach, reach, corner);
+    let mut arms = Raster::new(corner, canvas.look.glyphs);
+    let pen = Pen::new(canvas.style(Role::Dim), GROUND);
+    let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
+    let tips = axes.map(|(name, axis)| {
         let [right, up, _] = camera.project(axis);
-        let at = ((centre.0 + 4.0 * right).round() as u16, (centre.1 - 2.0 * up).round() as u16);
-        canvas.write(at.into(), 1, name, canvas.style(Role::Dim));
+        (name, [right, up])
+    });
+    for (_, tip) in tips {
+        arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
     }
-    let origin = (centre.0.round() as u16, centre.1.round() as u16);
-    canvas.write(origin.into(), 1, "·", canvas.style(Role::Dim));
+    arms.draw(canvas.buffer);
+    for (name, tip) in tips {
+        if let Some(at) = frame.cell(tip) {
+            canvas.write(at, 1, name, canvas.style(Role::Dim));
+        }
+    }
 }
 
 /// Draws the names of the apparent forces in their colours in the upper left corner.
@@ -92,12 +140,14 @@ struct ScenePainter<'a> {
     camera: Camera,
     q: &'a Quantities<'a>,
     reference_frame: Option<ReferenceFrame>,
-    tracks: usize,
-    bodies: usize,
+    /// The index of the reference frame.
+    seen: Option<usize>,
+    /// The points that have a colour of their own.
+    colours: Vec<Point>,
 }
 
 impl ScenePainter<'_> {
-    fn shape(&mut self, shape: &Shape) {
+    fn shape(&mut self, shape: &Shape, kept: &mut Kept) {
         let theme = &self.q.look.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
@@ -116,11 +166,10 @@ impl ScenePainter<'_> {
                 self.curve(&rim, &solid);
             }
             Shape::Mass { at, radius } => {
-                let at = self.point(at);
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
-            Shape::Trace { at } => self.track(at),
+            Shape::Trace { at } => self.track(at, kept),
             Shape::Vector { at, components } => {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
@@ -225,22 +274,24 @@ impl ScenePainter<'_> {
     }
 
     /// Draws a point mass: a disc of its radius, or a marker if that is smaller than a cell.
-    fn mass(&mut self, at: [f64; 3], radius: Option<f64>) {
-        let style = self.q.look.theme.curve(self.bodies);
+    fn mass(&mut self, point: &Point, radius: Option<f64>) {
+        let at = self.point(point);
+        let style = self.q.look.theme.curve(self.colour(point));
         let pen = Pen::new(style, BODY);
         let centre = self.flat(at);
         let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
         let cells = radius.map_or(0.0, |radius| radius.abs() / cell);
         if cells.is_finite() && cells > 1.2 {
-            let rings = (cells * 3.0).min(120.0) as u32;
-            for ring in 0..=rings {
-                let share = f64::from(ring) / f64::from(rings);
-                self.raster.circle(&self.frame, centre, share * cells * cell, &pen);
-            }
+            self.raster.disc(&self.frame, centre, cells * cell, &pen);
         } else {
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
-        self.bodies += 1;
+    }
+
+    /// The colour of the mass at a point, and of its trace: the masses that move are counted first, then one that stays
+    /// where it is, such as a sun, then the traces of other points.
+    fn colour(&self, point: &Point) -> usize {
+        self.colours.iter().position(|other| other == point).unwrap_or(self.colours.len())
     }
 
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.
@@ -266,28 +317,30 @@ impl ScenePainter<'_> {
             self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
         }
         for point in points {
-            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(self.bodies), BODY));
+            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(0), BODY));
             self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
         }
     }
 
-    fn track(&mut self, point: &Point) {
+    fn track(&mut self, point: &Point, kept: &mut Kept) {
         let sources = point.map(|expression| self.q.place(expression));
-        let rows = self.q.snapshot.trail.rows().filter_map(|row| row.get(1..));
+        let rows = &self.q.snapshot.trail;
+        let track = Track::Point(sources, self.camera, self.seen);
+        let key = TrailKey { epoch: self.q.snapshot.epoch, frame: self.frame, track };
+        let projection = self.camera.projection();
+        let present = self.flat(self.point(point));
         // Each past point is transformed to the reference frame at its own time.
-        let past = rows.map(|row| {
+        let drawn = kept.trail(key, (rows, self.q.look.glyphs), |row| {
+            let row = row.get(1..)?;
             let r = sources.map(|source| source.read(row));
-            self.flat(
-                self.reference_frame
-                    .as_ref()
-                    .map_or(r, |reference_frame| reference_frame.point(row, r)),
-            )
+            let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
+            let [right, up, _] = projection.of(seen);
+            Some([right, up])
         });
-        let mut points: Vec<[f64; 2]> = past.collect();
-        points.push(self.flat(self.point(point)));
-        let ramp = self.q.look.theme.trail(self.tracks);
-        self.raster.trail(&self.frame, &points, ramp, TRACK);
-        self.tracks += 1;
+        let ramp = self.q.look.theme.trail(self.colour(point));
+        let since = kept::since(rows, ramp.len());
+        let ages = Ages { since: &since, ramp, layer: TRACK };
+        drawn.draw(&mut self.raster, ages, present);
     }
 
     /// Draws a shaft with a head of two strokes, an eighth of its length.

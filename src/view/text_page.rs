@@ -89,17 +89,13 @@ impl TextPage {
 
     /// Draws the rows from `scroll` on.
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
-        let width = area.width.saturating_sub(3).min(MEASURE);
-        let lines = self.lines(canvas, width.into());
-        let rows = usize::from(area.height);
-        let beyond = lines.len().saturating_sub(rows);
-        let first = usize::from(scroll).min(beyond);
-        for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
-            canvas.spans(columns(row(area, index), 1, width + 1), line);
-        }
-        scroll_bar(canvas, area, first, lines.len());
-        let beyond = beyond.min(usize::from(u16::MAX)) as u16;
-        Drawn { beyond, rows: area.height, ..Drawn::default() }
+        let rows = self.laid_out(canvas, area.width);
+        draw_rows(canvas, area, scroll, &rows)
+    }
+
+    /// The rows of the page in an area of this width.
+    pub(super) fn laid_out(&self, canvas: &Canvas<'_>, width: u16) -> Vec<Vec<Span>> {
+        self.lines(canvas, measure(width).into())
     }
 
     /// Draws the screenful of rows that contains a line, with the cursor at its beginning. Rows are scrolled by whole
@@ -200,6 +196,29 @@ impl TextPage {
         }
         lines
     }
+}
+
+/// Draws the rows of a page from `scroll` on.
+pub(super) fn draw_rows(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    scroll: u16,
+    lines: &[Vec<Span>],
+) -> Drawn {
+    let rows = usize::from(area.height);
+    let beyond = lines.len().saturating_sub(rows);
+    let first = usize::from(scroll).min(beyond);
+    for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
+        canvas.spans(columns(row(area, index), 1, measure(area.width) + 1), line);
+    }
+    scroll_bar(canvas, area, first, lines.len());
+    let beyond = beyond.min(usize::from(u16::MAX)) as u16;
+    Drawn { beyond, rows: area.height, ..Drawn::default() }
+}
+
+/// The width of a page's rows in an area of this width.
+fn measure(width: u16) -> u16 {
+    width.saturating_sub(3).min(MEASURE)
 }
 
 /// The rows of a label and its text.

@@ -7,7 +7,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
-use super::number::brief;
+use super::number::brief_in;
 use super::plot::Scale;
 use super::region::Region;
 use super::sparkline::RangeBar;
@@ -108,7 +108,8 @@ impl Values<'_> {
         if let Some(field) = typed {
             typing(canvas, number, field);
         } else {
-            let text = value.map_or_else(|| "·".to_owned(), |value| brief(value, 6, glyphs));
+            let text = value
+                .map_or_else(|| "·".to_owned(), |value| brief_in(value, 6, NUMBER.into(), glyphs));
             canvas.right(number, Role::Accent, &text);
             if here && self.focused {
                 canvas.tint(number, Role::Selected);

@@ -188,22 +188,22 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
     }
     let count = sheet.mistakes();
     let (role, text) = match sheet.state {
-        SheetState::Runs(None) => (Role::Dim, "This text is the one that runs.".to_owned()),
+        SheetState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
         SheetState::Runs(Some(took)) => {
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
-            (Role::Good, format!("No mistake: built anew in {time} ms, the motion goes on."))
+            (Role::Good, format!("No errors: rebuilt in {time} ms, the motion goes on."))
         }
         SheetState::Changed if sheet.is_long_checked() => {
-            (Role::Dim, "Being looked at, which takes long; Esc stops it.".to_owned())
+            (Role::Dim, "Checking takes long; Esc stops it.".to_owned())
         }
-        SheetState::Changed | SheetState::Left => {
-            (Role::Dim, "Being looked at when typing rests.".to_owned())
-        }
+        SheetState::Changed | SheetState::Left => (Role::Dim, "Checking…".to_owned()),
         SheetState::Wrong if count == 1 => {
-            (Role::Bad, "One mistake; the last right text goes on.".to_owned())
+            (Role::Bad, "1 error – still running the last valid version.".to_owned())
         }
-        SheetState::Wrong => (Role::Bad, format!("{count} mistakes; the last right text goes on.")),
+        SheetState::Wrong => {
+            (Role::Bad, format!("{count} errors – still running the last valid version."))
+        }
     };
     let used = match notice {
         Some(notice) => draw_notification(canvas, area, notice),

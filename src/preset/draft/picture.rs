@@ -189,7 +189,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
     let [kind] = given[..] else {
         let message = match given[..] {
             [first, second, ..] => format!("this shape is `{first}` and `{second}` at once"),
-            _ => "this is no shape".to_owned(),
+            _ => "unknown shape".to_owned(),
         };
         let misspelt = table
             .entries()

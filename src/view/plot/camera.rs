@@ -61,19 +61,14 @@ impl Camera {
 
     /// Projects a point to its horizontal coordinate, its vertical coordinate, and how much nearer to the eye than the
     /// origin it is.
-    pub fn project(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let (sin_yaw, cos_yaw) = math::sin_cos(self.yaw);
-        let (sin_pitch, cos_pitch) = math::sin_cos(self.pitch);
-        let right = x * cos_yaw + y * sin_yaw;
-        let away = y * cos_yaw - x * sin_yaw;
-        let up = away * sin_pitch + z * cos_pitch;
-        let near = z * sin_pitch - away * cos_pitch;
-        let size = match self.distance {
-            // Near the eye and behind it the magnification is limited.
-            Some(distance) if distance > 0.0 => distance / (distance - near).max(distance * 0.1),
-            _ => 1.0,
-        };
-        [right * size, up * size, near]
+    pub fn project(&self, point: [f64; 3]) -> [f64; 3] {
+        self.projection().of(point)
+    }
+
+    /// The projection of many points.
+    pub fn projection(&self) -> Projection {
+        let (yaw, pitch) = (math::sin_cos(self.yaw), math::sin_cos(self.pitch));
+        Projection { yaw, pitch, distance: self.distance }
     }
 
     /// The frame over an area that shows a whole box with equal units, then zoomed and panned.
@@ -97,6 +92,31 @@ impl Camera {
         };
         let fitted = Frame::equal(scale(right, wide, 0.0), scale(up, high, 0.0), area);
         Frame::new(fitted.x.panned(-self.pan[0]), fitted.y.panned(-self.pan[1]), area)
+    }
+}
+
+/// A camera with the sine and cosine of its angles at hand.
+#[derive(Clone, Copy, Debug)]
+pub struct Projection {
+    yaw: (f64, f64),
+    pitch: (f64, f64),
+    distance: Option<f64>,
+}
+
+impl Projection {
+    /// Projects a point, see [`Camera::project`].
+    pub fn of(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let ((sin_yaw, cos_yaw), (sin_pitch, cos_pitch)) = (self.yaw, self.pitch);
+        let right = x * cos_yaw + y * sin_yaw;
+        let away = y * cos_yaw - x * sin_yaw;
+        let up = away * sin_pitch + z * cos_pitch;
+        let near = z * sin_pitch - away * cos_pitch;
+        let size = match self.distance {
+            // Near the eye and behind it the magnification is limited.
+            Some(distance) if distance > 0.0 => distance / (distance - near).max(distance * 0.1),
+            _ => 1.0,
+        };
+        [right * size, up * size, near]
     }
 }
 

@@ -1,30 +1,32 @@
 //! The raster: dots finer than cells, in layers.
 //!
-//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. The dots of everything
-//! that crosses a cell are combined; the cell takes the style of the highest layer and, within it, of the newest dot.
-//! Never here: axes, or the meaning of the curves.
+//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. A cell has one colour, so
+//! it shows the dots of its highest layer only, in the style of the newest of them; a marker keeps the dots beside it
+//! blank. Never here: axes, or the meaning of the curves.
 
 mod cloud;
+mod course;
+mod kept_trail;
 mod letter;
 mod polyline;
+
+use std::cmp::Ordering;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
-use super::scale::{Frame, Scale};
+use super::scale::Frame;
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
+pub use kept_trail::{Ages, KeptTrail};
 use letter::letter;
 use polyline::Polyline;
 
 /// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
-
-/// The distance, in plot lengths, beyond which a point is moved; nearer points keep their exact direction.
-const FAR: f64 = 1e7;
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +99,7 @@ impl Marker {
 struct Cell {
     /// One bit per dot, row by row, starting with the leftmost dot of a row.
     dots: u8,
-    /// The dots of the layer that sets the style; ASCII, which cannot show all crossing lines, shows these.
+    /// The dots of the layer that sets the style; these are shown.
     upper: u8,
     /// A character that replaces the dots: a marker or, in ASCII, the age of a trail.
     sign: Option<char>,
@@ -207,7 +209,7 @@ impl Raster {
     pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
         let size = self.size();
         for point in points {
-            let place = position(frame, point, size);
+            let place = frame.dot(point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
                 self.dot(std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1)), pen);
             }
@@ -223,6 +225,30 @@ impl Raster {
             [x + radius * cos, y + radius * sin]
         };
         self.polyline(frame, (0..=sides).map(corner), pen);
+    }
+
+    /// Fills a disc about a point of the frame, with its radius in the units of the axes.
+    pub fn disc(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
+        let size = self.size();
+        let [left, top] = frame.dot([x - radius, y + radius], size);
+        let [right, bottom] = frame.dot([x + radius, y - radius], size);
+        let (middle, half) =
+            ([(left + right) / 2.0, (top + bottom) / 2.0], [right - left, bottom - top]);
+        if ![left, top, right, bottom].iter().all(|v| v.is_finite()) || half.contains(&0.0) {
+            return;
+        }
+        let range = |from: f64, to: f64, most: i32| {
+            let within = |v: f64| v.clamp(0.0, f64::from(most));
+            within(from.min(to).floor()) as i32..within(from.max(to).ceil()) as i32
+        };
+        for row in range(top, bottom, size[1]) {
+            for column in range(left, right, size[0]) {
+                let off = |dot: i32, k: usize| (f64::from(dot) + 0.5 - middle[k]) * 2.0 / half[k];
+                if math::hypot(off(column, 0), off(row, 1)) <= 1.0 {
+                    self.ink([column, row], pen, None);
+                }
+            }
+        }
     }
 
     /// Draws a marker in the cell of a point, above the dots of its own layer and of all layers below.
@@ -245,15 +271,16 @@ impl Raster {
     pub fn draw(&self, buffer: &mut Buffer) {
         let width = usize::from(self.area.width);
         for (index, cell) in self.cells.iter().enumerate() {
+            let dots = cell.upper & !self.beside_marker(index);
             let symbol = match (cell.sign, self.glyphs) {
                 (Some(sign), _) => sign,
-                (None, _) if cell.dots == 0 => continue,
-                (None, Glyphs::Braille) => braille(cell.dots),
-                (None, Glyphs::HalfBlock) => half_block(cell.dots),
-                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(cell.dots & 0xf)],
-                (None, Glyphs::Sextant) => SEXTANTS[usize::from(cell.dots & 0x3f)],
-                (None, Glyphs::Octant) => OCTANTS[usize::from(cell.dots)],
-                (None, Glyphs::Ascii) => letter(cell.upper),
+                (None, _) if dots == 0 => continue,
+                (None, Glyphs::Braille) => braille(dots),
+                (None, Glyphs::HalfBlock) => half_block(dots),
+                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(dots & 0xf)],
+                (None, Glyphs::Sextant) => SEXTANTS[usize::from(dots & 0x3f)],
+                (None, Glyphs::Octant) => OCTANTS[usize::from(dots)],
+                (None, Glyphs::Ascii) => letter(dots),
             };
             let x = u32::from(self.area.x) + (index % width) as u32;
             let y = u32::from(self.area.y) + (index / width) as u32;
@@ -267,6 +294,34 @@ impl Raster {
         }
     }
 
+    /// The dots of a cell that a marker in a neighbouring cell keeps blank: those that touch it, of layers far below.
+    fn beside_marker(&self, index: usize) -> u8 {
+        let [columns, rows] = self.cell();
+        if self.glyphs.is_ascii() || self.cells[index].sign.is_some() {
+            return 0;
+        }
+        let wide = usize::from(self.area.width);
+        let column = index % wide;
+        let covers = |other: Option<usize>| {
+            let marker = other.and_then(|other| self.cells.get(other)).map(|cell| cell.rank);
+            marker.is_some_and(|(layer, marks, _)| marks && layer >= self.cells[index].rank.0 + 2)
+        };
+        let side = |x: Option<i32>, y: Option<i32>| {
+            let touching = (0..columns * rows).filter(|bit| {
+                x.is_none_or(|x| bit % columns == x) && y.is_none_or(|y| bit / columns == y)
+            });
+            touching.fold(0, |dots, bit| dots | 1 << bit)
+        };
+        let sides = [
+            (column.checked_sub(1).map(|_| index.wrapping_sub(1)), side(Some(0), None)),
+            ((column + 1 < wide).then_some(index + 1), side(Some(columns - 1), None)),
+            (index.checked_sub(wide), side(None, Some(0))),
+            (Some(index + wide), side(None, Some(rows - 1))),
+        ];
+        let near = sides.into_iter().filter(|(other, _)| covers(*other));
+        near.fold(0_u8, |dots, (_, side)| dots | side)
+    }
+
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
         let Some((index, bit)) = self.place(dot) else { return };
         // A character in ASCII is drawn whole or not at all; its parts are not thinned.
@@ -274,6 +329,11 @@ impl Raster {
         if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
             return;
         }
+        self.set((index, bit), pen, sign);
+    }
+
+    /// Sets a dot of a cell by its bit.
+    fn set(&mut self, (index, bit): (usize, u8), pen: &Pen, sign: Option<char>) {
         let cell = &mut self.cells[index];
         cell.dots |= bit;
         let rank = (pen.layer, false, pen.fresh);
@@ -284,6 +344,24 @@ impl Raster {
             cell.rank = rank;
             cell.style = pen.style;
             cell.sign = sign;
+        }
+    }
+
+    /// Adds everything on another raster of the same area.
+    pub fn lay(&mut self, other: &Self) {
+        for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
+            if other.dots == 0 && other.sign.is_none() {
+                continue;
+            }
+            cell.dots |= other.dots;
+            match other.rank.0.cmp(&cell.rank.0) {
+                Ordering::Greater => cell.upper = other.upper,
+                Ordering::Equal => cell.upper |= other.upper,
+                Ordering::Less => {}
+            }
+            if other.rank >= cell.rank {
+                (cell.rank, cell.style, cell.sign) = (other.rank, other.style, other.sign);
+            }
         }
     }
 
@@ -305,15 +383,6 @@ impl Raster {
         let cell = y / rows * usize::from(self.area.width) + x / columns;
         Some((cell, 1 << (y % rows * columns + x % columns)))
     }
-}
-
-/// The position of a point in dots, with y downwards; NaN if a coordinate is not finite.
-fn position(frame: &Frame, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
-    let fraction = |scale: &Scale, value: f64| {
-        if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
-    };
-    let (right, up) = (fraction(&frame.x, x), fraction(&frame.y, y));
-    [right * f64::from(wide), (1.0 - up) * f64::from(high)]
 }
 
 /// A value in 0..1 fixed to a dot, spread evenly along every direction (M. Roberts' R2 sequence, 2018), so that

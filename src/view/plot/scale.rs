@@ -160,6 +160,9 @@ fn usable(lo: f64, hi: f64) -> (f64, f64) {
     ((lo - half).max(f64::MIN), (hi + half).min(f64::MAX))
 }
 
+/// The distance, in plot lengths, beyond which a point is moved; nearer points keep their exact direction.
+const FAR: f64 = 1e7;
+
 /// Two scales over a rectangle of cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -209,6 +212,15 @@ impl Frame {
             self.x.value(middle(cell.x, self.area.x, self.area.width)),
             self.y.value(1.0 - middle(cell.y, self.area.y, self.area.height)),
         ]
+    }
+
+    /// The position of a point among this many dots, with y downwards; NaN if a coordinate is not finite.
+    pub(super) fn dot(&self, [x, y]: [f64; 2], [wide, high]: [i32; 2]) -> [f64; 2] {
+        let fraction = |scale: &Scale, value: f64| {
+            if value.is_finite() { scale.fraction(value).clamp(-FAR, FAR) } else { f64::NAN }
+        };
+        let (right, up) = (fraction(&self.x, x), fraction(&self.y, y));
+        [right * f64::from(wide), (1.0 - up) * f64::from(high)]
     }
 
     /// The number of dots: columns, rows.

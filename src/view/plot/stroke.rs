@@ -39,6 +39,7 @@ pub(super) fn clip(
 ///
 /// Stepping along a smooth curve visits both dots at every corner of the staircase; the tip looks one dot ahead
 /// and leaves those corners out.
+#[derive(Clone, Debug)]
 pub(super) struct Tip<Ink> {
     drawn: Option<[i32; 2]>,
     pending: Option<([i32; 2], Ink)>,

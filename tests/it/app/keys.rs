@@ -158,7 +158,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
                 fact(&about("zoom"), format!("{:?}", viewport.zoom));
                 fact(&about("pan"), format!("{:?}", viewport.pan));
                 fact(&about("log"), viewport.log.to_string());
-                fact(&about("one to one"), viewport.equal.to_string());
+                fact(&about("equal scales"), viewport.equal.to_string());
                 fact(&about("cursor"), format!("{:?}", viewport.cursor));
             }
         }

@@ -45,7 +45,7 @@ fn what_was_looked_at_is_looked_at_again() {
 fn the_list_of_systems_keeps_what_was_left() {
     let mut app = in_lab();
     let left = kept(&app);
-    press(&mut app, "Esc");
+    press(&mut app, "Esc Esc");
     assert_eq!(app.page, Page::Picker);
     assert_eq!(kept(&app), left);
     // a system that is only previewed is not part of it

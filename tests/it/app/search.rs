@@ -38,6 +38,7 @@ fn the_best_system_is_first() {
         ("henon", "henon-heiles"),
         ("hh", "henon-heiles"),
         ("ddp", "driven-damped-pendulum"),
+        ("pend", "pendulum"),
         ("doub pend", "double-pendulum"),
         ("foucault", "foucault"),
         ("kepler", "kepler-brackets"),

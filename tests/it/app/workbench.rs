@@ -178,7 +178,7 @@ fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back
     let again = app.update(Event::Tick(Duration::from_millis(1)));
     assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
     // in the list of systems nothing is checked; in the lab, checks continue
-    assert_eq!(press(&mut app, "Esc Esc"), []);
+    assert_eq!(press(&mut app, "Esc Esc Esc"), []);
     assert_eq!(app.page, Page::Picker);
     assert_eq!(app.update(Event::Tick(Duration::from_millis(1))), [Effect::StopCheck]);
     assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), []);
@@ -450,7 +450,7 @@ fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
     let mut kept = app.clone();
     kept.workbench.keeps = true;
     assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
-    assert_eq!(press(&mut kept, "Esc q"), [Effect::Quit], "also from the list of systems");
+    assert_eq!(press(&mut kept, "Esc Esc q"), [Effect::Quit], "also from the list of systems");
     let lost = "has changes that are not saved; quit again to lose them.";
     for keys in ["q", "Esc q"] {
         let mut app = app.clone();
@@ -539,5 +539,5 @@ fn what_becomes_of_a_watched_file_is_reported() {
     assert_eq!(told(&app), "./my.toml is there again.");
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
-    assert_eq!(told(&app), "./my.toml: built anew in 7 ms; the motion goes on.");
+    assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion goes on.");
 }

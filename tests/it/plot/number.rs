@@ -1,7 +1,7 @@
 //! Numbers formatted for people.
 
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::number::{brief, drift, readable};
+use phaselab::view::number::{brief, drift, drift_in, readable, with_minus_signs};
 use proptest::prelude::*;
 
 #[test]
@@ -37,10 +37,14 @@ fn brief_numbers_have_no_zeros_to_spare() {
 
 #[test]
 fn drifts_are_two_digits_and_an_exponent() {
-    assert_eq!(drift(3.14e-16), "3.1e-16");
-    assert_eq!(drift(-0.02), "-2.0e-2");
-    assert_eq!(drift(0.0), "0");
-    assert_eq!(drift(f64::NAN), "NaN");
+    assert_eq!(drift(3.14e-16, Glyphs::Ascii), "3.1e-16");
+    assert_eq!(drift(3.14e-16, Glyphs::Braille), "3.1×10⁻¹⁶");
+    assert_eq!(drift_in(3.14e-16, 8, Glyphs::Braille), "3×10⁻¹⁶");
+    assert_eq!(with_minus_signs("λ = -18.72 N/m, 3e-5", Glyphs::Braille), "λ = −18.72 N/m, 3e-5");
+    assert_eq!(with_minus_signs("a-1, x-ray, -2", Glyphs::Braille), "a-1, x-ray, −2");
+    assert_eq!(drift(-0.02, Glyphs::Ascii), "-2.0e-2");
+    assert_eq!(drift(0.0, Glyphs::Ascii), "0");
+    assert_eq!(drift(f64::NAN, Glyphs::Ascii), "NaN");
 }
 
 proptest! {
@@ -54,6 +58,6 @@ proptest! {
                 prop_assert!(read.is_infinite() || (read - value).abs() <= slack.max(f64::MIN_POSITIVE), "{text}");
             }
         }
-        prop_assert!(drift(value).len() <= 9);
+        prop_assert!(drift(value, Glyphs::Ascii).len() <= 9);
     }
 }

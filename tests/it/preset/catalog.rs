@@ -139,7 +139,7 @@ fn a_broken_file_is_listed_with_its_mistake() {
     };
     assert_eq!(
         fault("broken"),
-        ("Oscillator".to_owned(), "broken.toml:11:23: the name `kk` is not known here".to_owned())
+        ("Oscillator".to_owned(), "broken.toml:11:23: unknown name `kk`".to_owned())
     );
     assert_eq!(fault("latin").1, "latin.toml:1:13: the byte 0xE9 here is not UTF-8");
     assert_eq!(

@@ -71,20 +71,16 @@ fn the_nearest_name_is_one_that_may_stand_there() {
     let check = |allowed, text, expected: &str| {
         assert_eq!(messages(allowed, "this", text), [expected], "{text}");
     };
-    check(Observable, "lenght", "0..6 the name `lenght` is not known here; did you mean `length`?");
-    check(Observable, "LENGTH", "0..6 the name `LENGTH` is not known here; did you mean `length`?");
-    check(Observable, "q_x", "0..3 the name `q_x` is not known here; did you mean `p_x`?");
-    check(
-        Parameters,
-        "q_x",
-        "0..3 the name `q_x` is not known here; give it a value in [parameters]",
-    );
-    check(Observable, "X'", "0..2 the name `X` is not known here; did you mean `x'`?");
-    check(Observable, "enrgy", "0..5 the name `enrgy` is not known here; did you mean `energy`?");
+    check(Observable, "lenght", "0..6 unknown name `lenght`; did you mean `length`?");
+    check(Observable, "LENGTH", "0..6 unknown name `LENGTH`; did you mean `length`?");
+    check(Observable, "q_x", "0..3 unknown name `q_x`; did you mean `p_x`?");
+    check(Parameters, "q_x", "0..3 unknown name `q_x`; give it a value in [parameters]");
+    check(Observable, "X'", "0..2 unknown name `X`; did you mean `x'`?");
+    check(Observable, "enrgy", "0..5 unknown name `enrgy`; did you mean `energy`?");
     check(
         Observable,
         "y",
-        "0..1 the name `y` is not known here; give it a value in [parameters], or define it in [definitions]",
+        "0..1 unknown name `y`; give it a value in [parameters], or define it in [definitions]",
     );
     check(Observable, "sqr(x)", "0..3 there is no function `sqr`; did you mean `sqrt`?");
 }

@@ -74,7 +74,7 @@ fn mistakes_stand_in_their_places() {
         &["1:5 pendulum has no parameter or initial value `lenght`; \
          there are m, l, g, theta0, theta, theta'"],
     );
-    check("Set l = 2*lx\nWait 1s", &["1:11 the name `lx` is not known here; did you mean `l`?"]);
+    check("Set l = 2*lx\nWait 1s", &["1:11 unknown name `lx`; did you mean `l`?"]);
     check("Sweep l 2 in 1s", &["1:9 here `to` is missing"]);
     check("Sweep l to 2 and g to 3 in 1s", &[]);
     check("Sweep l to 2 and in 1s", &["1:21 here `to` is missing"]);
@@ -137,10 +137,7 @@ fn claims_are_held_against_the_moment() {
         "Assert count impulse = 1",
         &["2:14 pendulum has no event or impulse `impulse`; there are none"],
     );
-    check(
-        "Assert thetta = 1 within 1",
-        &["2:8 the name `thetta` is not known here; did you mean `theta`?"],
-    );
+    check("Assert thetta = 1 within 1", &["2:8 unknown name `thetta`; did you mean `theta`?"]);
 }
 
 #[test]

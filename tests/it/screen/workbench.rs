@@ -78,7 +78,7 @@ fn a_mistake_is_underlined_marked_and_told_below() {
         let row = (0..80).map(|x| &buffer[(x, y)]);
         let underlined = row.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED));
         assert_eq!(underlined.map(ratatui::buffer::Cell::symbol).collect::<String>(), line);
-        for text in ["One mistake", "3:11 it is not so", "help: write it so"] {
+        for text in ["1 error", "3:11 it is not so", "help: write it so"] {
             assert!(find(&buffer, text).is_some(), "{text}: {:#?}", rows(&buffer));
         }
         assert_eq!(buffer[(1, y)].symbol(), mark);

@@ -234,9 +234,9 @@ fn edited(state: &Path, place: &Path) -> Session {
     // a message about another program also mentions running
     lab.shows("Gauges");
     lab.press("E");
-    lab.shows("This text is the one that runs.");
+    lab.shows("Running this version");
     lab.press("# mine\r");
-    lab.shows("built anew in");
+    lab.shows("rebuilt in");
     lab.press("\x1b");
     lab.shows("E goes back to it");
     lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
@@ -275,7 +275,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     let mut resumed = lab(&["--resume"], state.path());
     resumed.shows("E goes to them");
     resumed.press("E");
-    resumed.shows("built anew in");
+    resumed.shows("rebuilt in");
     resumed.press("# last\r");
     resumed.shows("# last");
     resumed.hang_up().wait().expect("it ends");
@@ -284,7 +284,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     let mut saved = lab(&["--resume"], state.path());
     saved.shows("E goes to them");
     saved.press("E");
-    saved.shows("built anew in");
+    saved.shows("rebuilt in");
     saved.press("\x13");
     saved.shows("Saved: ");
     saved.press("\x1b");

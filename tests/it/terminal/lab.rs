@@ -135,24 +135,22 @@ fn a_far_terminal_gets_fewer_frames() {
 }
 
 #[test]
-fn the_mouse_is_the_terminals_until_it_is_asked_for() {
+fn the_mouse_is_used_until_it_is_left_to_the_terminal() {
     let reported = |lab: &Session| {
         lab.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::ButtonMotion
     };
     let mut plain = pendulum();
-    assert!(["1000", "1002", "1003", "1006"].iter().all(|m| !plain.sent().contains(m)));
-    plain.press("M");
     plain.until("the mouse is reported", reported);
-    plain.shows("mouse");
     plain.press("\x1b[<0;0;0M\x1b[<0;10;10M\x1b[<32;11;10M\x1b[<0;11;10m\x1b[<64;99999;1M");
     plain.press("M");
     plain.until("the mouse is left alone", |lab| !reported(lab));
+    plain.shows("mouse");
     quits(plain);
 
-    let mut asked = lab(&["pendulum", "--mouse"]).start();
-    asked.until("the mouse is reported", reported);
-    asked.shows("running");
-    quits(asked);
+    let mut without = lab(&["pendulum", "--mouse=false"]).start();
+    without.shows("running");
+    assert!(["1000", "1002", "1003", "1006"].iter().all(|m| !without.sent().contains(m)));
+    quits(without);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! In: points in data coordinates and a ramp. Out: dots where the points are, styled by density. Never here: a single
 //! point's history.
 
-use super::{Pen, Raster, position};
+use super::{Pen, Raster};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::Frame;
@@ -25,7 +25,7 @@ impl Raster {
         let size = self.size();
         let mut counts = vec![(0_u32, 0_u8); self.cells.len()];
         for point in points {
-            let place = position(frame, point, size);
+            let place = frame.dot(point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
                 let dot = std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1));
                 if let Some((cell, bit)) = self.place(dot) {
@@ -46,6 +46,9 @@ impl Raster {
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
             cell.dots |= dots;
+            if pen.layer >= cell.rank.0 {
+                cell.upper = if pen.layer > cell.rank.0 { dots } else { cell.upper | dots };
+            }
             let rank = (pen.layer, false, pen.fresh);
             if rank >= cell.rank {
                 cell.rank = rank;

@@ -1,6 +1,6 @@
 //! Letters for dots: the ASCII character whose shape is nearest to the dots of a cell.
 //!
-//! In: 2×3 dots. Out: a character below 0x80. Never here: trails, whose characters show their age, and clouds.
+//! In: 2×3 dots, or the age of a trail. Out: a character below 0x80. Never here: clouds.
 //!
 //! A slowly rising line reads `_.-'"`, a steep one `/` and `|`: the character shows the height at which the line
 //! crosses its cell, so that a curve looks continuous and not like a row of steps.
@@ -59,6 +59,12 @@ fn steep(top: u8, middle: u8, bottom: u8) -> char {
         (false, false) if middle == BOTH => '+',
         (false, false) => '|',
     }
+}
+
+/// The ASCII character for the age of a trail.
+pub(super) fn faded(age: usize, ages: usize) -> char {
+    const AGES: [char; 4] = ['.', ':', '+', 'o'];
+    AGES[(age * AGES.len() / ages.max(1)).min(AGES.len() - 1)]
 }
 
 #[cfg(test)]

@@ -1,0 +1,246 @@
+//! What is kept between frames: drawn trails, level curves and the text of the law, until what they show changes.
+//!
+//! In: the recorded motion, and what decides how it is drawn. Out: the same picture as without it, at the cost of what
+//! is new. Never here: anything that is not a pure function of the application and the render style.
+
+use std::sync::Arc;
+
+use ratatui::style::Style;
+
+use super::RenderStyle;
+use super::glyphs::Glyphs;
+use super::plot::{Ages, Camera, Frame, KeptTrail, Raster};
+use super::quantity::Source;
+use super::theme::{Dash, Shade};
+use crate::analysis::Landscape;
+use crate::experiment::Trail;
+use crate::mechanics::Equations;
+
+/// The styled pieces of a row of text.
+type Row = Vec<(String, Style)>;
+
+/// Everything that is kept.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    look: Option<Look>,
+    trails: Vec<Used<TrailKey, Drawn>>,
+    levels: Vec<Used<LevelsKey, Raster>>,
+    law: Option<(LawKey, Vec<Row>)>,
+}
+
+/// The parts of a render style that decide how something kept looks.
+#[derive(Debug, PartialEq)]
+struct Look {
+    palette: &'static str,
+    trail: Vec<Shade>,
+    glyphs: Glyphs,
+}
+
+/// Something kept, and whether the present frame needed it.
+#[derive(Debug)]
+struct Used<Key, Value> {
+    key: Key,
+    value: Value,
+    used: bool,
+}
+
+/// What a trail is drawn from, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TrailKey {
+    pub(super) epoch: u64,
+    pub(super) frame: Frame,
+    pub(super) track: Track,
+}
+
+/// The past of what is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Track {
+    /// Of two channels.
+    Channels([usize; 2]),
+    /// Of a channel against time, with the pattern of its line, from a time on.
+    Curve(usize, Dash, f64),
+    /// Of a point in space, through a camera in a reference frame.
+    Point([Source; 3], Camera, Option<usize>),
+}
+
+/// A drawn trail, and the rows by which its continuation is known.
+#[derive(Debug)]
+struct Drawn {
+    trail: KeptTrail,
+    first: Vec<f64>,
+    last: Vec<f64>,
+}
+
+/// Where level curves are drawn.
+#[derive(Debug)]
+struct LevelsKey {
+    landscape: Arc<Landscape>,
+    frame: Frame,
+    level: u8,
+}
+
+/// The law whose text is kept, and its width in columns.
+#[derive(Debug)]
+struct LawKey {
+    equations: Arc<Equations>,
+    width: u16,
+}
+
+impl Kept {
+    /// Begins a frame. Nothing is kept of another theme or other characters.
+    pub(super) fn begin(&mut self, style: &RenderStyle) {
+        let look = Look {
+            palette: style.theme.palette().name,
+            trail: style.theme.trail(0).to_vec(),
+            glyphs: style.glyphs,
+        };
+        if self.look.as_ref() != Some(&look) {
+            *self = Self { look: Some(look), ..Self::default() };
+        }
+        self.trails.iter_mut().for_each(|kept| kept.used = false);
+        self.levels.iter_mut().for_each(|kept| kept.used = false);
+    }
+
+    /// Ends a frame: what it did not need is dropped.
+    pub(super) fn end(&mut self) {
+        self.trails.retain(|kept| kept.used);
+        self.levels.retain(|kept| kept.used);
+    }
+
+    /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row.
+    pub(super) fn trail(
+        &mut self,
+        key: TrailKey,
+        (rows, glyphs): (&Trail, Glyphs),
+        locate: impl Fn(&[f64]) -> Option<[f64; 2]>,
+    ) -> &KeptTrail {
+        let found = self.trails.iter().position(|kept| kept.key == key);
+        let index = found.unwrap_or_else(|| {
+            let value = Drawn::empty(&key, glyphs);
+            self.trails.push(Used { key, value, used: true });
+            self.trails.len() - 1
+        });
+        let Used { key, value, used } = &mut self.trails[index];
+        *used = true;
+        let new = value.continuation(rows).unwrap_or_else(|| {
+            *value = Drawn::empty(key, glyphs);
+            match key.track {
+                Track::Curve(_, _, from) => {
+                    rows.rows().rev().take_while(|row| row.first() >= Some(&from)).count()
+                }
+                _ => rows.len(),
+            }
+        });
+        value.carry_on(rows, new, locate);
+        &value.trail
+    }
+
+    /// The raster of level curves, drawn where it is not known yet.
+    pub(super) fn levels(
+        &mut self,
+        landscape: &Arc<Landscape>,
+        (frame, level): (&Frame, u8),
+        draw: impl FnOnce() -> Raster,
+    ) -> &Raster {
+        let same = |kept: &Used<LevelsKey, Raster>| {
+            Arc::ptr_eq(&kept.key.landscape, landscape)
+                && kept.key.frame == *frame
+                && kept.key.level == level
+        };
+        let index = self.levels.iter().position(same).unwrap_or_else(|| {
+            let key = LevelsKey { landscape: Arc::clone(landscape), frame: *frame, level };
+            self.levels.push(Used { key, value: draw(), used: true });
+            self.levels.len() - 1
+        });
+        self.levels[index].used = true;
+        &self.levels[index].value
+    }
+
+    /// The rows of the law's text at a width, made where they are not known yet.
+    pub(super) fn law(
+        &mut self,
+        equations: &Arc<Equations>,
+        width: u16,
+        make: impl FnOnce() -> Vec<Row>,
+    ) -> &[Row] {
+        let same = |(key, _): &(LawKey, Vec<Row>)| {
+            Arc::ptr_eq(&key.equations, equations) && key.width == width
+        };
+        if !self.law.as_ref().is_some_and(same) {
+            let key = LawKey { equations: Arc::clone(equations), width };
+            self.law = Some((key, make()));
+        }
+        self.law.as_ref().map_or(&[], |(_, rows)| rows)
+    }
+}
+
+impl Drawn {
+    fn empty(key: &TrailKey, glyphs: Glyphs) -> Self {
+        let line = match key.track {
+            Track::Curve(_, dash, _) => Some(dash),
+            Track::Channels(_) | Track::Point(..) => None,
+        };
+        let trail = KeptTrail::new(&key.frame, glyphs, line);
+        Self { trail, first: Vec::new(), last: Vec::new() }
+    }
+
+    /// The number of rows after the last one drawn; `None` if these rows do not continue what is drawn.
+    ///
+    /// The rows of one motion are told from those of another by their bits: the last drawn row must be among them, and
+    /// the oldest must be the first one drawn or a later one.
+    fn continuation(&self, rows: &Trail) -> Option<usize> {
+        let (oldest, began) = (rows.row(0)?, self.first.first()?);
+        if oldest[0] < *began || oldest[0] == *began && !same(oldest, &self.first) {
+            return None;
+        }
+        let mut count = 0;
+        for row in rows.rows().rev() {
+            if same(row, &self.last) {
+                return Some(count);
+            }
+            if row[0] < self.last[0] {
+                return None;
+            }
+            count += 1;
+        }
+        None
+    }
+
+    /// Draws the newest rows.
+    fn carry_on(
+        &mut self,
+        rows: &Trail,
+        count: usize,
+        locate: impl Fn(&[f64]) -> Option<[f64; 2]>,
+    ) {
+        if self.first.is_empty() {
+            self.first = rows.row(0).unwrap_or_default().to_vec();
+        }
+        let all = rows.len();
+        for row in (all - count.min(all)..all).filter_map(|index| rows.row(index)) {
+            if let Some(point) = locate(row) {
+                self.trail.to(point, row[0]);
+            }
+        }
+        if let Some(newest) = rows.row(all.wrapping_sub(1)) {
+            newest.clone_into(&mut self.last);
+        }
+    }
+}
+
+/// Whether two rows are the same bit by bit.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+/// The times from which the rows of a trail have each age, for its rows and the present after them.
+pub(super) fn since(rows: &Trail, ages: usize) -> Vec<f64> {
+    let count = rows.len() + 1;
+    let begins = |age: usize| rows.row(age * count / ages).map_or(f64::INFINITY, |row| row[0]);
+    (0..ages).map(begins).collect()
+}
+
+/// Draws a line of one age, from a time on.
+pub(super) fn whole<'a>(since: &'a [f64; 1], ramp: &'a [Shade; 1], layer: u8) -> Ages<'a> {
+    Ages { since, ramp, layer }
+}

@@ -1,0 +1,235 @@
+//! A trail that is kept between frames: a stamp for each dot instead of a stroke for each point.
+//!
+//! In: new points, each with a stamp that never decreases; which stamps are still part of the trail, and where each
+//! age begins. Out: dots of a raster, the same as if the whole trail were drawn again. Never here: where points come
+//! from, or whether they continue those before.
+//!
+//! A frame then costs a look at every cell, however long the trail is.
+
+use super::course::Course;
+use super::letter::faded;
+use super::{Pen, Raster, noise};
+use crate::view::glyphs::Glyphs;
+use crate::view::plot::scale::Frame;
+use crate::view::theme::{Dash, Shade};
+
+/// The number of dots in a cell at most.
+const DOTS: usize = 8;
+
+/// The stamp of the present, which is drawn but not kept.
+const NOW: f64 = f64::INFINITY;
+
+/// A trail over a frame.
+#[derive(Clone, Debug)]
+pub struct KeptTrail {
+    blank: Raster,
+    /// The newest stamp of each dot, cell by cell; −∞ where there never was one.
+    stamps: Vec<[f64; DOTS]>,
+    /// The newest stamp of each cell.
+    newest: Vec<f64>,
+    course: Course<f64>,
+    dash: Dash,
+    /// Whether the characters of ASCII show the age.
+    fading: bool,
+}
+
+/// How a kept trail is drawn in one frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Ages<'a> {
+    /// The stamp from which each age on is drawn, the oldest first; lesser stamps than the first are not drawn.
+    pub since: &'a [f64],
+    /// The shade of each age.
+    pub ramp: &'a [Shade],
+    /// The layer.
+    pub layer: u8,
+}
+
+impl Ages<'_> {
+    /// The age of a stamp, if it is still drawn.
+    fn of(&self, stamp: f64) -> Option<usize> {
+        self.since.iter().rposition(|since| *since <= stamp)
+    }
+}
+
+impl KeptTrail {
+    /// Creates an empty trail over a frame: fading, or a line with a pattern.
+    pub fn new(frame: &Frame, glyphs: Glyphs, line: Option<Dash>) -> Self {
+        let blank = Raster::new(frame.area, glyphs);
+        let count = blank.cells.len();
+        Self {
+            stamps: vec![[f64::NEG_INFINITY; DOTS]; count],
+            newest: vec![f64::NEG_INFINITY; count],
+            course: Course::new(frame, blank.size()),
+            blank,
+            dash: line.unwrap_or(Dash::Full),
+            fading: line.is_none(),
+        }
+    }
+
+    /// Continues the trail to a point; the stroke that leads there gets the stamp.
+    pub fn to(&mut self, point: [f64; 2], stamp: f64) {
+        let grid = self.grid();
+        let (dash, lettered) = (self.dash, grid != [1, 1]);
+        let Self { blank, stamps, newest, course, .. } = self;
+        course.to(point, (stamp, grid), &mut |dot, inked| {
+            if !(lettered || dash.covers(dot[inked.along])) {
+                return;
+            }
+            let Some((cell, bit)) = blank.place(inked.centre(dot)) else { return };
+            stamps[cell][bit.trailing_zeros() as usize] = inked.ink;
+            newest[cell] = newest[cell].max(inked.ink);
+        });
+    }
+
+    /// Draws the trail and a last stroke to the present point.
+    pub fn draw(&self, raster: &mut Raster, ages: Ages<'_>, present: [f64; 2]) {
+        let pens: Vec<Pen> = (ages.ramp.iter().enumerate())
+            .map(|(age, shade)| Pen::aged(*shade, ages.layer, age))
+            .collect();
+        let sign = |age: usize| match self.blank.glyphs {
+            Glyphs::Ascii if self.fading => Some(faded(age, ages.ramp.len())),
+            Glyphs::Ascii => self.dash.letter(),
+            _ => None,
+        };
+        let oldest = ages.since.first().copied().unwrap_or(NOW);
+        for (cell, stamps) in self.stamps.iter().enumerate() {
+            if self.newest[cell] < oldest {
+                continue;
+            }
+            for (bit, stamp) in stamps.iter().enumerate().filter(|(_, stamp)| **stamp >= oldest) {
+                if let Some((age, pen)) = ages.of(*stamp).and_then(|a| Some((a, pens.get(a)?))) {
+                    raster.ink_bit((cell, bit), pen, sign(age));
+                }
+            }
+        }
+        let (dash, grid) = (self.dash, self.grid());
+        let mut end = |dot: [i32; 2], inked: super::course::Inked<f64>| {
+            let age = ages.of(inked.ink).and_then(|age| Some((age, pens.get(age)?)));
+            let Some((age, pen)) = age else { return };
+            if grid != [1, 1] || dash.covers(dot[inked.along]) {
+                raster.ink(inked.centre(dot), pen, sign(age));
+            }
+        };
+        let mut course = self.course.clone();
+        course.to(present, (NOW, grid), &mut end);
+        course.rest(&mut end);
+    }
+
+    /// The number of dots drawn as one: characters of ASCII fill a cell.
+    fn grid(&self) -> [i32; 2] {
+        let ascii = self.blank.glyphs == Glyphs::Ascii;
+        let lettered = ascii && (self.fading || self.dash.letter().is_some());
+        if lettered { self.blank.cell() } else { [1, 1] }
+    }
+}
+
+impl Raster {
+    /// Sets a dot by its cell and the index of its bit.
+    fn ink_bit(&mut self, (cell, bit): (usize, usize), pen: &Pen, sign: Option<char>) {
+        if pen.coverage < 1.0 && noise(self.thinning(cell, bit)) >= pen.coverage {
+            return;
+        }
+        self.set((cell, 1 << bit), pen, sign);
+    }
+
+    /// The place that decides whether a dot is left out where dots are thinned.
+    fn thinning(&self, cell: usize, bit: usize) -> [i32; 2] {
+        let columns = usize::from(self.area.width).max(1);
+        let (column, row) = ((cell % columns) as i32, (cell / columns) as i32);
+        if self.glyphs.is_ascii() {
+            return [column, row];
+        }
+        let [wide, high] = self.cell();
+        [column * wide + bit as i32 % wide, row * high + bit as i32 / wide]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
+
+    use super::*;
+    use crate::view::colour::ColourDepth;
+    use crate::view::plot::Scale;
+    use crate::view::theme::Theme;
+
+    /// A walk that leaves the frame, wraps, jumps and has gaps.
+    fn walk(count: usize) -> Vec<[f64; 2]> {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let mut at = [0.0, 0.0];
+        let step = |i: usize, at: &mut [f64; 2], random: &mut dyn FnMut() -> f64| {
+            let reach = if i % 37 == 0 { 3.0 } else { 0.2 };
+            *at = [at[0] + reach * random(), at[1] * 0.98 + reach * random()];
+            if i % 101 == 50 { [f64::NAN, 0.0] } else { *at }
+        };
+        (0..count).map(|i| step(i, &mut at, &mut random)).collect()
+    }
+
+    fn shown(raster: &Raster) -> Buffer {
+        let mut buffer = Buffer::empty(raster.area);
+        raster.draw(&mut buffer);
+        buffer
+    }
+
+    #[test]
+    fn a_kept_trail_looks_like_one_drawn_whole() {
+        let area = Rect::new(0, 0, 31, 13);
+        let whole = Scale::linear(-1.5, 1.5);
+        let frames = [
+            Frame::new(whole, whole, area),
+            Frame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
+        ];
+        let points = walk(900);
+        for (frame, depth) in
+            frames.iter().flat_map(|f| [ColourDepth::True, ColourDepth::None].map(|d| (f, d)))
+        {
+            let theme = Theme::dark(depth);
+            let ramp = theme.trail(1);
+            for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
+                let mut kept = KeptTrail::new(frame, glyphs, None);
+                for (index, point) in points.iter().enumerate() {
+                    kept.to(*point, index as f64);
+                    let count = index + 1;
+                    if ![1, 2, 3, 10, 51, 500, 777, 900].contains(&count) {
+                        continue;
+                    }
+                    let present = [0.3, 0.4];
+                    let all: Vec<_> = points[..count].iter().copied().chain([present]).collect();
+                    let mut whole = Raster::new(area, glyphs);
+                    whole.trail(frame, &all, ramp, 2);
+                    let start = |age: usize| age * all.len() / ramp.len();
+                    let since: Vec<f64> = (0..ramp.len())
+                        .map(|age| if start(age) < count { start(age) as f64 } else { NOW })
+                        .collect();
+                    let mut again = Raster::new(area, glyphs);
+                    kept.draw(&mut again, Ages { since: &since, ramp, layer: 2 }, present);
+                    assert_eq!(shown(&again), shown(&whole), "{glyphs:?} {depth:?} {count}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_older_than_the_trail_is_not_drawn() {
+        let area = Rect::new(0, 0, 10, 4);
+        let scale = Scale::linear(0.0, 1.0);
+        let frame = Frame::new(scale, scale, area);
+        let theme = Theme::dark(ColourDepth::True);
+        let mut kept = KeptTrail::new(&frame, Glyphs::Braille, None);
+        kept.to([0.0, 0.1], 0.0);
+        kept.to([0.4, 0.1], 1.0);
+        kept.to([0.9, 0.8], 2.0);
+        let dots = |oldest: f64| {
+            let mut raster = Raster::new(area, Glyphs::Braille);
+            let ages = Ages { since: &[oldest; 8], ramp: theme.trail(0), layer: 1 };
+            kept.draw(&mut raster, ages, [0.9, 0.8]);
+            (raster.is_set([2, 14]), raster.is_set([18, 3]))
+        };
+        assert_eq!([dots(0.0), dots(2.0)], [(true, true), (false, true)]);
+    }
+}
