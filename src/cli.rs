@@ -19,6 +19,7 @@ mod exit;
 mod failure;
 mod format;
 mod interrupt;
+mod invariants;
 mod lab;
 mod list;
 mod manual;

@@ -2,7 +2,7 @@
 //!
 //! In and out: numbers. A program is evaluated in a [`Real`]: `f64`, [`DoubleDouble`] for twice its
 //! digits, [`ExtendedRange`] for values outside the range of both. A [`Number`] is a constant in an
-//! expression. [`math`] has the elementary functions, with the same bits on every machine. Never
+//! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the elementary functions, with the same bits on every machine. Never
 //! here: expressions, units, files.
 
 mod double_double;
@@ -10,10 +10,12 @@ mod extended_range;
 mod format;
 pub mod math;
 mod number;
+mod prime_field;
 mod real;
 
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};
 pub use number::Number;
+pub use prime_field::{PRIMES, PrimeField, Residue, rational};
 pub use real::{Real, Recurrence, RecurrenceStep};

@@ -18,6 +18,7 @@ use super::doctor;
 use super::exit;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::invariants;
 use super::lab;
 use super::list;
 use super::manual;
@@ -70,6 +71,7 @@ enum Command {
     Derive(derive::Arguments),
     Check(check::Arguments),
     Bracket(bracket::Arguments),
+    Invariants(invariants::Arguments),
     Run(Box<run::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
@@ -117,6 +119,7 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Derive(arguments) => derive::perform(&arguments),
         Command::Check(arguments) => check::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
+        Command::Invariants(arguments) => invariants::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
