@@ -13,6 +13,7 @@ mod formula;
 mod known;
 mod law;
 mod level;
+mod scope;
 mod search;
 mod verdict;
 

@@ -133,8 +133,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let hamiltonian = is_hamiltonian(model, equations);
     let relations = relations(model, equations, &invariants, hamiltonian);
     let jacobi = arguments.jacobi;
-    let answer =
-        Answer { model, equations, invariants, relations, hamiltonian, jacobi, scan };
+    let answer = Answer { model, equations, invariants, relations, hamiltonian, jacobi, scan };
     let text = match arguments.format {
         Format::Text => text::write(&answer, Script::of_locale()),
         Format::Latex => text::latex(&answer),
@@ -151,16 +150,14 @@ fn parameter(model: &Model, name: &str) -> Result<usize, CommandError> {
         let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
         let shown = printable::quoted(name);
         let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        CommandError::WrongUse(format!("--scan: there is no parameter `{shown}`; there are {known}"))
+        CommandError::WrongUse(format!(
+            "--scan: there is no parameter `{shown}`; there are {known}"
+        ))
     })
 }
 
 impl Arguments {
-    fn search(
-        &self,
-        model: &Model,
-        equations: &mut Equations,
-    ) -> Result<Invariants, CommandError> {
+    fn search(&self, model: &Model, equations: &mut Equations) -> Result<Invariants, CommandError> {
         let budget = self.budget.or(self.degree.is_none().then_some(BUDGET));
         let begin = Instant::now();
         let is_over = || {

@@ -78,9 +78,7 @@ impl Ansatz {
         let mut ansatz = Ansatz { momenta, coefficients, columns, bounds };
         let degree = |m: &[u32]| m.iter().sum::<u32>();
         let mut columns = std::mem::take(&mut ansatz.columns);
-        columns.sort_by_key(|&(a, b)| {
-            degree(&ansatz.momenta[a]) + degree(&ansatz.coefficients[b])
-        });
+        columns.sort_by_key(|&(a, b)| degree(&ansatz.momenta[a]) + degree(&ansatz.coefficients[b]));
         ansatz.columns = columns;
         Some(ansatz)
     }
@@ -130,10 +128,12 @@ impl Ansatz {
                 })
                 .collect();
             let whole = |m: &Exponents| {
-                m.iter().enumerate().filter(|(_, n)| **n > 0).fold(
-                    (field.one(), Residue::ZERO),
-                    |whole, (i, &n)| product(field, whole, powers[i][n as usize]),
-                )
+                m.iter()
+                    .enumerate()
+                    .filter(|(_, n)| **n > 0)
+                    .fold((field.one(), Residue::ZERO), |whole, (i, &n)| {
+                        product(field, whole, powers[i][n as usize])
+                    })
             };
             all.iter().map(whole).collect()
         };
@@ -165,11 +165,7 @@ impl Ansatz {
 }
 
 /// (f g, f' g + f g').
-fn product(
-    field: PrimeField,
-    f: (Residue, Residue),
-    g: (Residue, Residue),
-) -> (Residue, Residue) {
+fn product(field: PrimeField, f: (Residue, Residue), g: (Residue, Residue)) -> (Residue, Residue) {
     let rate = field.add(field.mul(f.1, g.0), field.mul(f.0, g.1));
     (field.mul(f.0, g.0), rate)
 }

@@ -313,6 +313,11 @@ impl Found {
                         stack.push(base);
                         let whole = n.as_integer().is_some_and(|n| n > 0);
                         if !whole && pool.depends_on_any(base, moving) {
+                            // x − y and y − x have the same powers up to a sign
+                            let opposite = pool.neg(base);
+                            let known = n.as_integer().is_some()
+                                && found.powers.iter().any(|(b, _)| *b == opposite);
+                            let base = if known { opposite } else { base };
                             push_to(&mut found.powers, base, n);
                         }
                     }
@@ -346,11 +351,8 @@ impl Found {
                     }
                 }
                 if matches!(function, FunctionId::Tan | FunctionId::Cot) {
-                    let below = if function == FunctionId::Tan {
-                        FunctionId::Cos
-                    } else {
-                        FunctionId::Sin
-                    };
+                    let below =
+                        if function == FunctionId::Tan { FunctionId::Cos } else { FunctionId::Sin };
                     let below = pool.call(below, u);
                     self.reciprocal_sines.push(below);
                 }

@@ -24,6 +24,9 @@ const HIGHEST: u32 = 4;
 /// The greatest number of unknown coefficients of such a function.
 const MOST_TERMS: usize = 240;
 
+/// What determines the values of functions of constants in the first sample.
+const FIRST: u64 = 1_000;
+
 /// The number of coefficients by which the others are divided in turn, to find the shortest form.
 const MOST_LEADS: usize = 12;
 
@@ -81,6 +84,7 @@ pub(super) fn rationals(
             evaluator: ground.evaluator,
             field,
             constants: FxHashMap::default(),
+            seed: ground.seed,
             is_over: ground.is_over,
         };
         let Some(second) = only(&other, atoms, ansatz, &columns, random) else { continue };
@@ -113,6 +117,8 @@ pub(super) struct Lift<'a> {
     pub(super) ansatz: &'a Ansatz,
     pub(super) columns: Vec<usize>,
     pub(super) parameters: &'a [Symbol],
+    /// What coefficients may be made of, with the highest powers: the parameters, and functions of them.
+    pub(super) constants: &'a [(Expr, u32)],
     pub(super) is_over: &'a dyn Fn() -> bool,
 }
 
@@ -121,16 +127,40 @@ impl Lift<'_> {
         &self,
         field: PrimeField,
         values: &FxHashMap<Symbol, Residue>,
+        seed: u64,
         random: &mut Random,
     ) -> Option<Vec<Residue>> {
-        let ground = Ground {
+        let ground = self.ground(field, values, seed);
+        only(&ground, self.atoms, self.ansatz, &self.columns, random)
+    }
+
+    fn ground(
+        &self,
+        field: PrimeField,
+        values: &FxHashMap<Symbol, Residue>,
+        seed: u64,
+    ) -> Ground<'_> {
+        Ground {
             law: self.law,
             evaluator: self.evaluator,
             field,
             constants: values.clone(),
+            seed,
             is_over: self.is_over,
-        };
-        only(&ground, self.atoms, self.ansatz, &self.columns, random)
+        }
+    }
+
+    /// The values of the constants of which coefficients may be made.
+    fn constants_at(
+        &self,
+        field: PrimeField,
+        values: &FxHashMap<Symbol, Residue>,
+        seed: u64,
+        random: &mut Random,
+    ) -> Option<Vec<Residue>> {
+        let drawn = self.ground(field, values, seed).draw(random).ok()?;
+        let all = self.constants.iter();
+        Some(all.map(|(e, _)| self.evaluator.value(&drawn.point, *e)).collect())
     }
 
     /// Random parameters; squares, so that their roots exist.
@@ -152,17 +182,17 @@ impl Lift<'_> {
         let draw = |random: &mut Random| self.draw(field, random);
         let (at, first) = (0..20).find_map(|_| {
             let at = draw(random);
-            Some((at.clone(), self.sample(field, &at, random)?))
+            Some((at.clone(), self.sample(field, &at, FIRST, random)?))
         })?;
         let four = field.residue(4);
         let mut scaled: Vec<(Symbol, Vec<Residue>)> = Vec::new();
         for &s in self.parameters {
             let mut moved = at.clone();
             moved.insert(s, field.mul(four, at[&s]));
-            scaled.push((s, self.sample(field, &moved, random)?));
+            scaled.push((s, self.sample(field, &moved, FIRST, random)?));
         }
         let check_at = draw(random);
-        let check = self.sample(field, &check_at, random)?;
+        let check = self.sample(field, &check_at, FIRST + 1, random)?;
         let mut dense: Option<Dense> = None;
         let mut best: Option<(u64, Vec<Expr>)> = None;
         for lead in 0..self.columns.len().min(MOST_LEADS) {
@@ -200,9 +230,11 @@ impl Lift<'_> {
         random: &mut Random,
     ) -> Option<Vec<Expr>> {
         let Sampled { at, first, moved: scaled, check_at, check } = sampled;
+        // functions of parameters show only in samples that differ in them
+        let plain = self.constants.len() == self.parameters.len();
         let mut all = Vec::new();
         for i in 0..self.columns.len() {
-            let monomial = monomial_of(field, at, first[i], i, scaled);
+            let monomial = monomial_of(field, at, first[i], i, scaled).filter(|_| plain);
             let fits = monomial.as_ref().is_some_and(|(c, powers)| {
                 value_of(field, *c, powers, check_at).is_some_and(|x| x == check[i])
             });
@@ -214,7 +246,7 @@ impl Lift<'_> {
                 }
                 None => {
                     if dense.is_none() {
-                        *dense = Some(Dense::of(self, field, first, scaled, random)?);
+                        *dense = Some(Dense::of(self, pool, field, first, scaled, random)?);
                     }
                     all.push(dense.as_ref()?.function(pool, field, i, lead)?);
                 }
@@ -238,12 +270,12 @@ fn monomial_of(
     for (s, moved) in scaled {
         let ratio = field.mul(moved[i], below);
         let two = field.residue(2);
-        let twice = (-24_i64..=24).find(|&j| field.powi(two, j) == Some(ratio))?;
+        let twice = (-24_i64..=24).find(|&j| field.integer_power(two, j) == Some(ratio))?;
         if twice != 0 {
             let n = Number::ratio(twice.into(), 2);
             powers.push((*s, n));
             let root = field.root(at[s], 2)?;
-            rest = field.mul(rest, field.powi(root, -twice)?);
+            rest = field.mul(rest, field.integer_power(root, -twice)?);
         }
     }
     let (n, d) = rational(field.value(rest).into(), field.prime().into(), SPARE_BITS)?;
@@ -258,31 +290,41 @@ fn value_of(
 ) -> Option<Residue> {
     powers.iter().try_fold(field.number(c)?, |whole, (s, n)| {
         let twice = (*n * Number::integer(2)).as_integer()?;
-        Some(field.mul(whole, field.powi(field.root(at[s], 2)?, twice)?))
+        Some(field.mul(whole, field.integer_power(field.root(at[s], 2)?, twice)?))
     })
 }
 
 /// Samples from which a rational function of the parameters is made.
 struct Dense {
-    parameters: Vec<Symbol>,
-    samples: Vec<(FxHashMap<Symbol, Residue>, Vec<Residue>)>,
+    constants: Vec<(Expr, u32)>,
+    /// The values of the constants, and the coefficients.
+    samples: Vec<(Vec<Residue>, Vec<Residue>)>,
 }
 
 impl Dense {
     fn of(
         lift: &Lift<'_>,
+        pool: &Pool,
         field: PrimeField,
         first: &[Residue],
         scaled: &[(Symbol, Vec<Residue>)],
         random: &mut Random,
     ) -> Option<Dense> {
-        let relevant = scaled.iter().filter(|(_, moved)| moved != first);
-        let parameters: Vec<Symbol> = relevant.map(|(s, _)| *s).collect();
+        // a parameter that changes no coefficient is left out
+        let idle = |e: Expr| {
+            let moved = |(s, moved): &&(Symbol, Vec<Residue>)| {
+                pool.as_symbol(e) == Some(*s) && moved == first
+            };
+            scaled.iter().any(|pair| moved(&pair))
+        };
+        let used: Vec<usize> =
+            (0..lift.constants.len()).filter(|&k| !idle(lift.constants[k].0)).collect();
+        let constants: Vec<(Expr, u32)> = used.iter().map(|&k| lift.constants[k]).collect();
         let mut highest = HIGHEST;
-        while highest > 1 && 2 * terms(parameters.len(), highest).len() > MOST_TERMS {
+        while highest > 1 && 2 * terms(&constants, highest).len() > MOST_TERMS {
             highest -= 1;
         }
-        let wanted = 2 * terms(parameters.len(), highest).len() + 8;
+        let wanted = 2 * terms(&constants, highest).len() + 8;
         if wanted > MOST_TERMS + 8 {
             return None;
         }
@@ -293,24 +335,20 @@ impl Dense {
             if tries > 3 * wanted || (lift.is_over)() {
                 return None;
             }
-            let at = lift.draw(field, random);
-            if let Some(sample) = lift.sample(field, &at, random) {
-                samples.push((at, sample));
+            let (at, seed) = (lift.draw(field, random), FIRST + 1 + tries as u64);
+            if let Some(sample) = lift.sample(field, &at, seed, random)
+                && let Some(values) = lift.constants_at(field, &at, seed, random)
+            {
+                samples.push((used.iter().map(|&k| values[k]).collect(), sample));
             }
         }
-        Some(Dense { parameters, samples })
+        Some(Dense { constants, samples })
     }
 
     /// The quotient of polynomials of least degree that the i-th coefficient is.
-    fn function(
-        &self,
-        pool: &mut Pool,
-        field: PrimeField,
-        i: usize,
-        lead: usize,
-    ) -> Option<Expr> {
+    fn function(&self, pool: &mut Pool, field: PrimeField, i: usize, lead: usize) -> Option<Expr> {
         for degree in 1..=HIGHEST {
-            let terms = terms(self.parameters.len(), degree);
+            let terms = terms(&self.constants, degree);
             let n = terms.len();
             if 2 * n + 6 > self.samples.len() {
                 return None;
@@ -318,8 +356,8 @@ impl Dense {
             let mut echelon = Echelon::new(field, 2 * n);
             for (at, values) in self.samples.iter().take(2 * n + 6) {
                 let monomial = |powers: &Vec<u32>| {
-                    self.parameters.iter().zip(powers).fold(field.one(), |whole, (s, &k)| {
-                        field.mul(whole, field.pow(at[s], k.into()))
+                    at.iter().zip(powers).fold(field.one(), |whole, (&x, &k)| {
+                        field.mul(whole, field.pow(x, k.into()))
                     })
                 };
                 let above: Vec<Residue> = terms.iter().map(monomial).collect();
@@ -329,7 +367,8 @@ impl Dense {
                 echelon.add(row);
             }
             let basis = echelon.null_space();
-            let [vector] = &basis[..] else { continue };
+            let nonzero = |v: &&Vec<Residue>| v[n..].iter().any(|x| !x.is_zero());
+            let Some(vector) = basis.iter().find(nonzero) else { continue };
             let lead = vector.iter().rev().find(|x| !x.is_zero())?;
             let scale = field.inverse(*lead)?;
             let mut polynomial = |half: &[Residue]| -> Option<Expr> {
@@ -338,10 +377,10 @@ impl Dense {
                     let value = field.value(field.mul(x, scale));
                     let (a, b) = rational(value.into(), field.prime().into(), SPARE_BITS)?;
                     let factors: Vec<(Expr, Number)> = self
-                        .parameters
+                        .constants
                         .iter()
                         .zip(powers)
-                        .map(|(&s, &k)| (pool.variable(s), Number::integer(k.into())))
+                        .map(|(&(e, _), &k)| (e, Number::integer(k.into())))
                         .collect();
                     let monomial = pool.monomial(Number::ONE, &factors);
                     parts.push((exact(a, b)?, monomial));
@@ -356,15 +395,15 @@ impl Dense {
     }
 }
 
-/// The exponents of all monomials of that many symbols up to a degree.
-fn terms(symbols: usize, degree: u32) -> Vec<Vec<u32>> {
+/// The exponents of all monomials of some constants up to a degree.
+fn terms(constants: &[(Expr, u32)], degree: u32) -> Vec<Vec<u32>> {
     let mut all: Vec<Vec<u32>> = vec![Vec::new()];
-    for _ in 0..symbols {
+    for &(_, highest) in constants {
         all = all
             .into_iter()
             .flat_map(|m| {
                 let left = degree - m.iter().sum::<u32>();
-                (0..=left).map(move |k| {
+                (0..=left.min(highest)).map(move |k| {
                     let mut longer = m.clone();
                     longer.push(k);
                     longer

@@ -90,7 +90,9 @@ pub(super) fn reduced(
     let mut rows: Vec<Vec<Residue>> = basis.to_vec();
     let mut done = 0;
     for &column in order {
-        let Some(found) = (done..rows.len()).find(|&i| !rows[i][column].is_zero()) else { continue };
+        let Some(found) = (done..rows.len()).find(|&i| !rows[i][column].is_zero()) else {
+            continue;
+        };
         rows.swap(done, found);
         let Some(scale) = field.inverse(rows[done][column]) else { continue };
         for x in &mut rows[done] {

@@ -45,7 +45,7 @@ pub struct Unsupported(pub String);
 #[derive(Clone, Debug)]
 enum Step {
     Number(Number),
-    /// A residue drawn once for each point: π.
+    /// The same residue at every point of a seed: π, and a logarithm or arctangent of a constant.
     Constant,
     Symbol(Symbol),
     Sum(Number, Vec<(Number, usize)>),
@@ -75,8 +75,9 @@ struct Angle {
 pub(super) struct Evaluator {
     steps: Vec<Step>,
     index: FxHashMap<Expr, usize>,
-    circles: usize,
-    units: usize,
+    /// For each circle, and each unit, whether it is the same at all points.
+    circles: Vec<bool>,
+    units: Vec<bool>,
     /// Whether logarithms or arctangents may be related, so that a point is more general than the functions are.
     pub(super) overgeneral: bool,
 }
@@ -98,10 +99,12 @@ struct Units {
 }
 
 impl Units {
-    fn collect(&mut self, pool: &Pool, argument: Expr) -> Result<(), Unsupported> {
+    fn collect(&mut self, pool: &mut Pool, argument: Expr) -> Result<(), Unsupported> {
         for (c, term) in terms(pool, argument) {
             let Number::Rational(_, d) = c else {
-                return Err(Unsupported("a coefficient in an angle or exponent is no fraction".into()));
+                return Err(Unsupported(
+                    "a coefficient in an angle or exponent is no fraction".into(),
+                ));
             };
             let known = self.denominators.entry(term).or_insert_with(|| {
                 self.order.push(term);
@@ -112,7 +115,7 @@ impl Units {
         Ok(())
     }
 
-    fn parts(&self, pool: &Pool, argument: Expr) -> Vec<(usize, i64)> {
+    fn parts(&self, pool: &mut Pool, argument: Expr) -> Vec<(usize, i64)> {
         let multiple = |(c, term): (Number, Expr)| {
             let unit = self.order.iter().position(|&t| t == term)?;
             let Number::Rational(n, d) = c else { return None };
@@ -131,11 +134,15 @@ fn least_common(a: i64, b: i64) -> i64 {
 }
 
 /// An argument as a sum of multiples of terms without coefficient.
-pub(super) fn terms(pool: &Pool, e: Expr) -> Vec<(Number, Expr)> {
+pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
     let mut all = Vec::new();
     for (c, term) in pool.summands(e) {
         match pool.node(term) {
             Node::Number(n) => all.push((c * *n, Expr::ONE)),
+            Node::Product(k, _) => {
+                let k = *k;
+                all.push((c * k, pool.scale(k.recip(), term)));
+            }
             _ => all.push((c, term)),
         }
     }
@@ -143,9 +150,13 @@ pub(super) fn terms(pool: &Pool, e: Expr) -> Vec<(Number, Expr)> {
 }
 
 impl Evaluator {
-    /// Compiles expressions. Angles are also divided by `fold`, so that the functions of fractions of them that are
-    /// asked for later are of the same units; those have to be among `roots`.
-    pub(super) fn new(pool: &Pool, roots: &[Expr]) -> Result<Evaluator, Unsupported> {
+    /// Compiles expressions. Functions of what does not contain the `moving` symbols have the same value at every
+    /// point of a seed.
+    pub(super) fn new(
+        pool: &mut Pool,
+        roots: &[Expr],
+        moving: &[Symbol],
+    ) -> Result<Evaluator, Unsupported> {
         let nodes = pool.reachable(roots);
         let index: FxHashMap<Expr, usize> =
             nodes.iter().enumerate().map(|(i, &e)| (e, i)).collect();
@@ -153,8 +164,11 @@ impl Evaluator {
         let mut roots_of: FxHashMap<Expr, u64> = FxHashMap::default();
         let mut opaque = 0;
         for &e in &nodes {
-            match pool.node(e) {
-                Node::Call(FunctionId::Sin | FunctionId::Cos | FunctionId::Tan | FunctionId::Cot, u) => {
+            match &pool.node(e).clone() {
+                Node::Call(
+                    FunctionId::Sin | FunctionId::Cos | FunctionId::Tan | FunctionId::Cot,
+                    u,
+                ) => {
                     circles.collect(pool, u[0])?;
                 }
                 Node::Call(
@@ -179,7 +193,7 @@ impl Evaluator {
         let mut steps = Vec::with_capacity(nodes.len());
         for &e in &nodes {
             let at = |e: Expr| index[&e];
-            let angle = |u: Expr| -> Result<Angle, Unsupported> {
+            let angle = |u: Expr, pool: &mut Pool| -> Result<Angle, Unsupported> {
                 let (mut parts, mut quarters) = (circles.parts(pool, u), 0);
                 if let Some(turn) = turns {
                     let denominator = circles.denominators[&circles.order[turn]];
@@ -194,7 +208,7 @@ impl Evaluator {
                 }
                 Ok(Angle { parts, quarters })
             };
-            let step = match pool.node(e) {
+            let step = match &pool.node(e).clone() {
                 Node::Number(n) => Step::Number(*n),
                 Node::Pi => Step::Constant,
                 Node::Symbol(s) => Step::Symbol(*s),
@@ -210,15 +224,19 @@ impl Evaluator {
                     Step::Product(*c, factors.iter().filter_map(factor).collect())
                 }
                 Node::Power(..) => {
-                    let why = format!("the power {} has an exponent that is not a number", pool.text(e));
+                    let why =
+                        format!("the power {} has an exponent that is not a number", pool.text(e));
                     return Err(Unsupported(why));
                 }
                 Node::Call(function, u) => match function {
-                    FunctionId::Sin => Step::Sine(angle(u[0])?, at(u[0])),
-                    FunctionId::Cos => Step::Cosine(angle(u[0])?, at(u[0])),
+                    FunctionId::Sin => Step::Sine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Cos => Step::Cosine(angle(u[0], pool)?, at(u[0])),
                     FunctionId::Exp => Step::Exp(units.parts(pool, u[0]), at(u[0])),
                     FunctionId::Sinh => Step::Sinh(units.parts(pool, u[0]), at(u[0])),
                     FunctionId::Cosh => Step::Cosh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Ln | FunctionId::Atan if !pool.depends_on_any(e, moving) => {
+                        Step::Constant
+                    }
                     FunctionId::Ln => Step::Ln(at(u[0])),
                     FunctionId::Atan => Step::Atan(at(u[0])),
                     other => {
@@ -229,11 +247,14 @@ impl Evaluator {
             };
             steps.push(step);
         }
+        let fixed = |all: &Units| -> Vec<bool> {
+            all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
+        };
         Ok(Evaluator {
             steps,
             index,
-            circles: circles.order.len(),
-            units: units.order.len(),
+            circles: fixed(&circles),
+            units: fixed(&units),
             overgeneral: opaque > 1,
         })
     }
@@ -243,30 +264,36 @@ impl Evaluator {
         &self,
         field: PrimeField,
         random: &mut Random,
+        seed: u64,
         at: &dyn Fn(Symbol) -> Option<Residue>,
     ) -> Option<Point> {
-        let mut circle = || -> Option<(Residue, Residue)> {
-            let tau = random.residue(&field);
+        let mut same = Random::new(seed);
+        let mut circle = |fixed: &bool| -> Option<(Residue, Residue)> {
+            let tau = if *fixed { same.residue(&field) } else { random.residue(&field) };
             let square = field.mul(tau, tau);
             let below = field.inverse(field.add(field.one(), square))?;
             let sine = field.mul(field.add(tau, tau), below);
             Some((sine, field.mul(field.sub(field.one(), square), below)))
         };
         let circles: Vec<(Residue, Residue)> =
-            (0..self.circles).map(|_| circle()).collect::<Option<_>>()?;
-        let units: Vec<Residue> = (0..self.units).map(|_| random.residue(&field)).collect();
+            self.circles.iter().map(&mut circle).collect::<Option<_>>()?;
+        let unit = |fixed: &bool| {
+            if *fixed { same.residue(&field) } else { random.residue(&field) }
+        };
+        let units: Vec<Residue> = self.units.iter().map(unit).collect();
         let mut roots: FxHashMap<(usize, u64), Residue> = FxHashMap::default();
         let mut values = vec![Residue::ZERO; self.steps.len()];
         let mut companions = vec![Residue::ZERO; self.steps.len()];
         let unit_power = |parts: &[(usize, i64)]| {
             parts.iter().try_fold(field.one(), |product, &(unit, n)| {
-                Some(field.mul(product, field.powi(units[unit], n)?))
+                Some(field.mul(product, field.integer_power(units[unit], n)?))
             })
         };
         for (i, step) in self.steps.iter().enumerate() {
             values[i] = match step {
                 Step::Number(n) => field.number(*n)?,
-                Step::Constant | Step::Ln(_) | Step::Atan(_) => random.residue(&field),
+                Step::Constant => same.residue(&field),
+                Step::Ln(_) | Step::Atan(_) => random.residue(&field),
                 Step::Symbol(s) => at(*s)?,
                 Step::Sum(c, terms) => {
                     let mut sum = field.number(*c)?;
@@ -291,7 +318,7 @@ impl Evaluator {
                                 root
                             }
                         };
-                        product = field.mul(product, field.powi(root, n)?);
+                        product = field.mul(product, field.integer_power(root, n)?);
                     }
                     product
                 }
@@ -389,7 +416,11 @@ pub(super) struct Rates(Vec<Residue>);
 
 impl Angle {
     /// Its sine and cosine.
-    fn open(&self, field: &PrimeField, circles: &[(Residue, Residue)]) -> Option<(Residue, Residue)> {
+    fn open(
+        &self,
+        field: &PrimeField,
+        circles: &[(Residue, Residue)],
+    ) -> Option<(Residue, Residue)> {
         let one = field.one();
         let mut whole = match self.quarters.rem_euclid(4) {
             0 => (Residue::ZERO, one),

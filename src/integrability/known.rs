@@ -49,7 +49,9 @@ pub(super) fn of(
             continue;
         }
         // something whose values cannot be had modulo a prime cannot be compared
-        if Evaluator::new(pool, &[here]).is_err() || all.iter().any(|k| k.here == here) {
+        if Evaluator::new(pool, &[here], &law.moving()).is_err()
+            || all.iter().any(|k| k.here == here)
+        {
             continue;
         }
         let moving = if law.positions == 0 { &law.variables[..] } else { law.momenta() };

@@ -117,6 +117,11 @@ impl Law {
         Law { variables, positions, rule, energy, time, hamiltonian }
     }
 
+    /// The symbols that move: the variables and the time.
+    pub(super) fn moving(&self) -> Vec<Symbol> {
+        self.variables.iter().copied().chain([self.time]).collect()
+    }
+
     /// Every expression of the law.
     pub(super) fn expressions(&self) -> Vec<Expr> {
         let mut all = vec![self.energy];
@@ -182,6 +187,7 @@ impl Law {
         field: PrimeField,
         random: &mut Random,
         constants: &FxHashMap<Symbol, Residue>,
+        seed: u64,
     ) -> Option<Drawn> {
         let mut state = constants.clone();
         for &symbol in self.variables.iter().chain([&self.time]) {
@@ -190,7 +196,7 @@ impl Law {
         let begin = random.clone();
         *random = Random::new(random.next());
         let evaluate = |state: &FxHashMap<Symbol, Residue>| {
-            evaluator.point(field, &mut begin.clone(), &|s| state.get(&s).copied())
+            evaluator.point(field, &mut begin.clone(), seed, &|s| state.get(&s).copied())
         };
         if let Rule::Solved { rows, .. } = &self.rule {
             self.constrain(rows, evaluator, field, &mut state, &evaluate)?;
@@ -237,10 +243,8 @@ impl Law {
                 let value = if c2.is_zero() {
                     field.neg(field.mul(f0, field.inverse(c1)?))
                 } else {
-                    let under = field.sub(
-                        field.mul(c1, c1),
-                        field.mul(field.mul(field.residue(4), c2), f0),
-                    );
+                    let under = field
+                        .sub(field.mul(c1, c1), field.mul(field.mul(field.residue(4), c2), f0));
                     let root = field.root(under, 2)?;
                     // either root may be meant
                     let root = if field.value(f3) % 2 == 0 { root } else { field.neg(root) };
@@ -363,8 +367,8 @@ impl Law {
                 // d(A v + a) = 0 in all directions
                 let mut condition = vec![Residue::ZERO; width];
                 for (k, &s) in q.iter().enumerate() {
-                    let Some(slopes) =
-                        evaluator.rates(point, &|x| if x == s { field.one() } else { Residue::ZERO })
+                    let Some(slopes) = evaluator
+                        .rates(point, &|x| if x == s { field.one() } else { Residue::ZERO })
                     else {
                         continue;
                     };

@@ -38,6 +38,8 @@ pub(super) struct Ground<'a> {
     pub(super) evaluator: &'a Evaluator,
     pub(super) field: PrimeField,
     pub(super) constants: FxHashMap<Symbol, Residue>,
+    /// What determines the values of functions of constants.
+    pub(super) seed: u64,
     pub(super) is_over: &'a dyn Fn() -> bool,
 }
 
@@ -48,7 +50,8 @@ impl Ground<'_> {
             if (self.is_over)() {
                 return Err(Broken::Over);
             }
-            let drawn = self.law.draw(self.evaluator, self.field, random, &self.constants);
+            let drawn =
+                self.law.draw(self.evaluator, self.field, random, &self.constants, self.seed);
             if let Some(drawn) = drawn {
                 return Ok(drawn);
             }

@@ -10,23 +10,27 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::ansatz::Ansatz;
-use super::atoms::{Atoms, Family, parity};
+use super::atoms::{Atoms, Family};
 use super::coefficients::{Lift, rationals};
 use super::evaluator::{Evaluator, Random, Unsupported};
 use super::formula::{cleared, combination, words};
 use super::known::{self, Known, products};
-use super::law::{self, Law, Rule};
+use super::law::{self, Law};
 use super::level::{self, Broken, Ground};
-use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
+use super::scope::{Scope, constants_of};
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::mechanics::{Class, Equations, class_of};
 use crate::model::Model;
-use crate::num::{PRIMES, PrimeField};
+use crate::num::{Number, PRIMES, PrimeField};
 
 /// The largest number of monomials in an ansatz, so that its matrix stays below 20 MB.
 pub const SIZE_LIMIT: usize = 1_500;
 
 /// The degree up to which is searched where none is given.
 const DEGREE: u32 = 6;
+
+/// What determines the values of functions of constants.
+const SEED: u64 = 7;
 
 /// The largest number of products of known constants that are compared with what is found.
 const MOST_PRODUCTS: usize = 600;
@@ -144,7 +148,7 @@ struct Search<'a> {
     law: Law,
     values: HashMap<Symbol, Expr>,
     parameters: Vec<Symbol>,
-    angles: Vec<Symbol>,
+    scope: Scope,
     known: Vec<Known>,
     field: PrimeField,
     random: Random,
@@ -165,17 +169,14 @@ impl<'a> Search<'a> {
         if pool.is_full() {
             return Err(Unsupported("the equations are too large".to_owned()));
         }
-        let evaluator = Evaluator::new(pool, &law.expressions())?;
+        let evaluator = Evaluator::new(pool, &law.expressions(), &law.moving())?;
         let known = known::of(equations, &law, &values);
-        let is_angle = |c: &&crate::model::Coordinate| {
-            c.period.is_some() || ["rad", "deg", "°"].contains(&c.unit.as_str()) || greek(&c.name)
-        };
-        let angles = model.coordinates.iter().filter(is_angle).map(|c| c.position).collect();
+        let scope = Scope::of(model, law.clone());
         let mut random = Random::new(1);
         let mut works = |n: &usize| {
             let field = PrimeField::nth(*n);
             let none = FxHashMap::default();
-            (0..40).any(|_| law.draw(&evaluator, field, &mut random, &none).is_some())
+            (0..40).any(|_| law.draw(&evaluator, field, &mut random, &none, SEED).is_some())
         };
         let field = (0..PRIMES.len()).find(|n| works(n)).map(PrimeField::nth);
         let Some(field) = field else {
@@ -183,7 +184,7 @@ impl<'a> Search<'a> {
             return Err(Unsupported(why.to_owned()));
         };
         let parameters = constants.iter().map(|(s, _)| *s).collect();
-        Ok(Search { limits, symbolic, law, values, parameters, angles, known, field, random })
+        Ok(Search { limits, symbolic, law, values, parameters, scope, known, field, random })
     }
 
     /// Goes through the ansätze, by degree.
@@ -193,18 +194,18 @@ impl<'a> Search<'a> {
         equations: &mut Equations,
         answer: &mut Invariants,
     ) -> Result<(), Broken> {
-        let families = self.families(model, &equations.pool);
+        let families = self.scope.families(model, &equations.pool);
         let mut unbroken = true;
         for degree in 1..=self.limits.degree.unwrap_or(DEGREE) {
             for (i, &family) in families.iter().enumerate() {
-                let atoms = Atoms::of(&mut equations.pool, &self.law, &self.angles, family);
-                let mut complete = false;
-                for extra in self.extras(degree) {
-                    let bounds = self.bounds(&mut equations.pool, &atoms, degree, extra);
+                let atoms = Atoms::of(&mut equations.pool, &self.law, &self.scope.angles, family);
+                let (mut complete, mut related) = (false, false);
+                for extra in self.scope.extras(degree) {
+                    let bounds = self.scope.bounds(&mut equations.pool, &atoms, degree, extra);
                     let Some(ansatz) = Ansatz::new(&atoms, bounds, SIZE_LIMIT) else { continue };
                     let (size, overgeneral) =
                         self.level(model, equations, answer, family, &atoms, &ansatz)?;
-                    complete = !overgeneral;
+                    (complete, related) = (true, overgeneral);
                     answer.searched.retain(|s| (s.degree, s.standard) != (degree, i == 0) || i > 0);
                     let family = words(&equations.pool, &self.law, &atoms, &ansatz);
                     answer.searched.push(Searched { degree, family, size, standard: i == 0 });
@@ -214,7 +215,7 @@ impl<'a> Search<'a> {
                     }
                 }
                 if i == 0 {
-                    unbroken &= complete;
+                    unbroken &= complete && !related;
                     if unbroken {
                         answer.none_up_to = Some(degree);
                     }
@@ -229,78 +230,6 @@ impl<'a> Search<'a> {
             }
         }
         Ok(())
-    }
-
-    /// The standard family, and the others that are tried where the law has what they need.
-    fn families(&self, model: &Model, pool: &Pool) -> Vec<Family> {
-        let standard = Family { absent_by_angle: false, half_angles: false };
-        let mut all = vec![standard];
-        let roots = self.law.expressions();
-        let absent = |s: &&Symbol| !roots.iter().any(|&e| pool.depends(e, **s));
-        let positions = &self.law.variables[..self.law.positions];
-        if positions.iter().filter(absent).any(|s| !self.angles.contains(s)) {
-            all.push(Family { absent_by_angle: true, ..standard });
-        }
-        let turns = |e: &Expr| {
-            let parts = pool.reachable(&[*e]);
-            parts.into_iter().any(|e| {
-                matches!(pool.node(e), Node::Call(FunctionId::Sin | FunctionId::Cos, _))
-            })
-        };
-        if !model.is_poisson() && roots.iter().any(turns) {
-            all.push(Family { half_angles: true, ..standard });
-        }
-        all
-    }
-
-    /// By how much the degree of coefficients exceeds what the law itself needs: nothing, then as much as a Killing
-    /// tensor of flat space has.
-    fn extras(&self, degree: u32) -> Vec<u32> {
-        if self.law.positions == 0 { vec![0] } else { vec![0, degree] }
-    }
-
-    /// The greatest degree of the coefficients of each degree in the momenta.
-    fn bounds(
-        &self,
-        pool: &mut Pool,
-        atoms: &Atoms,
-        degree: u32,
-        extra: u32,
-    ) -> Vec<(u32, u32)> {
-        if self.law.positions == 0 {
-            return vec![(0, degree)];
-        }
-        let of_energy = atoms.degrees(pool, self.law.energy);
-        let potential = of_energy.get(&0).copied().unwrap_or(0);
-        let linear = of_energy.get(&1).copied().unwrap_or(0);
-        let kinetic = of_energy.iter().filter(|(k, _)| **k >= 2);
-        let kinetic = kinetic.map(|(&k, &n)| (2 * n).div_ceil(k)).max().unwrap_or(0);
-        let reversible = self.is_reversible(pool);
-        let all = (0..=degree).filter(|k| !reversible || (degree - k) % 2 == 0);
-        let bound = |k: u32| {
-            let missing = degree - k;
-            let of_potential = (missing * potential.max(2 * linear)).div_ceil(2);
-            (k, extra + of_potential + (k * kinetic) / 2)
-        };
-        all.map(bound).collect()
-    }
-
-    /// Whether the motion is unchanged where time and momenta are reversed, so that even and odd constants separate.
-    fn is_reversible(&self, pool: &Pool) -> bool {
-        let momenta = self.law.momenta();
-        let even = |e: &Expr| parity(pool, *e, momenta) == Some(true);
-        match &self.law.rule {
-            Rule::Explicit(rates) => {
-                let (velocities, forces) = rates.split_at(self.law.positions);
-                let odd = |e: &Expr| {
-                    *e == Expr::ZERO || parity(pool, *e, momenta) == Some(false)
-                };
-                velocities.iter().all(odd) && forces.iter().all(even)
-            }
-            Rule::Solved { force, rows, .. } => {
-                force.iter().all(even) && rows.iter().all(|row| row.is_scleronomic(pool, self.law.time))
-            }
-        }
     }
 
     /// One ansatz: what is new in it is made exact, proved, and added.
@@ -329,7 +258,7 @@ impl<'a> Search<'a> {
         roots.extend(&functions);
         roots.extend(&atoms.momenta);
         roots.extend(atoms.coefficients.iter().map(|g| g.expression));
-        let Ok(evaluator) = Evaluator::new(&equations.pool, &roots) else {
+        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
             return Err(Broken::NoPoint);
         };
         let law = self.law.clone();
@@ -338,6 +267,7 @@ impl<'a> Search<'a> {
             evaluator: &evaluator,
             field: self.field,
             constants: FxHashMap::default(),
+            seed: SEED,
             is_over: self.limits.is_over,
         };
         let random = &mut self.random;
@@ -393,8 +323,9 @@ impl<'a> Search<'a> {
             .copied()
             .filter(|&s| used.iter().any(|&e| pool.depends(e, s)))
             .collect();
-        let atoms = Atoms::of(pool, &self.symbolic, &self.angles, family);
-        let numeric = Atoms::of(pool, &self.law, &self.angles, family);
+        let constants = constants_of(pool, &self.symbolic, &parameters);
+        let atoms = Atoms::of(pool, &self.symbolic, &self.scope.angles, family);
+        let numeric = Atoms::of(pool, &self.law, &self.scope.angles, family);
         if atoms.coefficients.len() != numeric.coefficients.len() {
             return None;
         }
@@ -406,7 +337,8 @@ impl<'a> Search<'a> {
         let mut roots = self.symbolic.expressions();
         roots.extend(&atoms.momenta);
         roots.extend(atoms.coefficients.iter().map(|g| g.expression));
-        let evaluator = Evaluator::new(pool, &roots).ok()?;
+        roots.extend(constants.iter().map(|(e, _)| *e));
+        let evaluator = Evaluator::new(pool, &roots, &self.law.moving()).ok()?;
         let lift = Lift {
             law: &self.symbolic,
             evaluator: &evaluator,
@@ -414,21 +346,37 @@ impl<'a> Search<'a> {
             ansatz,
             columns: columns.to_vec(),
             parameters: &parameters,
+            constants: &constants,
             is_over: self.limits.is_over,
         };
         let coefficients = lift.coefficients(pool, self.field, &mut self.random)?;
         let expression = combination(pool, &atoms, ansatz, columns, &coefficients);
         let proved = match self.symbolic.rate(pool, expression) {
-            Some(rate) => pool.is_zero(rate) == Zero::Proved,
+            Some(rate) => self.vanishes(pool, rate),
             None => class_of(model, equations, "", expression).class == Class::Proved,
         };
         proved.then_some(expression)
     }
 
+    /// Whether a rate is proved to vanish, as it is or in terms of half the coordinates, which opens half angles.
+    fn vanishes(&self, pool: &mut Pool, rate: Expr) -> bool {
+        if pool.is_zero(rate) == Zero::Proved {
+            return true;
+        }
+        let positions = &self.law.variables[..self.law.positions];
+        let doubled = positions.iter().map(|&q| {
+            let e = pool.variable(q);
+            (q, pool.scale(Number::integer(2), e))
+        });
+        let doubled: HashMap<Symbol, Expr> = doubled.collect();
+        let rate = pool.substitute(rate, &doubled);
+        pool.is_zero(rate) == Zero::Proved
+    }
+
     /// The proof of a constant for the present values of the parameters.
     fn proof_here(&self, model: &Model, equations: &mut Equations, here: Expr) -> Proof {
         let proved = match self.law.rate(&mut equations.pool, here) {
-            Some(rate) => equations.pool.is_zero(rate) == Zero::Proved,
+            Some(rate) => self.vanishes(&mut equations.pool, rate),
             None => match class_of(model, equations, "", here).class {
                 Class::Proved => return Proof::Proved,
                 class => class == Class::AtTheseParameters,
@@ -455,12 +403,15 @@ impl<'a> Search<'a> {
         for &s in &self.law.variables {
             roots.push(equations.pool.variable(s));
         }
-        let Ok(evaluator) = Evaluator::new(&equations.pool, &roots) else { return };
+        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
+            return;
+        };
         let ground = Ground {
             law: &self.law,
             evaluator: &evaluator,
             field: self.field,
             constants: FxHashMap::default(),
+            seed: SEED,
             is_over: &|| false,
         };
         let Ok(drawn) = ground.draw(&mut self.random) else { return };
@@ -480,10 +431,4 @@ impl<'a> Search<'a> {
         self.judge(equations, answer);
         !answer.driven && answer.dimension > 0 && answer.independent() + 1 >= answer.dimension
     }
-}
-
-/// Letters by which angles are usually named.
-fn greek(name: &str) -> bool {
-    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
-    ["theta", "phi", "psi", "varphi", "chi", "alpha", "beta", "gamma"].contains(&letters)
 }

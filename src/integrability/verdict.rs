@@ -71,7 +71,8 @@ pub fn relations(
         .filter(|&i| model.is_poisson() && is_casimir(model, equations, functions[i].1))
         .filter(|&i| independent.get(i) == Some(&true))
         .count();
-    let freedoms = hamiltonian.then(|| (invariants.dimension - casimirs.min(invariants.dimension)) / 2);
+    let freedoms =
+        hamiltonian.then(|| (invariants.dimension - casimirs.min(invariants.dimension)) / 2);
     let verdict = verdict(invariants, freedoms, casimirs, in_involution.len());
     Relations { brackets, in_involution, freedoms, verdict }
 }
@@ -125,7 +126,9 @@ fn verdict(
     let unproved = invariants.found.iter().any(|c| c.proof == super::search::Proof::Unproved);
     let caution = if unproved { " (not all of them proved)" } else { "" };
     let nothing = match invariants.none_up_to {
-        Some(n) if invariants.found.is_empty() => format!("; nothing else up to degree {n} (proved)"),
+        Some(n) if invariants.found.is_empty() => {
+            format!("; nothing else up to degree {n} (proved)")
+        }
         _ => String::new(),
     };
     let count = |n: usize| match n {
@@ -135,9 +138,13 @@ fn verdict(
     let Some(n) = freedoms else {
         return format!("{}{caution}{nothing}", count(total));
     };
-    let freedom = if n == 1 { "1 degree of freedom".to_owned() } else { format!("{n} degrees of freedom") };
+    let freedom =
+        if n == 1 { "1 degree of freedom".to_owned() } else { format!("{n} degrees of freedom") };
     if invariants.driven {
-        return format!("{freedom}, a law that contains the time: {}{caution}{nothing}", count(total));
+        return format!(
+            "{freedom}, a law that contains the time: {}{caution}{nothing}",
+            count(total)
+        );
     }
     let commuting = in_involution.saturating_sub(casimirs);
     if commuting >= n && total - casimirs > n {
@@ -146,7 +153,10 @@ fn verdict(
         } else {
             "superintegrable"
         };
-        return format!("{freedom}, {}, {n} of them in involution{caution}: {closed}", count(total - casimirs));
+        return format!(
+            "{freedom}, {}, {n} of them in involution{caution}: {closed}",
+            count(total - casimirs)
+        );
     }
     if commuting >= n && n > 0 {
         return format!("{freedom}, {n} in involution{caution}: integrable (Liouville){nothing}");

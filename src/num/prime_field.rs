@@ -133,7 +133,7 @@ impl PrimeField {
     }
 
     /// `a ^ n` for an integer of either sign, or `None` for a negative power of zero.
-    pub fn powi(&self, a: Residue, n: i64) -> Option<Residue> {
+    pub fn integer_power(&self, a: Residue, n: i64) -> Option<Residue> {
         let power = self.pow(a, n.unsigned_abs());
         if n < 0 { self.inverse(power) } else { Some(power) }
     }
@@ -181,7 +181,7 @@ impl PrimeField {
                 let fraction = (bits & ((1 << 52) - 1)) as i128;
                 let (mantissa, exponent) =
                     if exponent == 0 { (fraction, 1) } else { (fraction | 1 << 52, exponent) };
-                let size = self.powi(self.residue(2), exponent - 1075)?;
+                let size = self.integer_power(self.residue(2), exponent - 1075)?;
                 let size = self.mul(self.integer(mantissa), size);
                 Some(if x < 0.0 { self.neg(size) } else { size })
             }

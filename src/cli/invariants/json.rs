@@ -40,9 +40,10 @@ pub(super) fn write(answer: &Answer<'_>) -> String {
             "commutes_with": commutes(first + i),
         })
     });
-    let ansatz = invariants.searched.iter().map(|s| {
-        json!({ "degree": s.degree, "family": s.family, "monomials": s.size })
-    });
+    let ansatz = invariants
+        .searched
+        .iter()
+        .map(|s| json!({ "degree": s.degree, "family": s.family, "monomials": s.size }));
     let parameters: serde_json::Map<String, Value> =
         model.parameters.iter().map(|p| (p.name.clone(), json!(p.value))).collect();
     let mut object = json!({

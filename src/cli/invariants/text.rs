@@ -75,7 +75,8 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
         text.push_str(&format!("  also {}\n", other.family));
     }
     if let Some(n) = invariants.none_up_to {
-        let else_ = if invariants.found.is_empty() { "nothing but what is known" } else { "nothing else" };
+        let else_ =
+            if invariants.found.is_empty() { "nothing but what is known" } else { "nothing else" };
         text.push_str(&format!("  up to degree {n}: {else_} and its products (proved)\n"));
     }
     if let Some(why) = &invariants.ended {
@@ -94,7 +95,8 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
 pub(super) fn latex(answer: &Answer<'_>) -> String {
     let pool = &answer.equations.pool;
     let known = answer.invariants.known.iter().map(|k| k.expression);
-    let all: Vec<Expr> = known.chain(answer.invariants.found.iter().map(|c| c.expression)).collect();
+    let all: Vec<Expr> =
+        known.chain(answer.invariants.found.iter().map(|c| c.expression)).collect();
     let lines: Vec<String> = all
         .iter()
         .enumerate()
