@@ -33,6 +33,7 @@ mod rows;
 mod run;
 mod script;
 mod stderr;
+mod symmetries;
 mod theme;
 
 use command::unknown;

@@ -27,6 +27,7 @@ use super::play;
 use super::record;
 use super::run;
 use super::stderr;
+use super::symmetries;
 use super::theme;
 use crate::diagnostic::nearest;
 use crate::preset::{Catalog, is_path};
@@ -72,6 +73,7 @@ enum Command {
     Check(check::Arguments),
     Bracket(bracket::Arguments),
     Invariants(invariants::Arguments),
+    Symmetries(symmetries::Arguments),
     Run(Box<run::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
@@ -120,6 +122,7 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Check(arguments) => check::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Invariants(arguments) => invariants::perform(&arguments),
+        Command::Symmetries(arguments) => symmetries::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),

@@ -3,6 +3,7 @@
 
 mod absent;
 mod found;
+mod noether;
 mod textbook;
 
 use phaselab::expr::{Expr, Symbol};
