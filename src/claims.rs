@@ -6,6 +6,7 @@
 
 mod brackets;
 mod check;
+mod invariants;
 mod start;
 
 pub use check::{false_claims, flaws};

@@ -19,6 +19,7 @@ mod exit;
 mod failure;
 mod format;
 mod interrupt;
+mod invariants;
 mod lab;
 mod list;
 mod manual;
@@ -32,6 +33,7 @@ mod rows;
 mod run;
 mod script;
 mod stderr;
+mod symmetries;
 mod theme;
 
 use command::unknown;

@@ -15,6 +15,7 @@ pub mod experiment;
 pub mod expr;
 pub mod file;
 pub mod instrument;
+pub mod integrability;
 pub mod integrate;
 pub mod job;
 pub mod mechanics;

@@ -15,7 +15,10 @@ mod scope;
 mod unit;
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
-pub use claim::{Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Observable};
+pub use claim::{
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants, ExpectedValue,
+    Observable,
+};
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};

@@ -2,7 +2,7 @@
 //!
 //! In and out: numbers. A program is evaluated in a [`Real`]: `f64`, [`DoubleDouble`] for twice its
 //! digits, [`ExtendedRange`] for values outside the range of both. A [`Number`] is a constant in an
-//! expression. [`math`] has the elementary functions, with the same bits on every machine. Never
+//! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the elementary functions, with the same bits on every machine. Never
 //! here: expressions, units, files.
 
 mod convolution;
@@ -13,6 +13,7 @@ mod horner;
 mod instruction_set;
 pub mod math;
 mod number;
+mod prime_field;
 mod real;
 
 pub use convolution::Row;
@@ -22,4 +23,5 @@ pub use format::{short, significant};
 pub use horner::polynomial;
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
+pub use prime_field::{PRIMES, PrimeField, Residue, rational};
 pub use real::Real;

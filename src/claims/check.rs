@@ -4,6 +4,7 @@
 //! symbolically are not integrated. Never here: how claims are written.
 
 use super::brackets::false_brackets;
+use super::invariants::false_count;
 use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, Symbol};
@@ -61,6 +62,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     }
     mistakes.extend(denied(model, equations));
     mistakes.extend(false_brackets(model, equations));
+    mistakes.extend(false_count(model, equations));
     let mut extended = equations.clone();
     let claims = open_claims(model, &mut extended);
     let equations = &extended;

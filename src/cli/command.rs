@@ -18,6 +18,7 @@ use super::doctor;
 use super::exit;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::invariants;
 use super::lab;
 use super::list;
 use super::manual;
@@ -26,6 +27,7 @@ use super::play;
 use super::record;
 use super::run;
 use super::stderr;
+use super::symmetries;
 use super::theme;
 use crate::diagnostic::nearest;
 use crate::preset::{Catalog, is_path};
@@ -70,6 +72,8 @@ enum Command {
     Derive(derive::Arguments),
     Check(check::Arguments),
     Bracket(bracket::Arguments),
+    Invariants(invariants::Arguments),
+    Symmetries(symmetries::Arguments),
     Run(Box<run::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
@@ -117,6 +121,8 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Derive(arguments) => derive::perform(&arguments),
         Command::Check(arguments) => check::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
+        Command::Invariants(arguments) => invariants::perform(&arguments),
+        Command::Symmetries(arguments) => symmetries::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),

@@ -32,6 +32,19 @@ pub struct Expect {
     pub counts: Vec<ExpectedCount>,
     /// Expected values of brackets.
     pub brackets: Vec<ExpectedBracket>,
+    /// The expected number of independent constants of the motion.
+    pub invariants: Option<ExpectedInvariants>,
+}
+
+/// The expected number of independent constants of the motion that do not contain the time.
+#[derive(Clone, Debug)]
+pub struct ExpectedInvariants {
+    /// The number, the energy among them.
+    pub is: usize,
+    /// The degree in the momenta up to which they are searched.
+    pub degree: u32,
+    /// The place of the claim in the file.
+    pub place: SourceRange,
 }
 
 /// The expected time of an event or impulse.

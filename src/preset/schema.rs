@@ -360,6 +360,12 @@ const EXPECT: Section = Section {
         key("events", List(&EXPECTED_EVENT), "when something happens"),
         key("count", List(&EXPECTED_COUNT), "how often it happens"),
         key("brackets", List(&EXPECTED_BRACKET), "what brackets are"),
+        key(
+            "invariants",
+            Number,
+            "how many independent constants without time are found, H among them",
+        ),
+        key("degree", Number, "up to which degree in the momenta they are searched; else 2"),
     ],
 };
 

@@ -19,6 +19,7 @@ mod hand;
 mod honest;
 mod impasse;
 mod instrument;
+mod integrability;
 mod layers;
 mod mechanics;
 mod methods;

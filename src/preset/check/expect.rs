@@ -8,7 +8,8 @@ use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
 use crate::model::{
-    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedValue, Mechanics, Scope,
+    Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants,
+    ExpectedValue, Mechanics, Scope,
 };
 use crate::preset::draft::{
     DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
@@ -17,6 +18,12 @@ use crate::printable::number;
 
 /// The absolute tolerance of an expected number if the file gives none.
 const TOLERANCE: f64 = 1e-10;
+
+/// The degree up to which constants of the motion are searched if the file gives none.
+const DEGREE: u32 = 2;
+
+/// The greatest degree that a file may ask for.
+const HIGHEST: f64 = 6.0;
 
 impl Check<'_> {
     /// Reads what the file expects of the motion.
@@ -41,6 +48,7 @@ impl Check<'_> {
         for claim in &written.brackets {
             expect.brackets.extend(self.expected_bracket(claim, &mut sides));
         }
+        expect.invariants = self.expected_invariants(written);
         self.model.expect = expect;
     }
 
@@ -101,6 +109,23 @@ impl Check<'_> {
             source: written.source.clone(),
             place: is_written.span(),
         })
+    }
+
+    /// Reads the number of constants of the motion.
+    fn expected_invariants(&mut self, written: &DraftExpect) -> Option<ExpectedInvariants> {
+        let degree = match &written.degree {
+            None => Some(DEGREE),
+            Some(degree) if *degree.get_ref() > HIGHEST => {
+                self.error(degree.span(), format!("`degree` is at most {HIGHEST}"));
+                None
+            }
+            Some(degree) => {
+                self.whole(degree, 1, "`degree` is a whole number above 0").map(|n| n as u32)
+            }
+        };
+        let is = written.invariants.as_ref()?;
+        let count = self.whole(is, 0, "`invariants` counts in whole numbers from 0")?;
+        Some(ExpectedInvariants { is: count, degree: degree?, place: is.span() })
     }
 
     /// The name of an event or impulse; an unknown name is reported.

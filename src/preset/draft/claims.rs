@@ -21,6 +21,8 @@ pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) events: Vec<DraftOccurrence>,
     pub(in crate::preset) counts: Vec<DraftCount>,
     pub(in crate::preset) brackets: Vec<DraftBracketClaim>,
+    pub(in crate::preset) invariants: Option<Spanned<f64>>,
+    pub(in crate::preset) degree: Option<Spanned<f64>>,
 }
 
 /// The time of an expected occurrence, as written.
@@ -94,6 +96,8 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftEx
     let events = table.items("events", ("this expected event", event), mistakes);
     let counts = table.items("count", ("this expected count", count), mistakes);
     let brackets = table.items("brackets", ("this expected bracket", bracket), mistakes);
+    let invariants = table.number("invariants", mistakes);
+    let degree = table.number("degree", mistakes);
     table.finish(mistakes);
     DraftExpect {
         conserves,
@@ -101,6 +105,8 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftEx
         events: events.into_iter().map(|entry| occurrence(entry, mistakes)).collect(),
         counts: counts.into_iter().map(|entry| self::count(entry, mistakes)).collect(),
         brackets: brackets.into_iter().map(|entry| self::bracket(entry, mistakes)).collect(),
+        invariants,
+        degree,
     }
 }
 

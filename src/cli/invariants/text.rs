@@ -1,0 +1,106 @@
+//! Constants of the motion for reading and for typesetting.
+
+use super::Answer;
+use super::Script;
+use crate::expr::Expr;
+use crate::integrability::Proof;
+
+impl Answer<'_> {
+    /// The names of all constants: those known, then I1, I2, … for those found.
+    pub(super) fn names(&self) -> Vec<String> {
+        let known = self.invariants.known.iter().map(|k| k.name.clone());
+        let found = (1..=self.invariants.found.len()).map(|i| format!("I{i}"));
+        known.chain(found).collect()
+    }
+
+    /// What was searched, word for word: the standard family of the highest degree and the one before it, of the
+    /// other parity.
+    pub(super) fn searched(&self) -> String {
+        let standard: Vec<_> = self.invariants.searched.iter().filter(|s| s.standard).collect();
+        match standard.as_slice() {
+            [] => "nothing".to_owned(),
+            [one] => one.family.clone(),
+            [.., before, last] => format!("{}; and {}", last.family, before.family),
+        }
+    }
+}
+
+/// How a constant is known.
+fn proof(proof: Proof) -> &'static str {
+    match proof {
+        Proof::Proved => "proved",
+        Proof::AtTheseParameters => "proved at these parameters",
+        Proof::Unproved => "not proved: it holds at every random point modulo a prime",
+    }
+}
+
+pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
+    let Answer { model, equations, invariants, relations, .. } = answer;
+    let math = |e| script.math(&equations.pool, e);
+    let names = answer.names();
+    let mut text = format!("{}\n{}\n", model.info.title, script.words(&relations.verdict));
+    if !invariants.known.is_empty() {
+        text.push_str("\nknown\n");
+        for known in &invariants.known {
+            text.push_str(&format!("  {} = {}\n", known.name, math(known.expression)));
+        }
+    }
+    if !invariants.found.is_empty() {
+        text.push_str("\nfound\n");
+        let first = invariants.known.len();
+        for (i, constant) in invariants.found.iter().enumerate() {
+            let name = &names[first + i];
+            text.push_str(&format!("  {name} = {}\n", math(constant.expression)));
+            let dependent = if constant.independent { "" } else { ", depends on those above" };
+            text.push_str(&format!(
+                "       degree {}, {}{dependent}\n",
+                constant.degree,
+                proof(constant.proof)
+            ));
+        }
+    }
+    if answer.jacobi && answer.hamiltonian {
+        text.push_str("\nbrackets\n");
+        for i in 0..names.len() {
+            for j in i + 1..names.len() {
+                if let Some(e) = relations.brackets[i][j] {
+                    text.push_str(&format!("  [{}, {}] = {}\n", names[i], names[j], math(e)));
+                }
+            }
+        }
+    }
+    text.push_str(&format!("\nsearched\n  {}\n", answer.searched()));
+    let others: Vec<_> = invariants.searched.iter().filter(|s| !s.standard).collect();
+    if let Some(other) = others.last() {
+        text.push_str(&format!("  also {}\n", other.family));
+    }
+    if let Some(n) = invariants.none_up_to {
+        let else_ =
+            if invariants.found.is_empty() { "nothing but what is known" } else { "nothing else" };
+        text.push_str(&format!("  up to degree {n}: {else_} and its products (proved)\n"));
+    }
+    if let Some(why) = &invariants.ended {
+        text.push_str(&format!("  ended: {why}\n"));
+    }
+    if let Some((name, values)) = &answer.scan {
+        text.push_str(&format!("\n{name}: constants of the motion\n"));
+        for at in values {
+            let (total, found) = (at.invariants.independent(), at.invariants.found.len());
+            text.push_str(&format!("  {}: {total} independent, {found} found\n", at.value));
+        }
+    }
+    text
+}
+
+pub(super) fn latex(answer: &Answer<'_>) -> String {
+    let pool = &answer.equations.pool;
+    let known = answer.invariants.known.iter().map(|k| k.expression);
+    let all: Vec<Expr> =
+        known.chain(answer.invariants.found.iter().map(|c| c.expression)).collect();
+    let lines: Vec<String> = all
+        .iter()
+        .enumerate()
+        .map(|(i, &e)| format!("I_{{{}}} &= {}", i + 1, pool.latex(e)))
+        .collect();
+    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
+}

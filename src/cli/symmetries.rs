@@ -1,0 +1,142 @@
+//! `phaselab symmetries`: Noether's symmetries of a Lagrangian, and what is constant because of each.
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::{self, Assignment, number};
+use super::failure::CommandError;
+use super::format::Format;
+use super::open;
+use super::output::Output;
+use super::script::Script;
+use crate::experiment::Derived;
+use crate::expr::Expr;
+use crate::integrability::{Symmetries, Symmetry, symmetries};
+use crate::mechanics::Equations;
+use crate::model::Model;
+
+/// Find Noether's symmetries of a Lagrangian.
+///
+/// Each is a change of time and coordinates that changes L dt by a total derivative only: shifts,
+/// rotations, boosts, dilations. Beside it stands what is constant because of it. The parameters
+/// have their values.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab symmetries free-particle
+  phaselab symmetries planet --format json")]
+pub(super) struct Arguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: OsString,
+    /// The seconds the search may take; 10 where it is left out.
+    #[arg(long, value_name = "S", value_parser = number)]
+    budget: Option<f64>,
+    /// Sets a parameter.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<Assignment>,
+    /// How it is written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The budget of time in seconds where none is given.
+const BUDGET: f64 = 10.0;
+
+pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+    let document = open::find(&arguments.name)?;
+    let mut model = open::read(&document)?;
+    let parameters = assignment::parameters(&model, &arguments.set)?;
+    model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+    let Derived { model, mut equations } = open::derive(&document, model)?;
+    let most = Duration::try_from_secs_f64(arguments.budget.unwrap_or(BUDGET));
+    let begin = Instant::now();
+    let is_over = || most.as_ref().is_ok_and(|most| begin.elapsed() > *most);
+    let found = symmetries(&model, &mut equations, &is_over)
+        .map_err(|why| CommandError::CouldNot(why.to_string()))?;
+    let text = match arguments.format {
+        Format::Text => text(&model, &equations, &found, Script::of_locale()),
+        Format::Latex => latex(&equations, &found),
+        Format::Json => json(&model, &equations, &found),
+    };
+    let mut out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}
+
+fn text(model: &Model, equations: &Equations, found: &Symmetries, script: Script) -> String {
+    let math = |e: Expr| script.math(&equations.pool, e);
+    let mut text = format!("{}\n", model.info.title);
+    for symmetry in &found.found {
+        text.push_str(&format!("\n{}\n", symmetry.name));
+        let mut moved = Vec::new();
+        if symmetry.time != Expr::ZERO {
+            moved.push(format!("t by {}", math(symmetry.time)));
+        }
+        for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
+            if e != Expr::ZERO {
+                let name = script.symbol(&equations.pool, c.position);
+                moved.push(format!("{name} by {}", math(e)));
+            }
+        }
+        text.push_str(&format!("  moves {}\n", moved.join(", ")));
+        if symmetry.gauge != Expr::ZERO {
+            text.push_str(&format!("  L changes by the derivative of {}\n", math(symmetry.gauge)));
+        }
+        let proof = if symmetry.proved { "proved" } else { "not proved" };
+        text.push_str(&format!("  constant: {}   ({proof})\n", math(symmetry.conserved)));
+    }
+    let count = found.found.len();
+    let complete = if found.complete { ", and there are no others (proved)" } else { "" };
+    text.push_str(&format!("\n{count} found{complete} among\n  {}\n", found.searched));
+    text
+}
+
+fn latex(equations: &Equations, found: &Symmetries) -> String {
+    let lines: Vec<String> = found
+        .found
+        .iter()
+        .enumerate()
+        .map(|(i, s)| format!("I_{{{}}} &= {}", i + 1, equations.pool.latex(s.conserved)))
+        .collect();
+    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
+}
+
+fn json(model: &Model, equations: &Equations, found: &Symmetries) -> String {
+    let text = |e: Expr| Value::String(equations.pool.text(e));
+    let one = |s: &Symmetry| {
+        let coordinates: Map<String, Value> = model
+            .coordinates
+            .iter()
+            .zip(&s.coordinates)
+            .map(|(c, &e)| (c.name.clone(), text(e)))
+            .collect();
+        json!({
+            "name": s.name,
+            "time": text(s.time),
+            "coordinates": coordinates,
+            "gauge": text(s.gauge),
+            "conserved": text(s.conserved),
+            "proved": s.proved,
+        })
+    };
+    let parameters: Map<String, Value> =
+        model.parameters.iter().map(|p| (p.name.clone(), json!(p.value))).collect();
+    let object = json!({
+        "phaselab": env!("CARGO_PKG_VERSION"),
+        "title": model.info.title,
+        "parameters": parameters,
+        "method": null,
+        "symmetries": found.found.iter().map(one).collect::<Vec<_>>(),
+        "searched": found.searched,
+        "complete": found.complete,
+    });
+    format!("{object:#}\n")
+}

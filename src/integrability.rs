@@ -1,0 +1,26 @@
+//! What is conserved: constants of the motion found, proved, and proved absent.
+//!
+//! In: a model and its equations. Out: the constants of the motion that are polynomials in what the law is made of,
+//! found by linear algebra modulo a prime and proved symbolically, and a statement of what was searched. Never here:
+//! derivations, which are `mechanics`'; lowering, which is `system`'s; motion; clocks.
+
+mod ansatz;
+mod atoms;
+mod coefficients;
+mod echelon;
+mod evaluator;
+mod formula;
+mod known;
+mod law;
+mod level;
+mod noether;
+mod scope;
+mod search;
+mod verdict;
+
+pub use evaluator::Unsupported;
+pub use known::Known;
+pub use law::is_hamiltonian;
+pub use noether::{Symmetries, Symmetry, symmetries};
+pub use search::{Constant, Invariants, Limits, Proof, SIZE_LIMIT, Searched, invariants};
+pub use verdict::{Relations, relations};

@@ -1,0 +1,447 @@
+//! Expressions evaluated at random points over a prime field, with their derivatives along any direction.
+//!
+//! In: expressions of a pool, residues for its symbols, a direction. Out: residues. Each sine and cosine is a point of
+//! a circle (by its rational parametrisation), each exponential a random unit, each logarithm and arctangent a random
+//! residue, each root the positive one: algebraically they satisfy what the functions satisfy, and nothing else. A
+//! point at which something has no value is refused, and another is drawn.
+//!
+//! It walks the nodes of the pool. The compiled program of `system` has the same operations in the same order, so
+//! that this could become a third evaluation of it; nothing outside this file knows which it is.
+//! Never here: what the expressions mean.
+
+use rustc_hash::FxHashMap;
+
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use crate::num::{Number, PrimeField, Residue};
+
+/// Random residues, reproducible.
+#[derive(Clone, Debug)]
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) fn new(seed: u64) -> Random {
+        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
+    }
+
+    pub(super) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        x ^ (x >> 31)
+    }
+
+    pub(super) fn residue(&mut self, field: &PrimeField) -> Residue {
+        field.residue(self.next())
+    }
+}
+
+/// Why a law cannot be evaluated over a prime field.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Unsupported(pub String);
+
+/// One node in terms of those before it.
+#[derive(Clone, Debug)]
+enum Step {
+    Number(Number),
+    /// The same residue at every point of a seed: π, and a logarithm or arctangent of a constant.
+    Constant,
+    Symbol(Symbol),
+    Sum(Number, Vec<(Number, usize)>),
+    /// A coefficient and factors: base, the order of the root taken of it, the power of that root.
+    Product(Number, Vec<(usize, u64, i64)>),
+    /// The sine (or cosine) of the sum of multiples of the arguments of units, and quarter turns.
+    Sine(Angle, usize),
+    Cosine(Angle, usize),
+    /// Of the product of powers of units.
+    Exp(Vec<(usize, i64)>, usize),
+    Sinh(Vec<(usize, i64)>, usize),
+    Cosh(Vec<(usize, i64)>, usize),
+    /// A random residue, and the node of its argument.
+    Ln(usize),
+    Atan(usize),
+}
+
+/// Multiples of units, and quarter turns.
+#[derive(Clone, Debug)]
+struct Angle {
+    parts: Vec<(usize, i64)>,
+    quarters: i64,
+}
+
+/// Expressions compiled for evaluation.
+#[derive(Clone, Debug)]
+pub(super) struct Evaluator {
+    steps: Vec<Step>,
+    index: FxHashMap<Expr, usize>,
+    /// For each circle, and each unit, whether it is the same at all points.
+    circles: Vec<bool>,
+    units: Vec<bool>,
+    /// Whether logarithms or arctangents may be related, so that a point is more general than the functions are.
+    pub(super) overgeneral: bool,
+}
+
+/// The values at one point.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub(super) field: PrimeField,
+    values: Vec<Residue>,
+    /// The companion of each value: cos for sin, cosh for sinh, and the reverse.
+    companions: Vec<Residue>,
+}
+
+/// The units of which arguments are made: each term with the least common denominator of its coefficients.
+#[derive(Default)]
+struct Units {
+    denominators: FxHashMap<Expr, i64>,
+    order: Vec<Expr>,
+}
+
+impl Units {
+    fn collect(&mut self, pool: &mut Pool, argument: Expr) -> Result<(), Unsupported> {
+        for (c, term) in terms(pool, argument) {
+            let Number::Rational(_, d) = c else {
+                return Err(Unsupported(
+                    "a coefficient in an angle or exponent is no fraction".into(),
+                ));
+            };
+            let known = self.denominators.entry(term).or_insert_with(|| {
+                self.order.push(term);
+                1
+            });
+            *known = least_common(*known, d);
+        }
+        Ok(())
+    }
+
+    fn parts(&self, pool: &mut Pool, argument: Expr) -> Vec<(usize, i64)> {
+        let multiple = |(c, term): (Number, Expr)| {
+            let unit = self.order.iter().position(|&t| t == term)?;
+            let Number::Rational(n, d) = c else { return None };
+            Some((unit, n * (self.denominators[&term] / d)))
+        };
+        terms(pool, argument).into_iter().filter_map(multiple).collect()
+    }
+}
+
+fn least_common(a: i64, b: i64) -> i64 {
+    let (mut x, mut y) = (a, b);
+    while y != 0 {
+        (x, y) = (y, x % y);
+    }
+    a / x * b
+}
+
+/// An argument as a sum of multiples of terms without coefficient.
+pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
+    let mut all = Vec::new();
+    for (c, term) in pool.summands(e) {
+        match pool.node(term) {
+            Node::Number(n) => all.push((c * *n, Expr::ONE)),
+            Node::Product(k, _) => {
+                let k = *k;
+                all.push((c * k, pool.scale(k.recip(), term)));
+            }
+            _ => all.push((c, term)),
+        }
+    }
+    all
+}
+
+impl Evaluator {
+    /// Compiles expressions. Functions of what does not contain the `moving` symbols have the same value at every
+    /// point of a seed.
+    pub(super) fn new(
+        pool: &mut Pool,
+        roots: &[Expr],
+        moving: &[Symbol],
+    ) -> Result<Evaluator, Unsupported> {
+        let nodes = pool.reachable(roots);
+        let index: FxHashMap<Expr, usize> =
+            nodes.iter().enumerate().map(|(i, &e)| (e, i)).collect();
+        let (mut circles, mut units) = (Units::default(), Units::default());
+        let mut roots_of: FxHashMap<Expr, u64> = FxHashMap::default();
+        let mut opaque = 0;
+        for &e in &nodes {
+            match &pool.node(e).clone() {
+                Node::Call(
+                    FunctionId::Sin | FunctionId::Cos | FunctionId::Tan | FunctionId::Cot,
+                    u,
+                ) => {
+                    circles.collect(pool, u[0])?;
+                }
+                Node::Call(
+                    FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh,
+                    u,
+                ) => units.collect(pool, u[0])?,
+                Node::Call(FunctionId::Ln | FunctionId::Atan, _) => opaque += 1,
+                Node::Product(_, factors) => {
+                    for &(base, n) in factors {
+                        let Number::Rational(_, d) = n else {
+                            let why = format!("the power {} is no fraction", pool.text(e));
+                            return Err(Unsupported(why));
+                        };
+                        let known = roots_of.entry(base).or_insert(1);
+                        *known = least_common(*known as i64, d) as u64;
+                    }
+                }
+                _ => {}
+            }
+        }
+        let turns = circles.order.iter().position(|&t| *pool.node(t) == Node::Pi);
+        let mut steps = Vec::with_capacity(nodes.len());
+        for &e in &nodes {
+            let at = |e: Expr| index[&e];
+            let angle = |u: Expr, pool: &mut Pool| -> Result<Angle, Unsupported> {
+                let (mut parts, mut quarters) = (circles.parts(pool, u), 0);
+                if let Some(turn) = turns {
+                    let denominator = circles.denominators[&circles.order[turn]];
+                    for &(_, n) in parts.iter().filter(|(unit, _)| *unit == turn) {
+                        if 2 * n % denominator != 0 {
+                            let why = "an angle is a fraction of π other than a quarter turn";
+                            return Err(Unsupported(why.to_owned()));
+                        }
+                        quarters += 2 * n / denominator;
+                    }
+                    parts.retain(|(unit, _)| *unit != turn);
+                }
+                Ok(Angle { parts, quarters })
+            };
+            let step = match &pool.node(e).clone() {
+                Node::Number(n) => Step::Number(*n),
+                Node::Pi => Step::Constant,
+                Node::Symbol(s) => Step::Symbol(*s),
+                Node::Sum(c, terms) => {
+                    Step::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
+                }
+                Node::Product(c, factors) => {
+                    let factor = |&(base, n): &(Expr, Number)| {
+                        let d = roots_of[&base];
+                        let Number::Rational(n, own) = n else { return None };
+                        Some((at(base), d, n * (d as i64 / own)))
+                    };
+                    Step::Product(*c, factors.iter().filter_map(factor).collect())
+                }
+                Node::Power(..) => {
+                    let why =
+                        format!("the power {} has an exponent that is not a number", pool.text(e));
+                    return Err(Unsupported(why));
+                }
+                Node::Call(function, u) => match function {
+                    FunctionId::Sin => Step::Sine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Cos => Step::Cosine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Exp => Step::Exp(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Sinh => Step::Sinh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Cosh => Step::Cosh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Ln | FunctionId::Atan if !pool.depends_on_any(e, moving) => {
+                        Step::Constant
+                    }
+                    FunctionId::Ln => Step::Ln(at(u[0])),
+                    FunctionId::Atan => Step::Atan(at(u[0])),
+                    other => {
+                        let name = other.row().name;
+                        return Err(Unsupported(format!("no search is made through `{name}`")));
+                    }
+                },
+            };
+            steps.push(step);
+        }
+        let fixed = |all: &Units| -> Vec<bool> {
+            all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
+        };
+        Ok(Evaluator {
+            steps,
+            index,
+            circles: fixed(&circles),
+            units: fixed(&units),
+            overgeneral: opaque > 1,
+        })
+    }
+
+    /// Evaluates everything at a point whose symbols have the values `at`. `None` where something has no value.
+    pub(super) fn point(
+        &self,
+        field: PrimeField,
+        random: &mut Random,
+        seed: u64,
+        at: &dyn Fn(Symbol) -> Option<Residue>,
+    ) -> Option<Point> {
+        let mut same = Random::new(seed);
+        let mut circle = |fixed: &bool| -> Option<(Residue, Residue)> {
+            let tau = if *fixed { same.residue(&field) } else { random.residue(&field) };
+            let square = field.mul(tau, tau);
+            let below = field.inverse(field.add(field.one(), square))?;
+            let sine = field.mul(field.add(tau, tau), below);
+            Some((sine, field.mul(field.sub(field.one(), square), below)))
+        };
+        let circles: Vec<(Residue, Residue)> =
+            self.circles.iter().map(&mut circle).collect::<Option<_>>()?;
+        let unit = |fixed: &bool| {
+            if *fixed { same.residue(&field) } else { random.residue(&field) }
+        };
+        let units: Vec<Residue> = self.units.iter().map(unit).collect();
+        let mut roots: FxHashMap<(usize, u64), Residue> = FxHashMap::default();
+        let mut values = vec![Residue::ZERO; self.steps.len()];
+        let mut companions = vec![Residue::ZERO; self.steps.len()];
+        let unit_power = |parts: &[(usize, i64)]| {
+            parts.iter().try_fold(field.one(), |product, &(unit, n)| {
+                Some(field.mul(product, field.integer_power(units[unit], n)?))
+            })
+        };
+        for (i, step) in self.steps.iter().enumerate() {
+            values[i] = match step {
+                Step::Number(n) => field.number(*n)?,
+                Step::Constant => same.residue(&field),
+                Step::Ln(_) | Step::Atan(_) => random.residue(&field),
+                Step::Symbol(s) => at(*s)?,
+                Step::Sum(c, terms) => {
+                    let mut sum = field.number(*c)?;
+                    for &(c, term) in terms {
+                        let term = values[term];
+                        sum = if c.is_one() {
+                            field.add(sum, term)
+                        } else {
+                            field.add(sum, field.mul(field.number(c)?, term))
+                        };
+                    }
+                    sum
+                }
+                Step::Product(c, factors) => {
+                    let mut product = field.number(*c)?;
+                    for &(base, d, n) in factors {
+                        let root = match roots.get(&(base, d)) {
+                            Some(&root) => root,
+                            None => {
+                                let root = field.root(values[base], d)?;
+                                roots.insert((base, d), root);
+                                root
+                            }
+                        };
+                        product = field.mul(product, field.integer_power(root, n)?);
+                    }
+                    product
+                }
+                Step::Sine(angle, _) | Step::Cosine(angle, _) => {
+                    let (sine, cosine) = angle.open(&field, &circles)?;
+                    let (value, companion) = match step {
+                        Step::Sine(..) => (sine, cosine),
+                        _ => (cosine, sine),
+                    };
+                    companions[i] = companion;
+                    value
+                }
+                Step::Exp(parts, _) => unit_power(parts)?,
+                Step::Sinh(parts, _) | Step::Cosh(parts, _) => {
+                    let up = unit_power(parts)?;
+                    let down = field.inverse(up)?;
+                    let half = field.number(Number::HALF)?;
+                    let sinh = field.mul(half, field.sub(up, down));
+                    let cosh = field.mul(half, field.add(up, down));
+                    let odd = matches!(step, Step::Sinh(..));
+                    companions[i] = if odd { cosh } else { sinh };
+                    if odd { sinh } else { cosh }
+                }
+            };
+        }
+        Some(Point { field, values, companions })
+    }
+
+    /// The value of a compiled expression.
+    pub(super) fn value(&self, point: &Point, e: Expr) -> Residue {
+        point.values[self.index[&e]]
+    }
+
+    /// The value of a symbol, zero if it occurs nowhere.
+    pub(super) fn symbol_value(&self, point: &Point, symbol: Symbol) -> Residue {
+        let found = self.steps.iter().position(|s| matches!(s, Step::Symbol(s) if *s == symbol));
+        found.map_or(Residue::ZERO, |i| point.values[i])
+    }
+
+    /// The derivatives of everything along a direction, given by the rate of each symbol.
+    pub(super) fn rates(&self, point: &Point, seed: &dyn Fn(Symbol) -> Residue) -> Option<Rates> {
+        let field = &point.field;
+        let mut rates = vec![Residue::ZERO; self.steps.len()];
+        for (i, step) in self.steps.iter().enumerate() {
+            let (value, companion) = (point.values[i], point.companions[i]);
+            rates[i] = match step {
+                Step::Number(_) | Step::Constant => Residue::ZERO,
+                Step::Symbol(s) => seed(*s),
+                Step::Sum(_, terms) => {
+                    let mut sum = Residue::ZERO;
+                    for &(c, term) in terms.iter().filter(|(_, t)| !rates[*t].is_zero()) {
+                        sum = field.add(sum, field.mul(field.number(c)?, rates[term]));
+                    }
+                    sum
+                }
+                Step::Product(_, factors) => {
+                    if factors.iter().all(|&(base, ..)| rates[base].is_zero()) {
+                        Residue::ZERO
+                    } else {
+                        let mut sum = Residue::ZERO;
+                        for &(base, d, n) in factors.iter().filter(|f| !rates[f.0].is_zero()) {
+                            // the rate of b^(n/d) is n/d · b^(n/d) · b'/b; a vanishing base is improbable
+                            let exponent = field.number(Number::ratio(n.into(), d.into()))?;
+                            let relative =
+                                field.mul(rates[base], field.inverse(point.values[base])?);
+                            sum = field.add(sum, field.mul(exponent, relative));
+                        }
+                        field.mul(value, sum)
+                    }
+                }
+                Step::Sine(_, u) => field.mul(companion, rates[*u]),
+                Step::Cosine(_, u) => field.neg(field.mul(companion, rates[*u])),
+                Step::Exp(_, u) => field.mul(value, rates[*u]),
+                Step::Sinh(_, u) | Step::Cosh(_, u) => field.mul(companion, rates[*u]),
+                Step::Ln(u) if rates[*u].is_zero() => Residue::ZERO,
+                Step::Ln(u) => field.mul(rates[*u], field.inverse(point.values[*u])?),
+                Step::Atan(u) => {
+                    let u2 = field.mul(point.values[*u], point.values[*u]);
+                    field.mul(rates[*u], field.inverse(field.add(field.one(), u2))?)
+                }
+            };
+        }
+        Some(Rates(rates))
+    }
+
+    /// The rate of a compiled expression.
+    pub(super) fn rate(&self, rates: &Rates, e: Expr) -> Residue {
+        rates.0[self.index[&e]]
+    }
+}
+
+/// The derivatives of everything along one direction.
+#[derive(Clone, Debug)]
+pub(super) struct Rates(Vec<Residue>);
+
+impl Angle {
+    /// Its sine and cosine.
+    fn open(
+        &self,
+        field: &PrimeField,
+        circles: &[(Residue, Residue)],
+    ) -> Option<(Residue, Residue)> {
+        let one = field.one();
+        let mut whole = match self.quarters.rem_euclid(4) {
+            0 => (Residue::ZERO, one),
+            1 => (one, Residue::ZERO),
+            2 => (Residue::ZERO, field.neg(one)),
+            _ => (field.neg(one), Residue::ZERO),
+        };
+        let turn = |a: (Residue, Residue), b: (Residue, Residue)| {
+            let sine = field.add(field.mul(a.0, b.1), field.mul(a.1, b.0));
+            (sine, field.sub(field.mul(a.1, b.1), field.mul(a.0, b.0)))
+        };
+        for &(unit, n) in &self.parts {
+            let (sine, cosine) = circles[unit];
+            let once = if n < 0 { (field.neg(sine), cosine) } else { (sine, cosine) };
+            if n.unsigned_abs() > 64 {
+                return None;
+            }
+            for _ in 0..n.unsigned_abs() {
+                whole = turn(whole, once);
+            }
+        }
+        Some(whole)
+    }
+}

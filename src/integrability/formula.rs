@@ -1,0 +1,109 @@
+//! Combinations of monomials as expressions, with the shortest coefficients, and ansätze in words.
+//!
+//! In: columns with their coefficients. Out: expressions and sentences. Never here: the search.
+
+use super::ansatz::Ansatz;
+use super::atoms::Atoms;
+use super::law::Law;
+use crate::expr::{Expr, Node, Pool};
+use crate::num::Number;
+
+/// Σ coefficient · monomial.
+pub(super) fn combination(
+    pool: &mut Pool,
+    atoms: &Atoms,
+    ansatz: &Ansatz,
+    columns: &[usize],
+    coefficients: &[Expr],
+) -> Expr {
+    let terms: Vec<Expr> = columns
+        .iter()
+        .zip(coefficients)
+        .map(|(&column, &c)| {
+            let monomial = ansatz.expression(pool, atoms, column);
+            pool.mul(c, monomial)
+        })
+        .collect();
+    pool.sum(&terms)
+}
+
+/// The same coefficients times a common factor, without common factors and without denominators.
+pub(super) fn cleared(pool: &mut Pool, coefficients: &[Expr]) -> Vec<Expr> {
+    let mut numbers = Vec::new();
+    let mut factors: Vec<Vec<(Expr, Number)>> = Vec::new();
+    for &e in coefficients {
+        let (c, own) = match pool.node(e) {
+            Node::Number(n) => (*n, Vec::new()),
+            Node::Product(c, own) => (*c, own.to_vec()),
+            _ => (Number::ONE, vec![(e, Number::ONE)]),
+        };
+        numbers.push(c);
+        factors.push(own);
+    }
+    let mut common: Vec<(Expr, Number)> = Vec::new();
+    for (base, _) in factors.concat() {
+        if common.iter().any(|(b, _)| *b == base) {
+            continue;
+        }
+        let power = |own: &Vec<(Expr, Number)>| {
+            own.iter().find(|(b, _)| *b == base).map_or(Number::ZERO, |(_, n)| *n)
+        };
+        let least = factors.iter().map(power).min().unwrap_or(Number::ZERO);
+        common.push((base, -least));
+    }
+    let numbers = least_integers(&numbers);
+    let all = numbers.into_iter().zip(factors).map(|(c, mut own)| {
+        own.extend_from_slice(&common);
+        pool.monomial(c, &own)
+    });
+    all.collect()
+}
+
+/// The least integers in the same ratio as some rationals, the first of them positive.
+fn least_integers(all: &[Number]) -> Vec<Number> {
+    let fraction = |n: &Number| match n {
+        Number::Rational(n, d) => Some((i128::from(*n), i128::from(*d))),
+        Number::Real(_) => None,
+    };
+    let Some(fractions) = all.iter().map(fraction).collect::<Option<Vec<_>>>() else {
+        return all.to_vec();
+    };
+    let multiple = fractions.iter().try_fold(1_i128, |m, (_, d)| (m / gcd(m, *d)).checked_mul(*d));
+    let Some(multiple) = multiple else { return all.to_vec() };
+    let whole = fractions.iter().map(|(n, d)| n.checked_mul(multiple / d));
+    let Some(whole) = whole.collect::<Option<Vec<i128>>>() else { return all.to_vec() };
+    let divisor = whole.iter().fold(0, |g, &n| gcd(g, n)).max(1);
+    let divisor = if whole.first().is_some_and(|n| *n < 0) { -divisor } else { divisor };
+    let scaled: Vec<Number> = whole.iter().map(|&n| Number::ratio(n / divisor, 1)).collect();
+    let fit = scaled.iter().all(|n| matches!(n, Number::Rational(..)));
+    if fit { scaled } else { all.to_vec() }
+}
+
+fn gcd(a: i128, b: i128) -> i128 {
+    let (mut a, mut b) = (a.abs(), b.abs());
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+/// The ansatz in words: what was searched, and so where nothing else is.
+pub(super) fn words(pool: &Pool, law: &Law, atoms: &Atoms, ansatz: &Ansatz) -> String {
+    let list = |all: Vec<String>| all.join(", ");
+    let others = list(atoms.coefficients.iter().map(|g| pool.text(g.expression)).collect());
+    if law.positions == 0 {
+        return format!("polynomials of degree up to {} in {others}", ansatz.bounds[0].1);
+    }
+    let momenta = list(atoms.momenta.iter().map(|&p| pool.text(p)).collect());
+    let mut degrees: Vec<(u32, u32)> = ansatz.bounds.clone();
+    degrees.sort_unstable_by(|a, b| b.cmp(a));
+    let bounds: Vec<String> = degrees.iter().map(|(k, n)| format!("{n} for degree {k}")).collect();
+    if others.is_empty() {
+        let degrees: Vec<String> = degrees.iter().map(|(k, _)| k.to_string()).collect();
+        return format!("polynomials in {momenta} of degree {}", degrees.join(", "));
+    }
+    format!(
+        "polynomials in {momenta} whose coefficients are polynomials in {others}, of degree up to {}",
+        bounds.join(", ")
+    )
+}

@@ -1,0 +1,465 @@
+//! Noether's symmetries of a Lagrangian: transformations of time and coordinates that change L dt by a total derivative
+//! only, and what is constant because of each.
+//!
+//! In: a model with its Lagrangian. Out: generators ξ ∂_t + Σ η^i ∂_i with their gauge terms f and constants. The
+//! condition ξ L_t + η^i L_{q^i} + (D_t η^i − q̇^i D_t ξ) L_{q̇^i} + L D_t ξ = D_t f is linear in the coefficients of ξ, η,
+//! f; it is solved modulo a prime over monomials in t, q and what the law is made of, and each solution is proved
+//! symbolically. Never here: other symmetries of the equations.
+//! Source: E. Noether, *Invariante Variationsprobleme* (1918); *The Principles of Dynamics*, § 1.4.2.
+
+use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
+
+use super::ansatz::orders;
+use super::echelon::{Echelon, reduced};
+use super::evaluator::{Evaluator, Random, Unsupported};
+use super::formula::cleared;
+use super::law;
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
+
+/// The greatest degree of ξ, η and f in t, q and the other functions.
+const DEGREE: u32 = 3;
+
+/// The largest number of unknown coefficients.
+const MOST: usize = 1_500;
+
+/// Rows beyond the rank that have to add nothing.
+const SPARE: usize = 12;
+
+/// A symmetry of a Lagrangian.
+#[derive(Clone, Debug)]
+pub struct Symmetry {
+    /// What it is called: a time shift, a translation, a rotation, a boost, a dilation.
+    pub name: String,
+    /// ξ, the change of time.
+    pub time: Expr,
+    /// η, the change of each coordinate.
+    pub coordinates: Vec<Expr>,
+    /// f, by whose derivative L dt changes.
+    pub gauge: Expr,
+    /// ξ (Σ q̇ p − L) − Σ η p + f, which is constant.
+    pub conserved: Expr,
+    /// Whether that is proved symbolically.
+    pub proved: bool,
+}
+
+/// The symmetries that were found, and where.
+#[derive(Clone, Debug)]
+pub struct Symmetries {
+    /// A basis of them.
+    pub found: Vec<Symmetry>,
+    /// What was searched, in words.
+    pub searched: String,
+    /// Whether their number is proved: the ansatz has no others.
+    pub complete: bool,
+}
+
+/// Searches for Noether's symmetries of a Lagrangian, at the parameters' values.
+///
+/// # Errors
+/// Returns an error if there is no Lagrangian, something besides it acts, or it has a function that cannot be
+/// evaluated modulo a prime.
+pub fn symmetries(
+    model: &Model,
+    equations: &mut Equations,
+    is_over: &dyn Fn() -> bool,
+) -> Result<Symmetries, Unsupported> {
+    let refused = |why: &str| Err(Unsupported(why.to_owned()));
+    let Ok(lagrangian) = equations.lagrangian.clone() else {
+        return refused("there is no Lagrangian in closed form");
+    };
+    if !model.constraints.is_empty() {
+        return refused("symmetries of a Lagrangian under constraints are not searched");
+    }
+    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+        .into_iter()
+        .map(|(s, n)| (s, equations.pool.number(n)))
+        .collect();
+    let pool = &mut equations.pool;
+    let lagrangian = pool.substitute(lagrangian, &values);
+    let time = equations.symbols.time;
+    let (positions, velocities): (Vec<Symbol>, Vec<Symbol>) =
+        equations.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
+    let mut problem = Problem::of(pool, lagrangian, time, positions, velocities);
+    let vectors = problem.solve(pool, is_over)?;
+    let mut found = Vec::new();
+    let mut complete = true;
+    for vector in vectors {
+        match problem.exact(pool, &vector) {
+            Some(symmetry) => found.push(symmetry),
+            None => complete = false,
+        }
+    }
+    complete &= found.iter().all(|s| s.proved);
+    found.sort_by_key(|s| {
+        let rest = s.coordinates.iter().chain([&s.time, &s.gauge]);
+        rest.map(|&e| pool.weight(e)).sum::<u64>()
+    });
+    Ok(Symmetries { found, searched: problem.words(pool), complete })
+}
+
+/// The condition on the coefficients of ξ, η and f.
+struct Problem {
+    time: Symbol,
+    positions: Vec<Symbol>,
+    velocities: Vec<Symbol>,
+    lagrangian: Expr,
+    /// L_t, L_q, L_q̇.
+    slopes: (Expr, Vec<Expr>, Vec<Expr>),
+    /// What ξ, η and f are polynomials in.
+    generators: Vec<Expr>,
+    monomials: Vec<Expr>,
+    field: PrimeField,
+}
+
+impl Problem {
+    fn of(
+        pool: &mut Pool,
+        lagrangian: Expr,
+        time: Symbol,
+        positions: Vec<Symbol>,
+        velocities: Vec<Symbol>,
+    ) -> Problem {
+        let slopes = (
+            pool.derivative(lagrangian, time),
+            positions.iter().map(|&q| pool.derivative(lagrangian, q)).collect(),
+            velocities.iter().map(|&v| pool.derivative(lagrangian, v)).collect(),
+        );
+        let mut generators = vec![pool.variable(time)];
+        generators.extend(positions.iter().map(|&q| pool.variable(q)));
+        // sines, cosines, exponentials and reciprocals of coordinates that the law contains, and of the time
+        for e in pool.reachable(&[lagrangian]) {
+            let moving = pool.depends_on_any(e, &positions) || pool.depends(e, time);
+            if !moving || pool.depends_on_any(e, &velocities) {
+                continue;
+            }
+            match pool.node(e).clone() {
+                Node::Call(FunctionId::Sin | FunctionId::Cos, u) => {
+                    for function in [FunctionId::Sin, FunctionId::Cos] {
+                        let e = pool.call(function, &u);
+                        if !generators.contains(&e) {
+                            generators.push(e);
+                        }
+                    }
+                }
+                Node::Call(FunctionId::Exp | FunctionId::Ln, _) if !generators.contains(&e) => {
+                    generators.push(e);
+                }
+                _ => {}
+            }
+        }
+        // an oscillation in the time is found where the law is quadratic: q'' = −ω² q
+        for w in frequencies(pool, lagrangian, &positions, &velocities) {
+            let (w, t) = (pool.number(w), pool.variable(time));
+            let angle = pool.mul(w, t);
+            for function in [FunctionId::Sin, FunctionId::Cos] {
+                let e = pool.call(function, &[angle]);
+                if !generators.contains(&e) {
+                    generators.push(e);
+                }
+            }
+        }
+        let mut degree = DEGREE;
+        let mut monomials = products(pool, &generators, degree);
+        while degree > 1 && monomials.len() * (positions.len() + 2) > MOST {
+            degree -= 1;
+            monomials = products(pool, &generators, degree);
+        }
+        Problem {
+            time,
+            positions,
+            velocities,
+            lagrangian,
+            slopes,
+            generators,
+            monomials,
+            field: PrimeField::nth(0),
+        }
+    }
+
+    /// The solutions modulo a prime, without those that are gauge alone, as sparse as they come.
+    fn solve(
+        &mut self,
+        pool: &mut Pool,
+        is_over: &dyn Fn() -> bool,
+    ) -> Result<Vec<Vec<Residue>>, Unsupported> {
+        let mut roots = self.monomials.clone();
+        roots.extend([self.lagrangian, self.slopes.0]);
+        roots.extend(self.slopes.1.iter().chain(&self.slopes.2));
+        let moving: Vec<Symbol> =
+            self.positions.iter().chain(&self.velocities).chain([&self.time]).copied().collect();
+        let evaluator = Evaluator::new(pool, &roots, &moving)?;
+        let (n, m) = (self.positions.len(), self.monomials.len());
+        let mut random = Random::new(3);
+        let works = |k: &usize| {
+            let mut random = Random::new(5);
+            (0..40).any(|_| self.row(&evaluator, PrimeField::nth(*k), &mut random).is_some())
+        };
+        let Some(k) = (0..PRIMES.len()).find(works) else {
+            let why = "no point was found at which the Lagrangian has a value modulo a prime";
+            return Err(Unsupported(why.to_owned()));
+        };
+        self.field = PrimeField::nth(k);
+        // monomials that depend on others as functions, such as cos² on sin², are left out
+        let mut functions = Echelon::new(self.field, m);
+        let mut echelon = Echelon::new(self.field, m * (n + 2));
+        let (mut idle, mut tries) = (0, 0);
+        while idle < SPARE {
+            tries += 1;
+            if is_over() || tries > 100 * MOST {
+                return Err(Unsupported("the time for it was over".to_owned()));
+            }
+            let Some((values, row)) = self.row(&evaluator, self.field, &mut random) else {
+                continue;
+            };
+            let new = functions.add(values);
+            let more = echelon.add(row);
+            idle = if new || more { 0 } else { idle + 1 };
+        }
+        // ξ, η and f are sums over independent monomials only
+        for block in 0..n + 2 {
+            for k in (0..m).filter(|&k| !functions.leads(k)) {
+                let mut row = vec![Residue::ZERO; m * (n + 2)];
+                row[block * m + k] = self.field.one();
+                echelon.add(row);
+            }
+        }
+        // f = 1 is no symmetry
+        let mut constant = vec![Residue::ZERO; m * (n + 2)];
+        constant[(n + 1) * m] = self.field.one();
+        echelon.add(constant);
+        let basis = echelon.null_space();
+        let mut best: Vec<Vec<Residue>> = Vec::new();
+        let mut all: Vec<Vec<Residue>> = Vec::new();
+        for order in orders(m * (n + 2), 6) {
+            all.extend(reduced(self.field, &basis, &order));
+        }
+        all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());
+        let mut chosen = Echelon::new(self.field, m * (n + 2));
+        for vector in all {
+            if chosen.add(vector.clone()) {
+                best.push(vector);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The monomials' values at a random point, and the condition there for each unknown coefficient: of ξ, of each η,
+    /// of f.
+    fn row(
+        &self,
+        evaluator: &Evaluator,
+        field: PrimeField,
+        random: &mut Random,
+    ) -> Option<(Vec<Residue>, Vec<Residue>)> {
+        let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
+        for &s in self.positions.iter().chain(&self.velocities).chain([&self.time]) {
+            state.insert(s, random.residue(&field));
+        }
+        let point = evaluator.point(field, random, 7, &|s| state.get(&s).copied())?;
+        let velocity = |s: Symbol| {
+            let k = self.positions.iter().position(|&q| q == s);
+            k.map(|k| state[&self.velocities[k]])
+        };
+        let seed = |s: Symbol| {
+            if s == self.time { field.one() } else { velocity(s).unwrap_or_default() }
+        };
+        let rates = evaluator.rates(&point, &seed)?;
+        let value = |e: Expr| evaluator.value(&point, e);
+        let (by_time, by_position, by_velocity) = &self.slopes;
+        let mut momentum = Residue::ZERO;
+        for (k, &p) in by_velocity.iter().enumerate() {
+            momentum = field.add(momentum, field.mul(state[&self.velocities[k]], value(p)));
+        }
+        // L − Σ q̇ p
+        let rest = field.sub(value(self.lagrangian), momentum);
+        let values: Vec<Residue> = self.monomials.iter().map(|&e| value(e)).collect();
+        let moved: Vec<Residue> =
+            self.monomials.iter().map(|&e| evaluator.rate(&rates, e)).collect();
+        let mut row = Vec::new();
+        let term = |a: Residue, b: Residue| {
+            values
+                .iter()
+                .zip(&moved)
+                .map(move |(&m, &d)| field.add(field.mul(m, a), field.mul(d, b)))
+        };
+        row.extend(term(value(*by_time), rest));
+        for (&q, &p) in by_position.iter().zip(by_velocity) {
+            row.extend(term(value(q), value(p)));
+        }
+        row.extend(moved.iter().map(|&d| field.neg(d)));
+        Some((values, row))
+    }
+
+    /// A solution with rational coefficients, its constant, and whether the condition is proved.
+    fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<Symmetry> {
+        let (n, m) = (self.positions.len(), self.monomials.len());
+        let lead = vector.iter().find(|x| !x.is_zero())?;
+        let scale = self.field.inverse(*lead)?;
+        let mut entries = Vec::new();
+        for (k, &x) in vector.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
+            let x = self.field.value(self.field.mul(x, scale));
+            let (a, b) = rational(x.into(), self.field.prime().into(), 16)?;
+            let c @ Number::Rational(..) = Number::ratio(a, b) else { return None };
+            entries.push((k, pool.number(c)));
+        }
+        let coefficients: Vec<Expr> = entries.iter().map(|(_, e)| *e).collect();
+        let coefficients = cleared(pool, &coefficients);
+        let mut blocks = vec![Vec::new(); n + 2];
+        for ((k, _), c) in entries.iter().zip(coefficients) {
+            blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
+        }
+        let sums: Vec<Expr> = blocks.iter().map(|terms| pool.sum(terms)).collect();
+        let (xi, eta, f) = (sums[0], sums[1..=n].to_vec(), sums[n + 1]);
+        let velocities: Vec<Expr> = self.velocities.iter().map(|&v| pool.variable(v)).collect();
+        let mut seeds = vec![(self.time, Expr::ONE)];
+        seeds.extend(self.positions.iter().copied().zip(velocities.iter().copied()));
+        let (by_time, by_position, by_velocity) = &self.slopes;
+        let moved = pool.derivation(xi, &seeds);
+        let mut terms = vec![pool.mul(xi, *by_time), pool.mul(self.lagrangian, moved)];
+        let mut constant = Vec::new();
+        let momenta: Vec<Expr> =
+            velocities.iter().zip(by_velocity).map(|(&v, &p)| pool.mul(v, p)).collect();
+        let energy = pool.sum(&momenta);
+        let energy = pool.sub(energy, self.lagrangian);
+        constant.push(pool.mul(xi, energy));
+        for i in 0..n {
+            terms.push(pool.mul(eta[i], by_position[i]));
+            let change = pool.derivation(eta[i], &seeds);
+            let carried = pool.mul(velocities[i], moved);
+            let change = pool.sub(change, carried);
+            terms.push(pool.mul(change, by_velocity[i]));
+            let work = pool.mul(eta[i], by_velocity[i]);
+            constant.push(pool.neg(work));
+        }
+        let gauge = pool.derivation(f, &seeds);
+        terms.push(pool.neg(gauge));
+        constant.push(f);
+        let condition = pool.sum(&terms);
+        let proved = pool.is_zero(condition) == Zero::Proved;
+        let conserved = pool.sum(&constant);
+        let conserved = pool.simplify(conserved);
+        let name = self.name(pool, xi, &eta, f);
+        Some(Symmetry { name, time: xi, coordinates: eta, gauge: f, conserved, proved })
+    }
+
+    /// What a symmetry is called.
+    fn name(&self, pool: &Pool, xi: Expr, eta: &[Expr], f: Expr) -> String {
+        let mut moving = self.positions.clone();
+        moving.push(self.time);
+        let constant = |e: Expr| !pool.depends_on_any(e, &moving);
+        let free_of_time = |e: Expr| !pool.depends(e, self.time);
+        let degree = |e: Expr| super::known::degree(pool, e, &self.positions);
+        let still = eta.iter().all(|&e| e == Expr::ZERO);
+        let name = if still && constant(xi) {
+            "time shift"
+        } else if xi == Expr::ZERO && f == Expr::ZERO && eta.iter().all(|&e| constant(e)) {
+            "translation"
+        } else if xi == Expr::ZERO
+            && f == Expr::ZERO
+            && eta.iter().all(|&e| free_of_time(e) && degree(e) <= 1)
+        {
+            "rotation"
+        } else if xi == Expr::ZERO && eta.iter().all(|&e| degree(e) == 0) {
+            "boost"
+        } else if xi == Expr::ZERO {
+            "transformation of the coordinates"
+        } else if degree(xi) == 0 && super::known::degree(pool, xi, &[self.time]) == 1 {
+            "dilation"
+        } else if degree(xi) == 0 {
+            "conformal transformation"
+        } else {
+            "transformation of time and coordinates"
+        };
+        name.to_owned()
+    }
+
+    fn words(&self, pool: &Pool) -> String {
+        let all: Vec<String> = self.generators.iter().map(|&e| pool.text(e)).collect();
+        let highest = self.monomials.last().map_or(0, |&e| self.degree(pool, e));
+        format!(
+            "changes of time and coordinates, and gauge terms, that are polynomials of degree up to {highest} in {}",
+            all.join(", ")
+        )
+    }
+
+    fn degree(&self, pool: &Pool, e: Expr) -> u32 {
+        match pool.node(e) {
+            Node::Product(_, factors) if !self.generators.contains(&e) => {
+                factors.iter().filter_map(|(_, n)| n.as_integer()).sum::<i64>().unsigned_abs()
+                    as u32
+            }
+            _ => 1,
+        }
+    }
+}
+
+/// Once and twice the frequencies of oscillators, L = ½ m q̇² − ½ k q² with k/m the square of a rational, and those of
+/// uniform magnetic fields.
+fn frequencies(
+    pool: &mut Pool,
+    lagrangian: Expr,
+    positions: &[Symbol],
+    velocities: &[Symbol],
+) -> Vec<Number> {
+    let mut found = Vec::new();
+    for (&q, &v) in positions.iter().zip(velocities) {
+        let second = |pool: &mut Pool, s: Symbol| {
+            let slope = pool.derivative(lagrangian, s);
+            let curvature = pool.derivative(slope, s);
+            let curvature = pool.simplify(curvature);
+            pool.as_number(curvature)
+        };
+        let (Some(m), Some(k)) = (second(pool, v), second(pool, q)) else { continue };
+        let square = -k * m.recip();
+        if let Some(w) = square.exact_power(Number::HALF).filter(|w| !w.is_zero()) {
+            for w in [w, w * Number::integer(2)] {
+                if !found.contains(&w) {
+                    found.push(w);
+                }
+            }
+        }
+        // in a uniform magnetic field: m q̇ turns at (∂²L/∂q̇∂r − ∂²L/∂q∂ṙ)/m
+        for (&r, &u) in positions.iter().zip(velocities).filter(|(r, _)| **r != q) {
+            let momentum = pool.derivative(lagrangian, v);
+            let other = pool.derivative(lagrangian, u);
+            let (a, b) = (pool.derivative(momentum, r), pool.derivative(other, q));
+            let turn = pool.sub(a, b);
+            let turn = pool.simplify(turn);
+            if let Some(b) = pool.as_number(turn).filter(|b| !b.is_zero()) {
+                let w = (b * m.recip()).abs();
+                if !found.contains(&w) {
+                    found.push(w);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// All products of some functions up to a degree, by ascending degree, the first of them 1.
+fn products(pool: &mut Pool, generators: &[Expr], degree: u32) -> Vec<Expr> {
+    let mut all = vec![Expr::ONE];
+    let mut last: Vec<(Expr, usize)> = vec![(Expr::ONE, 0)];
+    for _ in 0..degree {
+        let mut next = Vec::new();
+        for &(e, from) in &last {
+            for (k, &g) in generators.iter().enumerate().skip(from) {
+                next.push((pool.mul(e, g), k));
+            }
+        }
+        all.extend(next.iter().map(|(e, _)| *e));
+        last = next;
+    }
+    let mut unique = Vec::new();
+    for e in all {
+        if !unique.contains(&e) {
+            unique.push(e);
+        }
+    }
+    unique
+}

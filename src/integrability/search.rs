@@ -1,0 +1,434 @@
+//! The search for constants of the motion: ansätze of growing degree, within limits.
+//!
+//! In: a model and its equations, limits. Out: [`Invariants`]: what is found, how far it is proved, and word for word
+//! what was searched. Never here: clocks; the caller says when time is over.
+//! Source: J. Hietarinta, *Direct methods for the search of the second invariant*, Physics Reports 147 (1987) 87, for
+//! the polynomial ansatz; the arithmetic modulo a prime is that of modern computer algebra.
+
+use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
+
+use super::ansatz::Ansatz;
+use super::atoms::{Atoms, Family};
+use super::coefficients::{Lift, rationals};
+use super::evaluator::{Evaluator, Random, Unsupported};
+use super::formula::{cleared, combination, words};
+use super::known::{self, Known, products};
+use super::law::{self, Law};
+use super::level::{self, Broken, Ground};
+use super::scope::{Scope, constants_of};
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::mechanics::{Class, Equations, class_of};
+use crate::model::Model;
+use crate::num::{Number, PRIMES, PrimeField};
+
+/// The largest number of monomials in an ansatz, so that its matrix stays below 20 MB.
+pub const SIZE_LIMIT: usize = 1_500;
+
+/// The degree up to which is searched where none is given.
+const DEGREE: u32 = 6;
+
+/// What determines the values of functions of constants.
+const SEED: u64 = 7;
+
+/// The largest number of products of known constants that are compared with what is found.
+const MOST_PRODUCTS: usize = 600;
+
+/// How far to search.
+pub struct Limits<'a> {
+    /// The greatest degree in the momenta; 6 if it is not given.
+    pub degree: Option<u32>,
+    /// Whether the search has to end: time is over, or it was cancelled.
+    pub is_over: &'a dyn Fn() -> bool,
+}
+
+/// How far a constant of the motion is proved.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Proof {
+    /// Symbolically, for all values of the parameters.
+    Proved,
+    /// Symbolically, for the parameters' present values, which are put in.
+    AtTheseParameters,
+    /// It holds at every random point modulo a prime, which is no proof.
+    Unproved,
+}
+
+/// A constant of the motion that was found.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// As a function of the state: (q, p) where H is known and nothing else acts, (q, q̇) or the variables of a
+    /// Poisson system elsewhere.
+    pub expression: Expr,
+    /// Its degree in the momenta (or velocities, or variables).
+    pub degree: u32,
+    /// How far it is proved.
+    pub proof: Proof,
+    /// Whether it is functionally independent of those known and those found before it.
+    pub independent: bool,
+    /// With the parameters' values put in.
+    pub(super) here: Expr,
+}
+
+/// One ansatz that was searched to the end.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// The degree in the momenta.
+    pub degree: u32,
+    /// The ansatz in words.
+    pub family: String,
+    /// The number of its independent monomials.
+    pub size: usize,
+    /// Whether it is the standard family of its degree, of which absence is stated.
+    pub standard: bool,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, Default)]
+pub struct Invariants {
+    /// The constants of the motion that the equations already have.
+    pub known: Vec<Known>,
+    /// Which of them are independent of those before.
+    pub known_independent: Vec<bool>,
+    /// The constants that nobody wrote down.
+    pub found: Vec<Constant>,
+    /// What was searched to the end.
+    pub searched: Vec<Searched>,
+    /// The greatest degree up to which nothing else exists in what was searched.
+    pub none_up_to: Option<u32>,
+    /// The dimension of the space of states, less constraints.
+    pub dimension: usize,
+    /// Why the search ended early, or was not made.
+    pub ended: Option<String>,
+    /// Whether the law contains the time, so that constants without it are few.
+    pub driven: bool,
+}
+
+impl Invariants {
+    /// The number of independent constants, known and found.
+    pub fn independent(&self) -> usize {
+        self.known_independent.iter().filter(|x| **x).count()
+            + self.found.iter().filter(|c| c.independent).count()
+    }
+}
+
+/// Searches for the constants of the motion that do not contain the time.
+///
+/// # Errors
+/// Returns an error if the law has a function that cannot be evaluated modulo a prime, such as one with a kink.
+pub fn invariants(
+    model: &Model,
+    equations: &mut Equations,
+    limits: &Limits<'_>,
+) -> Result<Invariants, Unsupported> {
+    let mut search = Search::of(model, equations, limits)?;
+    let mut answer = Invariants {
+        driven: search.law.is_driven(&equations.pool),
+        known: search.known.clone(),
+        ..Invariants::default()
+    };
+    let outcome = search.levels(model, equations, &mut answer);
+    match outcome {
+        Ok(()) => {}
+        Err(Broken::Over) => answer.ended = Some("the time for it was over".to_owned()),
+        Err(Broken::NoPoint) => {
+            let why = "no point was found at which everything has a value modulo a prime";
+            answer.ended = Some(why.to_owned());
+            answer.none_up_to = None;
+        }
+    }
+    search.judge(equations, &mut answer);
+    Ok(answer)
+}
+
+struct Search<'a> {
+    limits: &'a Limits<'a>,
+    /// The law with symbols, and with the parameters' values put in.
+    symbolic: Law,
+    law: Law,
+    values: HashMap<Symbol, Expr>,
+    parameters: Vec<Symbol>,
+    scope: Scope,
+    known: Vec<Known>,
+    field: PrimeField,
+    random: Random,
+}
+
+impl<'a> Search<'a> {
+    fn of(
+        model: &Model,
+        equations: &mut Equations,
+        limits: &'a Limits<'a>,
+    ) -> Result<Search<'a>, Unsupported> {
+        let symbolic = Law::of(model, equations);
+        let constants = law::constants(model, equations);
+        let pool = &mut equations.pool;
+        let values: HashMap<Symbol, Expr> =
+            constants.iter().map(|&(s, n)| (s, pool.number(n))).collect();
+        let law = symbolic.substituted(pool, &values);
+        if pool.is_full() {
+            return Err(Unsupported("the equations are too large".to_owned()));
+        }
+        let evaluator = Evaluator::new(pool, &law.expressions(), &law.moving())?;
+        let known = known::of(equations, &law, &values);
+        let scope = Scope::of(model, law.clone());
+        let mut random = Random::new(1);
+        let mut works = |n: &usize| {
+            let field = PrimeField::nth(*n);
+            let none = FxHashMap::default();
+            (0..40).any(|_| law.draw(&evaluator, field, &mut random, &none, SEED).is_some())
+        };
+        let field = (0..PRIMES.len()).find(|n| works(n)).map(PrimeField::nth);
+        let Some(field) = field else {
+            let why = "no point was found at which the law has a value modulo a prime";
+            return Err(Unsupported(why.to_owned()));
+        };
+        let parameters = constants.iter().map(|(s, _)| *s).collect();
+        Ok(Search { limits, symbolic, law, values, parameters, scope, known, field, random })
+    }
+
+    /// Goes through the ansätze, by degree.
+    fn levels(
+        &mut self,
+        model: &Model,
+        equations: &mut Equations,
+        answer: &mut Invariants,
+    ) -> Result<(), Broken> {
+        let families = self.scope.families(model, &equations.pool);
+        let mut unbroken = true;
+        for degree in 1..=self.limits.degree.unwrap_or(DEGREE) {
+            for (i, &family) in families.iter().enumerate() {
+                let atoms = Atoms::of(&mut equations.pool, &self.law, &self.scope.angles, family);
+                let (mut complete, mut related) = (false, false);
+                for extra in self.scope.extras(degree) {
+                    let bounds = self.scope.bounds(&mut equations.pool, &atoms, degree, extra);
+                    let Some(ansatz) = Ansatz::new(&atoms, bounds, SIZE_LIMIT) else { continue };
+                    let (size, overgeneral) =
+                        self.level(model, equations, answer, family, &atoms, &ansatz)?;
+                    (complete, related) = (true, overgeneral);
+                    answer.searched.retain(|s| (s.degree, s.standard) != (degree, i == 0) || i > 0);
+                    let family = words(&equations.pool, &self.law, &atoms, &ansatz);
+                    answer.searched.push(Searched { degree, family, size, standard: i == 0 });
+                    if self.is_exhausted(equations, answer) {
+                        answer.ended = Some("no more can be independent".to_owned());
+                        return Ok(());
+                    }
+                }
+                if i == 0 {
+                    unbroken &= complete && !related;
+                    if unbroken {
+                        answer.none_up_to = Some(degree);
+                    }
+                    if !complete {
+                        let why = format!(
+                            "an ansatz of degree {degree} has more than {SIZE_LIMIT} monomials"
+                        );
+                        answer.ended = Some(why);
+                        return Ok(());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// One ansatz: what is new in it is made exact, proved, and added.
+    fn level(
+        &mut self,
+        model: &Model,
+        equations: &mut Equations,
+        answer: &mut Invariants,
+        family: Family,
+        atoms: &Atoms,
+        ansatz: &Ansatz,
+    ) -> Result<(usize, bool), Broken> {
+        let degree = ansatz.bounds.iter().map(|&(k, _)| k).max().unwrap_or(0);
+        let degree = if self.law.positions == 0 { ansatz.bounds[0].1 } else { degree };
+        let known: Vec<(Expr, u32)> = answer
+            .known
+            .iter()
+            .map(|k| (k.here, k.degree))
+            .chain(answer.found.iter().map(|c| (c.here, c.degree)))
+            .collect();
+        let functions: Vec<Expr> = known.iter().map(|(e, _)| *e).collect();
+        let degrees: Vec<u32> = known.iter().map(|(_, d)| *d).collect();
+        let mut products = products(&degrees, degree, MOST_PRODUCTS);
+        products.push(Vec::new());
+        let mut roots = self.law.expressions();
+        roots.extend(&functions);
+        roots.extend(&atoms.momenta);
+        roots.extend(atoms.coefficients.iter().map(|g| g.expression));
+        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
+            return Err(Broken::NoPoint);
+        };
+        let law = self.law.clone();
+        let ground = Ground {
+            law: &law,
+            evaluator: &evaluator,
+            field: self.field,
+            constants: FxHashMap::default(),
+            seed: SEED,
+            is_over: self.limits.is_over,
+        };
+        let random = &mut self.random;
+        let level = level::search(&ground, atoms, ansatz, &functions, &products, random)?;
+        for vector in level.new {
+            let exact = rationals(&ground, (atoms, ansatz), &vector, &mut self.random);
+            let columns: Vec<usize> = vector.iter().map(|(c, _)| *c).collect();
+            let degree = columns.iter().map(|&c| ansatz.degree(c)).max().unwrap_or(degree);
+            let degree = if self.law.positions == 0 { ansatz.total(&columns) } else { degree };
+            let named = self.named(model, equations, family, ansatz, &columns);
+            let here = exact.map(|exact| {
+                let pool = &mut equations.pool;
+                let exact: Vec<Expr> = exact.into_iter().map(|n| pool.number(n)).collect();
+                let exact = cleared(pool, &exact);
+                combination(pool, atoms, ansatz, &columns, &exact)
+            });
+            let constant = match (named, here) {
+                (Some(expression), _) => {
+                    let here = equations.pool.substitute(expression, &self.values);
+                    Constant { expression, degree, proof: Proof::Proved, independent: false, here }
+                }
+                (None, Some(here)) => {
+                    let proof = self.proof_here(model, equations, here);
+                    Constant { expression: here, degree, proof, independent: false, here }
+                }
+                (None, None) => {
+                    answer.ended = Some(
+                        "a constant of the motion has coefficients that are no short fractions"
+                            .to_owned(),
+                    );
+                    return Err(Broken::Over);
+                }
+            };
+            answer.found.push(constant);
+        }
+        Ok((level.size, evaluator.overgeneral))
+    }
+
+    /// The same constant with the parameters' names, if it is one for all their values.
+    fn named(
+        &mut self,
+        model: &Model,
+        equations: &mut Equations,
+        family: Family,
+        ansatz: &Ansatz,
+        columns: &[usize],
+    ) -> Option<Expr> {
+        let pool = &mut equations.pool;
+        let used = self.symbolic.expressions();
+        let parameters: Vec<Symbol> = self
+            .parameters
+            .iter()
+            .copied()
+            .filter(|&s| used.iter().any(|&e| pool.depends(e, s)))
+            .collect();
+        let constants = constants_of(pool, &self.symbolic, &parameters);
+        let atoms = Atoms::of(pool, &self.symbolic, &self.scope.angles, family);
+        let numeric = Atoms::of(pool, &self.law, &self.scope.angles, family);
+        if atoms.coefficients.len() != numeric.coefficients.len() {
+            return None;
+        }
+        for (a, b) in atoms.coefficients.iter().zip(&numeric.coefficients) {
+            if pool.substitute(a.expression, &self.values) != b.expression {
+                return None;
+            }
+        }
+        let mut roots = self.symbolic.expressions();
+        roots.extend(&atoms.momenta);
+        roots.extend(atoms.coefficients.iter().map(|g| g.expression));
+        roots.extend(constants.iter().map(|(e, _)| *e));
+        let evaluator = Evaluator::new(pool, &roots, &self.law.moving()).ok()?;
+        let lift = Lift {
+            law: &self.symbolic,
+            evaluator: &evaluator,
+            atoms: &atoms,
+            ansatz,
+            columns: columns.to_vec(),
+            parameters: &parameters,
+            constants: &constants,
+            is_over: self.limits.is_over,
+        };
+        let coefficients = lift.coefficients(pool, self.field, &mut self.random)?;
+        let expression = combination(pool, &atoms, ansatz, columns, &coefficients);
+        let proved = match self.symbolic.rate(pool, expression) {
+            Some(rate) => self.vanishes(pool, rate),
+            None => class_of(model, equations, "", expression).class == Class::Proved,
+        };
+        proved.then_some(expression)
+    }
+
+    /// Whether a rate is proved to vanish, as it is or in terms of half the coordinates, which opens half angles.
+    fn vanishes(&self, pool: &mut Pool, rate: Expr) -> bool {
+        if pool.is_zero(rate) == Zero::Proved {
+            return true;
+        }
+        let positions = &self.law.variables[..self.law.positions];
+        let doubled = positions.iter().map(|&q| {
+            let e = pool.variable(q);
+            (q, pool.scale(Number::integer(2), e))
+        });
+        let doubled: HashMap<Symbol, Expr> = doubled.collect();
+        let rate = pool.substitute(rate, &doubled);
+        pool.is_zero(rate) == Zero::Proved
+    }
+
+    /// The proof of a constant for the present values of the parameters.
+    fn proof_here(&self, model: &Model, equations: &mut Equations, here: Expr) -> Proof {
+        let proved = match self.law.rate(&mut equations.pool, here) {
+            Some(rate) => self.vanishes(&mut equations.pool, rate),
+            None => match class_of(model, equations, "", here).class {
+                Class::Proved => return Proof::Proved,
+                class => class == Class::AtTheseParameters,
+            },
+        };
+        let with_parameters = self.symbolic.expressions() != self.law.expressions();
+        match (proved, with_parameters) {
+            (true, true) => Proof::AtTheseParameters,
+            (true, false) => Proof::Proved,
+            (false, _) => Proof::Unproved,
+        }
+    }
+
+    /// Fills in which constants are independent, and the dimension.
+    fn judge(&mut self, equations: &mut Equations, answer: &mut Invariants) {
+        let functions: Vec<Expr> = answer
+            .known
+            .iter()
+            .map(|k| k.here)
+            .chain(answer.found.iter().map(|c| c.here))
+            .collect();
+        let mut roots = self.law.expressions();
+        roots.extend(&functions);
+        for &s in &self.law.variables {
+            roots.push(equations.pool.variable(s));
+        }
+        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
+            return;
+        };
+        let ground = Ground {
+            law: &self.law,
+            evaluator: &evaluator,
+            field: self.field,
+            constants: FxHashMap::default(),
+            seed: SEED,
+            is_over: &|| false,
+        };
+        let Ok(drawn) = ground.draw(&mut self.random) else { return };
+        answer.dimension = self.law.dimension(&evaluator, &drawn.point);
+        let Some(independent) = self.law.independent(&evaluator, &drawn.point, &functions) else {
+            return;
+        };
+        let (known, found) = independent.split_at(answer.known.len());
+        answer.known_independent = known.to_vec();
+        for (constant, &independent) in answer.found.iter_mut().zip(found) {
+            constant.independent = independent;
+        }
+    }
+
+    /// Whether as many independent constants are there as an autonomous motion can have.
+    fn is_exhausted(&mut self, equations: &mut Equations, answer: &mut Invariants) -> bool {
+        self.judge(equations, answer);
+        !answer.driven && answer.dimension > 0 && answer.independent() + 1 >= answer.dimension
+    }
+}

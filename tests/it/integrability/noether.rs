@@ -1,0 +1,94 @@
+//! Noether's symmetries, counted against the tables of the literature.
+//! Source: P. J. Olver, *Applications of Lie Groups to Differential Equations*, §§ 2.4, 4.4; for the damped quintic,
+//! the Emden–Fowler equation of index 5.
+
+use phaselab::integrability::{Symmetries, symmetries};
+use phaselab::mechanics::{self, Equations};
+
+use super::{drift, model};
+
+fn find(coordinates: &[&str], lagrangian: &str) -> (phaselab::model::Model, Equations, Symmetries) {
+    let mut text = "title = \"test\"\n[coordinates]\n".to_owned();
+    for q in coordinates {
+        text.push_str(&format!("{q} = {{ initial = 1.0, velocity = 0.5 }}\n"));
+    }
+    let model = model(&format!("{text}[lagrangian]\nL = \"{lagrangian}\"\n[run]\nstart = 1.0\n"));
+    let mut equations = mechanics::derive(&model).expect("derivable");
+    let found = symmetries(&model, &mut equations, &|| false).expect("it can be searched");
+    (model, equations, found)
+}
+
+/// The number of symmetries; each is proved, and the constants without time hold on an orbit.
+fn check(coordinates: &[&str], lagrangian: &str, count: usize) {
+    let (model, mut equations, found) = find(coordinates, lagrangian);
+    let names: Vec<String> = found
+        .found
+        .iter()
+        .map(|s| format!("{}: {}", s.name, equations.pool.text(s.conserved)))
+        .collect();
+    assert_eq!(found.found.len(), count, "{names:#?}");
+    assert!(found.complete);
+    let n = coordinates.len();
+    let start: Vec<f64> = (0..2 * n)
+        .map(|i| if i < n { 1.0 - 0.3 * i as f64 } else { 0.4 + 0.1 * i as f64 })
+        .collect();
+    for symmetry in &found.found {
+        assert!(symmetry.proved);
+        let time = equations.symbols.time;
+        let law = *equations.lagrangian.as_ref().expect("L");
+        if !equations.pool.depends(symmetry.conserved, time) && !equations.pool.depends(law, time) {
+            let drift = drift(&model, &mut equations, symmetry.conserved, &start);
+            assert!(drift < 1e-8, "{} moves by {drift}", symmetry.name);
+        }
+    }
+}
+
+#[test]
+fn free_particles() {
+    check(&["x"], "1/2*x'^2", 5);
+    check(&["x", "y"], "1/2*(x'^2 + y'^2)", 8);
+}
+
+#[test]
+fn oscillators() {
+    check(&["x"], "1/2*x'^2 - 1/2*x^2", 5);
+    check(&["x"], "1/2*x'^2 - 9/8*x^2", 5);
+}
+
+#[test]
+fn attractions() {
+    check(&["x", "y"], "1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)", 2);
+    check(&["x"], "1/2*x'^2 - 1/x^2", 3);
+}
+
+#[test]
+fn a_charge_in_a_uniform_field() {
+    check(&["x", "y"], "1/2*(x'^2 + y'^2) + 1/2*(x*y' - y*x')", 8);
+}
+
+#[test]
+fn emden_and_henon_heiles() {
+    check(&["x"], "t^2*(1/2*x'^2 - 1/6*x^6)", 1);
+    check(&["x", "y"], "1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2) - x^2*y + 1/3*y^3", 1);
+}
+
+#[test]
+fn emdens_constant_is_the_textbooks() {
+    let (_, mut equations, found) = find(&["x"], "t^2*(1/2*x'^2 - 1/6*x^6)");
+    let symmetry = &found.found[0];
+    let pool = &mut equations.pool;
+    let (t, x, v) = (pool.named("t"), pool.named("x"), pool.named("x'"));
+    // t³x'² + t²xx' + t³x⁶/3, up to a factor
+    let three = pool.powi(t, 3);
+    let squares = [pool.powi(v, 2), pool.powi(x, 6), pool.powi(t, 2)];
+    let third = pool.ratio(1, 3);
+    let first = pool.product(&[three, squares[0]]);
+    let second = pool.product(&[squares[2], x, v]);
+    let last = pool.product(&[third, three, squares[1]]);
+    let known = pool.sum(&[first, second, last]);
+    let quotient = pool.div(symmetry.conserved, known);
+    let at = crate::build::sample(3);
+    let ratio = pool.evaluate(quotient, &at);
+    let other = pool.evaluate(quotient, &crate::build::sample(8));
+    assert!(ratio != 0.0 && (ratio - other).abs() < 1e-12 * ratio.abs(), "{ratio} {other}");
+}
