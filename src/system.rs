@@ -35,9 +35,11 @@ mod rhs;
 mod series;
 mod solve;
 mod state;
+mod tangent;
 mod terms;
 mod valuation;
 mod value;
+mod variational;
 
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};

@@ -33,6 +33,7 @@ mod rigid_body;
 mod screen;
 mod starts;
 mod system;
+mod tangent;
 mod taylor;
 mod terminal;
 mod thresholds;
