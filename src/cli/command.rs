@@ -17,9 +17,11 @@ use super::derive;
 use super::doctor;
 use super::exit;
 use super::failure::CommandError;
+use super::flow;
 use super::interrupt::Interrupt;
 use super::lab;
 use super::list;
+use super::lyapunov;
 use super::manual;
 use super::methods;
 use super::play;
@@ -71,6 +73,8 @@ enum Command {
     Check(check::Arguments),
     Bracket(bracket::Arguments),
     Run(Box<run::Arguments>),
+    Flow(Box<flow::Arguments>),
+    Lyapunov(Box<lyapunov::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -118,6 +122,8 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Check(arguments) => check::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
+        Command::Flow(arguments) => flow::perform(&arguments, &interrupt),
+        Command::Lyapunov(arguments) => lyapunov::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

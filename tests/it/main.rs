@@ -10,6 +10,7 @@ mod config;
 mod constrain;
 mod documents;
 mod double;
+mod dynamics;
 mod elementary;
 mod experiment;
 mod expr;

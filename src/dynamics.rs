@@ -1,0 +1,20 @@
+//! What the derivatives of a motion tell: its flow map, its exponents, the periodic orbits and
+//! equilibria near it.
+//!
+//! In: a system, a method, a state. Out: numbers, with what they are sure of. Never here: text,
+//! files, threads.
+
+mod carrier;
+mod error;
+mod flow_map;
+mod lyapunov;
+mod phase_space;
+mod quadrature;
+mod transverse;
+
+pub use carrier::Carrier;
+pub use error::DynamicsError;
+pub use flow_map::{FlowMap, flow_map};
+pub use lyapunov::{Chaos, Lyapunov, lyapunov};
+pub use phase_space::{PhaseSpace, VectorField};
+pub use transverse::Removed;
