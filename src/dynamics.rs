@@ -5,16 +5,21 @@
 //! files, threads.
 
 mod carrier;
+mod equilibria;
 mod error;
 mod flow_map;
+mod linear;
 mod lyapunov;
+mod orbit;
 mod phase_space;
 mod quadrature;
 mod transverse;
 
 pub use carrier::Carrier;
+pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria};
 pub use error::DynamicsError;
 pub use flow_map::{FlowMap, flow_map};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
+pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
 pub use transverse::Removed;

@@ -20,7 +20,8 @@ use crate::dynamics::{DynamicsError, PhaseSpace};
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{Method, Settings};
 use crate::model::Model;
-use crate::system::State;
+use crate::num::DoubleDouble;
+use crate::system::{InitialOverride, State};
 
 /// The arguments of each of these commands.
 #[derive(Debug, clap::Args)]
@@ -117,6 +118,20 @@ impl Study {
         head.insert("parameters".to_owned(), header.parameters.into());
         head.insert("method".to_owned(), header.method.into());
         head
+    }
+
+    /// The start with other coordinates.
+    pub(super) fn around(&self, set: &[Assignment]) -> Result<State, CommandError> {
+        let mut state = self.start.clone();
+        let given = assignment::initial(&self.model, self.space.parameters(), set)?;
+        for one in given {
+            let InitialOverride::Position(i, x) = one else {
+                let why = "--around takes coordinates; momenta are those of the start, --init";
+                return Err(CommandError::WrongUse(why.to_owned()));
+            };
+            state.set(i, DoubleDouble::written(x));
+        }
+        Ok(state)
     }
 
     /// The variables of a state by their names.

@@ -211,6 +211,12 @@ impl System {
         Ok(result)
     }
 
+    /// The energy of a state in either form.
+    pub fn energy(&self, state: &State, parameters: &[f64]) -> Result<f64, MotionError> {
+        let native = self.convert(state, self.form(), parameters)?;
+        Ok(self.energy_of(&native, parameters)?.high)
+    }
+
     /// The same state in the system's native form, near a state that already has it: on the same
     /// branch, if several velocities belong to the momenta.
     pub fn convert_near(

@@ -1,7 +1,9 @@
 //! What the derivatives of a motion tell, against closed forms and published numbers.
 
+mod equilibria;
 mod flow;
 mod lyapunov;
+mod orbit;
 
 use phaselab::dynamics::PhaseSpace;
 use phaselab::integrate::{Method, Settings, method_named};
