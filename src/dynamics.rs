@@ -7,6 +7,7 @@
 mod carrier;
 mod equilibria;
 mod error;
+mod family;
 mod flow_map;
 mod linear;
 mod lyapunov;
@@ -18,6 +19,7 @@ mod transverse;
 pub use carrier::Carrier;
 pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria};
 pub use error::DynamicsError;
+pub use family::{Along, Bifurcation, Family, Member, family};
 pub use flow_map::{FlowMap, flow_map};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};

@@ -41,6 +41,19 @@ pub(super) fn least_squares(a: &DMatrix<f64>, b: &DVector<f64>, cut: f64) -> Opt
     svd.solve(b, cut.max(1e-12 * largest)).ok().filter(|x| x.iter().all(|x| x.is_finite()))
 }
 
+/// Unit vectors that span what a matrix takes to zero: up to a part `cut` of what it does to others.
+/// There is at least one.
+pub(super) fn kernel(matrix: &DMatrix<f64>, cut: f64) -> Vec<DVector<f64>> {
+    let (rows, columns) = matrix.shape();
+    // as many rows as columns at least, so that all right singular vectors are there
+    let full = matrix.clone().resize_vertically(rows.max(columns), 0.0);
+    let Some(svd) = full.try_svd(false, true, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let Some(vectors) = svd.v_t else { return Vec::new() };
+    let (largest, least) = (svd.singular_values.max(), svd.singular_values.min());
+    let small = |i: &usize| svd.singular_values[*i] <= (cut * largest).max(least);
+    (0..columns).filter(small).map(|i| vectors.row(i).transpose()).collect()
+}
+
 /// A unit vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
 pub(super) fn null_vector(
     matrix: &DMatrix<f64>,

@@ -210,25 +210,25 @@ struct Closed {
     settings: Settings,
 }
 
-struct Newton<'a> {
-    space: &'a PhaseSpace,
-    method: (&'static Method, Settings),
-    fixed: Fixed,
+pub(super) struct Newton<'a> {
+    pub(super) space: &'a PhaseSpace,
+    pub(super) method: (&'static Method, Settings),
+    pub(super) fixed: Fixed,
 }
 
 /// The motion over one period.
-struct Look {
+pub(super) struct Look {
     miss: DVector<f64>,
     monodromy: DMatrix<f64>,
     /// The rates at its two ends.
     rates: [DVector<f64>; 2],
     energy: f64,
-    size: f64,
+    pub(super) size: f64,
     settings: Settings,
 }
 
 impl Newton<'_> {
-    fn look(&self, state: &State, period: f64) -> Result<Look, DynamicsError> {
+    pub(super) fn look(&self, state: &State, period: f64) -> Result<Look, DynamicsError> {
         let (space, method) = (self.space, self.method);
         let map = flow_map(space, method, state, state.time + period, &mut |_| {})?;
         if let Some(fault) = map.failure {
@@ -302,12 +302,18 @@ impl Newton<'_> {
 
     /// The correction of the state and of the period.
     fn step(&self, look: &Look, residual: f64) -> Option<DVector<f64>> {
+        let (matrix, right) = self.equations(look);
+        // a direction that hardly matters must not be moved along as long as there is much to do
+        let cut = 1e-11 * matrix.amax() + 1e-3 * residual;
+        linear::least_squares(&matrix, &right, cut)
+    }
+
+    /// What is missing, equation by equation, and the derivatives by (z, T).
+    pub(super) fn equations(&self, look: &Look) -> (DMatrix<f64>, DVector<f64>) {
         let n = self.space.dimension();
         let autonomous = self.space.is_autonomous();
         let mut matrix = DMatrix::zeros(n + 2, n + 1);
-        let mut right = DVector::zeros(n + 2);
         matrix.view_mut((0, 0), (n, n)).copy_from(&(&look.monodromy - DMatrix::identity(n, n)));
-        right.rows_mut(0, n).copy_from(&(-&look.miss));
         let speed = look.rates[0].norm();
         if autonomous && speed > 0.0 {
             // the state does not move along the orbit
@@ -316,18 +322,36 @@ impl Newton<'_> {
         if !matches!(self.fixed, Fixed::Period(_)) {
             matrix.view_mut((0, n), (n, 1)).copy_from(&look.rates[1]);
         }
-        if let Fixed::Energy(wanted) = self.fixed {
+        if let Fixed::Energy(_) = self.fixed {
             // ∇H = −𝕁 f, in units of the speed
             let half = n / 2;
             for i in 0..half {
                 matrix[(n + 1, i)] = -look.rates[0][half + i] / speed;
                 matrix[(n + 1, half + i)] = look.rates[0][i] / speed;
             }
-            right[n + 1] = (wanted - look.energy) / speed;
         }
-        // a direction that hardly matters must not be moved along as long as there is much to do
-        let cut = 1e-11 * matrix.amax() + 1e-3 * residual;
-        linear::least_squares(&matrix, &right, cut)
+        (matrix, -self.missed(look))
+    }
+
+    /// The distance by which the motion does not close, no motion along the orbit, and the energy in
+    /// excess in units of the speed.
+    pub(super) fn missed(&self, look: &Look) -> DVector<f64> {
+        let n = self.space.dimension();
+        let mut missed = DVector::zeros(n + 2);
+        missed.rows_mut(0, n).copy_from(&look.miss);
+        if let Fixed::Energy(wanted) = self.fixed {
+            missed[n + 1] = (look.energy - wanted) / look.rates[0].norm();
+        }
+        missed
+    }
+
+    /// The orbit at a state from which the motion closes.
+    pub(super) fn at(&self, state: &State, period: f64) -> Result<Orbit, DynamicsError> {
+        let look = self.look(state, period)?;
+        let (residual, settings) = (self.residual(&look), look.settings);
+        let monodromy = look.monodromy;
+        let state = state.clone();
+        self.described(&Closed { state, period, residual, monodromy, settings })
     }
 
     /// The orbit after a part of its period, if it closes there already.

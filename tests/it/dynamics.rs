@@ -1,6 +1,7 @@
 //! What the derivatives of a motion tell, against closed forms and published numbers.
 
 mod equilibria;
+mod family;
 mod flow;
 mod lyapunov;
 mod orbit;
