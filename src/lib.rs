@@ -11,6 +11,7 @@ pub mod cancel;
 pub mod claims;
 pub mod cli;
 pub mod diagnostic;
+pub mod dynamics;
 pub mod experiment;
 pub mod expr;
 pub mod file;

@@ -38,9 +38,11 @@ mod separability;
 mod series;
 mod solve;
 mod state;
+mod tangent;
 mod terms;
 mod valuation;
 mod value;
+mod variational;
 
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};

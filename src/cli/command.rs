@@ -15,14 +15,18 @@ use super::config;
 use super::demo;
 use super::derive;
 use super::doctor;
+use super::equilibria;
 use super::exit;
 use super::failure::CommandError;
+use super::flow;
 use super::interrupt::Interrupt;
 use super::invariants;
 use super::lab;
 use super::list;
+use super::lyapunov;
 use super::manual;
 use super::methods;
+use super::orbit;
 use super::play;
 use super::record;
 use super::run;
@@ -75,6 +79,10 @@ enum Command {
     Invariants(invariants::Arguments),
     Symmetries(symmetries::Arguments),
     Run(Box<run::Arguments>),
+    Flow(Box<flow::Arguments>),
+    Lyapunov(Box<lyapunov::Arguments>),
+    Orbit(Box<orbit::Arguments>),
+    Equilibria(Box<equilibria::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -124,6 +132,10 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Invariants(arguments) => invariants::perform(&arguments),
         Command::Symmetries(arguments) => symmetries::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
+        Command::Flow(arguments) => flow::perform(&arguments, &interrupt),
+        Command::Lyapunov(arguments) => lyapunov::perform(&arguments, &interrupt),
+        Command::Orbit(arguments) => orbit::perform(&arguments, &interrupt),
+        Command::Equilibria(arguments) => equilibria::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

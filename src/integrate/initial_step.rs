@@ -32,6 +32,9 @@ const BY_ROUNDING: f64 = 1e-3;
 
 /// Returns a step length that three in four steps of the motion ahead exceed, or else 1.
 pub(super) fn of(system: &System, state: &State, parameters: &[f64]) -> f64 {
+    // tangent vectors have no time scale of their own
+    let plain = system.without_tangents();
+    let (state, system) = (&plain.extended(state, system), &plain);
     let modest = ahead(system, state, parameters, (Some(TOLERANCE), AHEAD));
     let exact = ahead(system, state, parameters, (None, A_FEW));
     match (modest, exact) {

@@ -10,7 +10,7 @@ use super::kkt::ConstraintSystem;
 use super::legendre::{self, Legendre, LegendreError};
 use super::observables::{ObservableList, Observables};
 use super::program::{Program, Singular};
-use super::rhs::{ProgramBuilder, Quadratures, Split};
+use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
 use super::separability::NotSeparable;
 use super::terms::{Quantities, TermWatch, Terms};
 use super::value::Evaluator;
@@ -28,6 +28,7 @@ pub struct System {
     pub(super) shared: Arc<Shared>,
     holding: ActiveSet,
     cancel: Cancel,
+    tangents: Option<Arc<Tangents>>,
 }
 
 #[derive(Debug)]
@@ -54,17 +55,6 @@ pub(super) struct Shared {
     pub(super) known: Vec<Known>,
     /// The energy as a function of (q, native rates).
     energy: Arc<Program>,
-}
-
-/// The equations of motion, in every form a method may request.
-#[derive(Debug)]
-pub(super) struct MotionPrograms {
-    /// The rates as functions of a state in the native form.
-    pub(super) native: Arc<Program>,
-    /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
-    pub(super) canonical: (Arc<Program>, bool),
-    /// The two parts of a separable system, or the reason why it is not separable.
-    pub(super) split: Result<Split, NotSeparable>,
 }
 
 /// Returns what the file specifies about an initial rate.
@@ -128,7 +118,8 @@ impl System {
         }
         let holding = holding.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
-        Ok(System { shared: Arc::new(Shared { inertia, ..shared }), holding, cancel })
+        let shared = Arc::new(Shared { inertia, ..shared });
+        Ok(System { shared, holding, cancel, tangents: None })
     }
 
     /// The token that cancels work with this system. It is the token of the pool the system was
@@ -194,10 +185,16 @@ impl System {
         if self.form() == Form::Variables { self.degrees() } else { 2 * self.degrees() }
     }
 
-    /// The number of dynamical variables and auxiliary numbers: everything that the rates of change
-    /// depend on.
-    pub fn driven_len(&self) -> usize {
+    /// The number of dynamical variables and auxiliary numbers: everything that the rates of the
+    /// motion depend on.
+    pub fn motion_len(&self) -> usize {
         self.moving() + self.shared.auxiliary.outputs()
+    }
+
+    /// The number of dynamical variables, auxiliary numbers and components of tangent vectors:
+    /// everything that the rates of change depend on.
+    pub fn driven_len(&self) -> usize {
+        self.motion_len() + self.tangents() * self.moving()
     }
 
     /// The length of a state: the numbers that rates depend on, and the integrals.
@@ -245,14 +242,14 @@ impl System {
     /// Writes the inputs of the observing programs: a state in the system's native form, then
     /// action and work, which are zero if the state does not carry them.
     pub(super) fn inputs_of(&self, state: &State, out: &mut [DoubleDouble]) {
-        let driven_len = self.driven_len();
-        for (i, x) in out[..driven_len].iter_mut().enumerate() {
+        let motion_len = self.motion_len();
+        for (i, x) in out[..motion_len].iter_mut().enumerate() {
             *x = state.exact(i);
         }
         let quadratures = self.quadratures();
-        let mut next = driven_len;
+        let mut next = self.driven_len();
         for (auxiliary, place) in
-            [(quadratures.action, driven_len), (quadratures.work, driven_len + 1)]
+            [(quadratures.action, motion_len), (quadratures.work, motion_len + 1)]
         {
             out[place] = DoubleDouble::ZERO;
             if auxiliary {
@@ -333,7 +330,16 @@ impl System {
 
     /// The same system with another set of enforced constraints.
     pub(super) fn with_holding(&self, holding: ActiveSet) -> System {
-        System { shared: Arc::clone(&self.shared), holding, cancel: self.cancel.clone() }
+        System { holding, ..self.clone() }
+    }
+
+    /// The same system with other tangent vectors.
+    pub(super) fn carrying(&self, tangents: Option<Arc<Tangents>>) -> System {
+        System { tangents, ..self.clone() }
+    }
+
+    pub(super) fn variational(&self) -> Option<&Tangents> {
+        self.tangents.as_deref()
     }
 
     /// The parameter inputs of the programs: the values, read as the decimals they are written as,
@@ -364,7 +370,7 @@ impl System {
     }
 
     pub(super) fn motion(&self) -> &MotionPrograms {
-        &self.shared.motion
+        self.variational().map_or(&self.shared.motion, |tangents| &tangents.motion)
     }
 
     pub(super) fn quadratures(&self) -> Quadratures {
@@ -425,6 +431,8 @@ impl System {
         };
         if i < self.moving() {
             self.channels()[channel].shown.clone()
+        } else if (self.motion_len()..self.driven_len()).contains(&i) {
+            "a derivative of the motion".to_owned()
         } else {
             "an integral".to_owned()
         }

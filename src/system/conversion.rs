@@ -99,7 +99,8 @@ impl System {
     }
 
     /// The same state in another form. If several velocities belong to the momenta, the search
-    /// starts from the file's initial velocities; [`System::convert_near`] takes a better guess.
+    /// starts from the file's initial velocities; [`System::convert_near`] takes a better guess, but
+    /// leaves tangent vectors as they are.
     pub fn convert(
         &self,
         state: &State,
@@ -108,12 +109,15 @@ impl System {
     ) -> Result<State, MotionError> {
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
-        if state.form != form && self.has_branches() && form == self.form() {
+        let mut found = if state.form != form && self.has_branches() && form == self.form() {
             let values = self.initial_program(&inputs);
             let rates = (self.degrees()..self.moving()).map(|i| values.output(i)).collect();
-            return self.convert_from(&mut legendre, state, rates);
-        }
-        self.convert_by(&mut legendre, state, form, None)
+            self.convert_from(&mut legendre, state, rates)?
+        } else {
+            self.convert_by(&mut legendre, state, form, None)?
+        };
+        self.convert_tangents(state, &mut found, parameters)?;
+        Ok(found)
     }
 
     /// Converts to the native form from a guess of the rates, which need not be close.
@@ -205,6 +209,12 @@ impl System {
         }
         self.check_finite(&result)?;
         Ok(result)
+    }
+
+    /// The energy of a state in either form.
+    pub fn energy(&self, state: &State, parameters: &[f64]) -> Result<f64, MotionError> {
+        let native = self.convert(state, self.form(), parameters)?;
+        Ok(self.energy_of(&native, parameters)?.high)
     }
 
     /// The same state in the system's native form, near a state that already has it: on the same

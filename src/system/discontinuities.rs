@@ -270,7 +270,7 @@ impl System {
         if program.outputs() == 0 {
             return None;
         }
-        let inputs = self.driven_len() + 2;
+        let inputs = self.motion_len() + 2;
         let mut event_functions = EventFunctions {
             system: self.clone(),
             parameters: parameters.to_vec(),
@@ -341,7 +341,7 @@ impl System {
         let program = &self.discontinuities().change;
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
         values.set_parameters(&inputs);
-        let mut seen = vec![DoubleDouble::ZERO; self.driven_len() + 2];
+        let mut seen = vec![DoubleDouble::ZERO; self.motion_len() + 2];
         self.inputs_of(state, &mut seen);
         let found = values.evaluate(state.exact_time(), &seen);
         found.map_err(|why| self.singular(program, why, state.time, &state.values))?;

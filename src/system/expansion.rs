@@ -103,12 +103,12 @@ impl Expansion {
 
     /// Sets the coefficients of what the functions depend on.
     fn take_in(&mut self, series: &Series, x: f64) {
-        let driven_len = self.system.driven_len();
-        let mut next = driven_len;
-        for place in 0..driven_len {
+        let motion_len = self.system.motion_len();
+        let mut next = self.system.driven_len();
+        for place in 0..motion_len {
             self.take_in_one(place, series.coefficients(place), x);
         }
-        for (place, auxiliary) in (driven_len..).zip(self.system.carries()) {
+        for (place, auxiliary) in (motion_len..).zip(self.system.carries()) {
             if auxiliary && next < series.len() {
                 self.take_in_one(place, series.coefficients(next), x);
                 next += 1;

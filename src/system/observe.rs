@@ -24,7 +24,7 @@ pub struct Observer {
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = system.driven_len() + 2;
+        let inputs = system.motion_len() + 2;
         let mut observer = Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),

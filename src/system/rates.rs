@@ -77,15 +77,27 @@ impl System {
 }
 
 impl Rates {
-    /// The outputs of `program` are the rates of as many numbers of a state, from `first` on, and
-    /// of the integrals it carries.
+    /// The outputs of `program` are the rates of as many numbers of a state, from `first` on, of
+    /// the same numbers of its tangent vectors, and of the integrals it carries.
     fn new(system: &System, form: Form, first: usize, program: &Arc<Program>) -> Rates {
         let (all, integrals) = (system.state_len(), system.quadratures().count());
-        let moved = program.outputs() - integrals;
+        let tangents = system.tangents();
+        // a part of a separable system moves the coordinates or the momenta
+        let part = system.motion().split.as_ref().is_ok_and(|split| {
+            Arc::ptr_eq(program, &split.drift) || Arc::ptr_eq(program, &split.kick)
+        });
+        let displaced = if part { system.degrees() } else { system.moving() };
+        let moved = program.outputs() - integrals - tangents * displaced;
+        let mut places: Vec<usize> = (first..first + moved).collect();
+        for vector in 0..tangents {
+            let place = system.tangent_place(vector) + first;
+            places.extend(place..place + displaced);
+        }
+        places.extend(all - integrals..all);
         Rates {
             system: system.clone(),
             form,
-            places: (first..first + moved).chain(all - integrals..all).collect(),
+            places,
             values: Evaluator::new(Arc::clone(program)),
             program: Arc::clone(program),
             solver: None,

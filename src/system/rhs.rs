@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
 use super::program::{Program, Register};
+use super::separability::NotSeparable;
 use super::state::Form;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{AuxiliaryRates, CoordinateSymbols, Equations, Flow};
@@ -31,6 +32,26 @@ pub(super) struct Split {
     pub(super) drift: Arc<Program>,
     /// ṗ, then the rates of the quadratures, under V alone, as functions of (q, p).
     pub(super) kick: Arc<Program>,
+}
+
+/// The equations of motion, in every form a method may request.
+#[derive(Debug)]
+pub(super) struct MotionPrograms {
+    /// The rates as functions of a state in the native form.
+    pub(super) native: Arc<Program>,
+    /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
+    pub(super) canonical: (Arc<Program>, bool),
+    /// The two parts of a separable system, or the reason why it is not separable.
+    pub(super) split: Result<Split, NotSeparable>,
+}
+
+/// The programs of a system with tangent vectors.
+#[derive(Debug)]
+pub(super) struct Tangents {
+    pub(super) count: usize,
+    pub(super) motion: MotionPrograms,
+    /// The relation between velocities and momenta, along one vector.
+    pub(super) legendre: Arc<Program>,
 }
 
 /// The context for building any of the programs.

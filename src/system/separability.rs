@@ -10,7 +10,7 @@ use crate::cancel::Cancel;
 use crate::mechanics::Equations;
 
 /// The reason why a system is not separable.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct NotSeparable {
     equations: Arc<Equations>,
     why: OnceLock<String>,

@@ -75,9 +75,10 @@ impl Series {
         self.origin.len()
     }
 
-    /// The number of coordinates and rates; the integrals carried along follow them.
+    /// The number of coordinates, rates and auxiliary numbers; the components of tangent vectors
+    /// and the integrals carried along follow them.
     pub fn inputs(&self) -> usize {
-        self.high.inputs
+        self.system.motion_len()
     }
 
     /// The number of switching surfaces of the motion.

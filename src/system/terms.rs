@@ -142,7 +142,7 @@ pub struct TermWatch {
 
 impl TermWatch {
     pub(super) fn new(system: System, terms: &Terms, parameters: &[f64]) -> TermWatch {
-        let inputs = system.driven_len() + 2;
+        let inputs = system.motion_len() + 2;
         let mut watch = TermWatch {
             places: Arc::clone(&terms.places),
             native: Evaluator::new(Arc::clone(&terms.native)),

@@ -5,6 +5,7 @@ mod check;
 mod completions;
 mod derive;
 mod doctor;
+mod dynamics;
 mod exit;
 mod help;
 mod hostile;

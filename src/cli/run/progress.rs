@@ -17,7 +17,7 @@ const BETWEEN: Duration = Duration::from_millis(100);
 const PARTS: f64 = 1000.0;
 
 /// A bar on standard error, shown only on a terminal and only if the run is long.
-pub(super) struct Bar {
+pub(in crate::cli) struct Bar {
     start: f64,
     length: f64,
     due: Instant,
@@ -26,13 +26,13 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    pub(super) fn new(start: f64, end: f64) -> Bar {
+    pub(in crate::cli) fn new(start: f64, end: f64) -> Bar {
         let watched = stderr().is_terminal();
         Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
     }
 
     /// Shows the current time of the run.
-    pub(super) fn show(&mut self, time: f64) {
+    pub(in crate::cli) fn show(&mut self, time: f64) {
         if !self.watched || Instant::now() < self.due {
             return;
         }

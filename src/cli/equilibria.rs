@@ -1,0 +1,131 @@
+//! `phaselab equilibria`: places of rest and small oscillations about them.
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::Assignment;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::study::{self, Study, StudyArguments, shown, table};
+use crate::dynamics::{Equilibria, Equilibrium, Kind, equilibria};
+
+/// Find equilibria and the small oscillations about them.
+///
+/// Every place of rest around the start, with its kind (what the effective potential does there),
+/// the eigenvalues of the linearised motion, frequencies and modes. Where a coordinate is cyclic it
+/// goes on with the momentum that it has at the start while all others rest (relative
+/// equilibrium).
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab equilibria double-pendulum
+  phaselab equilibria restricted-three-body --set mu=0.01215 --format json
+  phaselab equilibria henon-heiles --around x=0 --around y=1")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// The middle of the search, where it is not the start: a coordinate.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    around: Vec<Assignment>,
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let study = Study::open(&arguments.study, interrupt)?;
+    let middle = study.around(&arguments.around)?;
+    interrupt.ends_by_itself(|| ());
+    let found = equilibria(&study.space, &middle).map_err(study::failed)?;
+    let result = (object(&study, &found), text(&study, &found));
+    study::write(&arguments.study, result, None, interrupt)
+}
+
+fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Minimum => "minimum",
+        Kind::Saddle => "saddle",
+        Kind::Maximum => "maximum",
+        Kind::Degenerate => "degenerate",
+    }
+}
+
+fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
+    let mut object = study.head(study.settings);
+    let one = |one: &Equilibrium| {
+        let frequencies: Vec<f64> = one.modes.iter().map(|mode| mode.frequency).collect();
+        let modes: Vec<&[f64]> = one.modes.iter().map(|mode| &mode.in_phase[..]).collect();
+        let quarter: Vec<&[f64]> = one.modes.iter().map(|mode| &mode.quadrature[..]).collect();
+        let names = study.space.names();
+        let rates = one.rates.iter().map(|&(i, rate)| (format!("{}'", names[i]), rate.into()));
+        json!({
+            "state": study.named(&one.variables),
+            "rates": Value::Object(rates.collect()),
+            "energy": one.energy,
+            "kind": one.kind.map(word),
+            "eigenvalues": one.eigenvalues,
+            "frequencies": frequencies,
+            "modes": modes,
+            "modes_quadrature": quarter,
+            "stable": one.stable,
+        })
+    };
+    let all: Vec<Value> = found.found.iter().map(one).collect();
+    object.insert("equilibria".to_owned(), Value::Array(all));
+    let status = if found.cancelled { "stopped" } else { "completed" };
+    object.insert("status".to_owned(), status.into());
+    object
+}
+
+fn text(study: &Study, found: &Equilibria) -> String {
+    let names = study.space.names();
+    if found.found.is_empty() {
+        return "no equilibrium in reach of the start\n".to_owned();
+    }
+    let mut text = String::new();
+    for one in &found.found {
+        let kind = one.kind.map_or("equilibrium", word);
+        let stable = match one.stable {
+            Some(true) => "stable",
+            Some(false) => "unstable",
+            None => "neutral in a direction",
+        };
+        text.push_str(&format!("{kind}, {stable}, energy {}\n", shown(one.energy)));
+        let places = names.iter().zip(&one.variables);
+        let places: Vec<String> =
+            places.map(|(name, &x)| format!("{name} = {}", shown(x))).collect();
+        text.push_str(&format!("  {}\n", places.join(", ")));
+        for &(i, rate) in &one.rates {
+            text.push_str(&format!("  {}' = {}\n", names[i], shown(rate)));
+        }
+        let complex = |z: &[f64; 2]| match z[1] {
+            0.0 => shown(z[0]),
+            im if z[0].abs() <= 1e-7 * im.abs() => format!("{}i", shown(im)),
+            im => {
+                format!("{} {} {}i", shown(z[0]), if im < 0.0 { '−' } else { '+' }, shown(im.abs()))
+            }
+        };
+        let values: Vec<String> = one.eigenvalues.iter().map(complex).collect();
+        text.push_str(&format!("  eigenvalues {}\n", values.join(", ")));
+        let degrees = study.space.system().degrees();
+        let rows: Vec<Vec<String>> = one
+            .modes
+            .iter()
+            .map(|mode| {
+                let mut row = vec![format!("  ω = {}", shown(mode.frequency))];
+                let parts = mode.in_phase.iter().zip(&mode.quadrature).zip(&names[..degrees]);
+                row.extend(parts.map(|((&a, &b), name)| match b {
+                    0.0 => format!("{name} {}", shown(a)),
+                    b => format!(
+                        "{name} {} {} {}i",
+                        shown(a),
+                        if b < 0.0 { '−' } else { '+' },
+                        shown(b.abs())
+                    ),
+                }));
+                row
+            })
+            .collect();
+        text.push_str(&table(&rows));
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}

@@ -1,0 +1,129 @@
+//! `phaselab lyapunov`: the exponents of a motion.
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::number;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::run::progress::Bar;
+use super::study::{self, Study, StudyArguments, shown, table};
+use crate::dynamics::{Chaos, Lyapunov, Removed, lyapunov};
+
+/// Measure how fast neighbouring motions part.
+///
+/// All Lyapunov exponents with their uncertainty, the largest first, MEGNO (about 2 for regular
+/// motion, growing for chaotic), and a verdict with its reason: regular, chaotic, or undecided.
+/// Where H is conserved the direction of the motion and that of the energy are taken out; their
+/// exponents are zero.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab lyapunov henon-heiles --until 1000
+  phaselab lyapunov double-pendulum --until 200 --exponents 1
+  phaselab lyapunov duffing --until 500 --format json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// When to end; where it is left out, the file says, or 10 after the start.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+    /// How many exponents are written, the largest first.
+    #[arg(long, value_name = "K|all", default_value = "all", value_parser = count)]
+    exponents: Count,
+}
+
+/// A number of exponents.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Count {
+    All,
+    First(usize),
+}
+
+fn count(text: &str) -> Result<Count, String> {
+    match text.parse::<usize>() {
+        _ if text == "all" => Ok(Count::All),
+        Ok(count @ 1..) => Ok(Count::First(count)),
+        _ => Err("write a number from 1 on, or all".to_owned()),
+    }
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let study = Study::open(&arguments.study, interrupt)?;
+    let until = study.until(arguments.until);
+    interrupt.ends_by_itself(|| ());
+    let mut bar = Bar::new(study.start.time, until);
+    let method = (study.method, study.settings);
+    let found = lyapunov(&study.space, method, &study.start, until, &mut |time| bar.show(time));
+    drop(bar);
+    let mut found = found.map_err(study::failed)?;
+    let kept = match arguments.exponents {
+        Count::All => found.exponents.len(),
+        Count::First(count) => count.min(found.exponents.len()),
+    };
+    found.exponents.truncate(kept);
+    found.uncertainty.truncate(kept);
+    let result = (object(&study, &found), text(&study, &found));
+    study::write(&arguments.study, result, found.failure, interrupt)
+}
+
+fn word(verdict: Chaos) -> &'static str {
+    match verdict {
+        Chaos::Regular => "regular",
+        Chaos::Chaotic => "chaotic",
+        Chaos::Undecided => "undecided",
+    }
+}
+
+fn removed(what: Removed) -> &'static [&'static str] {
+    match what {
+        Removed::Nothing => &[],
+        Removed::Flow => &["flow"],
+        Removed::FlowAndEnergy => &["flow", "energy"],
+    }
+}
+
+fn object(study: &Study, found: &Lyapunov) -> Map<String, Value> {
+    let mut object = study.head(found.settings);
+    let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
+    insert("t", json!(found.time));
+    insert("exponents", json!(found.exponents));
+    insert("uncertainty", json!(found.uncertainty));
+    insert("trivial", json!(removed(found.removed)));
+    insert("megno", json!(found.megno));
+    insert("verdict", json!(word(found.verdict)));
+    insert("reason", json!(found.reason));
+    insert("sum", json!(found.sum));
+    insert("pairing_residual", json!(found.pairing_residual));
+    insert("curve", json!(found.curve));
+    insert("status", json!(study::status(found.failure.as_ref())));
+    insert("message", json!(found.failure.as_ref().map(ToString::to_string)));
+    object
+}
+
+fn text(study: &Study, found: &Lyapunov) -> String {
+    let mut rows = Vec::new();
+    for (i, (exponent, off)) in found.exponents.iter().zip(&found.uncertainty).enumerate() {
+        rows.push(vec![
+            format!("λ{}", i + 1),
+            shown(*exponent),
+            if *off == 0.0 { "exact".to_owned() } else { format!("± {off:.1e}") },
+        ]);
+    }
+    let mut text = format!(
+        "{} from t = {} to {}\n\n",
+        word(found.verdict),
+        shown(study.start.time),
+        shown(found.time)
+    );
+    text.push_str(&table(&rows));
+    text.push_str(&format!("\nsum {}, MEGNO {}\n", shown(found.sum), shown(found.megno)));
+    if let Some(residual) = found.pairing_residual {
+        text.push_str(&format!("largest |λᵢ + λⱼ| of a pair: {residual:.1e}\n"));
+    }
+    if found.removed.count() > 0 {
+        let names = removed(found.removed).join(" and that of the ");
+        text.push_str(&format!("taken out: the direction of the {names}, with exponent 0\n"));
+    }
+    text.push_str(&format!("{}\n", found.reason));
+    text
+}

@@ -1,0 +1,240 @@
+//! `phaselab orbit`: the periodic orbit near a start.
+
+use std::str::FromStr;
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::number;
+use super::decimal;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::study::{self, Study, StudyArguments, shown, table};
+use crate::dynamics::{Along, Bifurcation, Family, Fixed, Orbit, Removed, family, periodic_orbit};
+use crate::printable;
+
+/// Close the periodic orbit near the start.
+///
+/// Newton's method on the flow map finds the orbit of the start's energy, or of another energy or
+/// of a given period; where energy is not conserved, the limit cycle. Its multipliers are those of
+/// the monodromy matrix: with a conserved energy two of them are 1, those along the orbit and
+/// across the energy. --along follows the family of the orbit, in both directions, through folds,
+/// and names where it turns back or others branch off.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab orbit henon-heiles --init x=0 --init y=-0.18 --init p_x=0.46 --init p_y=0
+  phaselab orbit pendulum --energy 0.5
+  phaselab orbit pendulum --along energy=-9:9:10
+  phaselab orbit figure-eight --period 6.3259 --format json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// The period of the orbit, or beside --energy where to begin with it.
+    #[arg(long, value_name = "T", value_parser = number)]
+    period: Option<f64>,
+    /// The energy of the orbit; that of the start where neither is given.
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number)]
+    energy: Option<f64>,
+    /// Follows the family of the orbit over values of `energy`, `period` or a parameter.
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    along: Option<Values>,
+}
+
+/// Values of something, from one to another.
+#[derive(Clone, PartialEq, Debug)]
+struct Values {
+    name: String,
+    values: Vec<f64>,
+}
+
+/// The most values of a family.
+const MOST: u32 = 10_000;
+
+impl FromStr for Values {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Values, String> {
+        let shape = || "write it as NAME=FROM:TO:COUNT".to_owned();
+        let (name, range) = text.split_once('=').ok_or_else(shape)?;
+        let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else {
+            return Err(shape());
+        };
+        let (from, to) = (number(from)?, number(to)?);
+        let count: u32 = count.trim().parse().map_err(|_| shape())?;
+        if !(2..=MOST).contains(&count) || from == to {
+            return Err(format!("a family has from 2 to {MOST} values, from one to another"));
+        }
+        Ok(Values {
+            name: name.trim().to_owned(),
+            values: decimal::divisions(from, to, count - 1).collect(),
+        })
+    }
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let study = Study::open(&arguments.study, interrupt)?;
+    let fixed = fixed(arguments, &study)?;
+    let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
+    interrupt.ends_by_itself(|| ());
+    let method = (study.method, study.settings);
+    let found = periodic_orbit(&study.space, method, &study.start, arguments.period, fixed);
+    let orbit = found.map_err(|error| match interrupt.signal() {
+        Some(signal) => CommandError::Signal(signal),
+        None => study::failed(error),
+    })?;
+    let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
+    let family = along
+        .map(|along| family(&study.space, method, &orbit, (along, fixed), values))
+        .transpose()
+        .map_err(study::failed)?;
+    let (mut object, mut text) = (object(&study, &orbit), text(&study, &orbit));
+    if let (Some(family), Some(along)) = (&family, &arguments.along) {
+        object.insert("along".to_owned(), along.name.as_str().into());
+        object.insert("family".to_owned(), members(&study, family));
+        object.insert("ended".to_owned(), json!(family.ended));
+        text.push_str(&rows(family, &along.name));
+    }
+    let result = (object, text);
+    study::write(&arguments.study, result, None, interrupt)
+}
+
+/// What the orbit is to have.
+fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
+    let space = &study.space;
+    let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
+    let conserved = space.is_hamiltonian() && space.is_autonomous();
+    match (arguments.energy, arguments.period) {
+        (_, Some(period)) if period <= 0.0 => wrong("--period: a period is above zero"),
+        (Some(_), _) if !conserved => {
+            wrong("--energy: the energy of this system is not that of an orbit, as it changes")
+        }
+        (Some(energy), _) => Ok(Fixed::Energy(energy)),
+        // a limit cycle has the period that it has
+        (None, Some(_)) if space.is_autonomous() && !conserved => Ok(Fixed::Nothing),
+        (None, Some(period)) => Ok(Fixed::Period(period)),
+        (None, None) if conserved => {
+            let energy = space.system().energy(&study.start, space.parameters());
+            energy.map(Fixed::Energy).map_err(|fault| CommandError::CouldNot(fault.to_string()))
+        }
+        (None, None) => Ok(Fixed::Nothing),
+    }
+}
+
+/// What changes along the family.
+fn along(values: &Values, study: &Study) -> Result<Along, CommandError> {
+    match values.name.as_str() {
+        "energy" => Ok(Along::Energy),
+        "period" => Ok(Along::Period),
+        name => match study.model.parameter(name) {
+            Some(index) => Ok(Along::Parameter(index)),
+            None => Err(CommandError::WrongUse(format!(
+                "--along: there is no parameter `{}`; it may also be energy or period",
+                printable::quoted(name)
+            ))),
+        },
+    }
+}
+
+fn word(bifurcation: Bifurcation) -> &'static str {
+    match bifurcation {
+        Bifurcation::Fold => "fold",
+        Bifurcation::PeriodDoubling => "period doubling",
+        Bifurcation::Branching => "branching",
+    }
+}
+
+fn members(study: &Study, family: &Family) -> Value {
+    let member = |member: &crate::dynamics::Member| {
+        json!({
+            "value": member.value,
+            "period": member.orbit.period,
+            "energy": member.orbit.energy,
+            "start": study.named(study.space.variables(&member.orbit.state)),
+            "closure": member.orbit.closure,
+            "multipliers": multipliers(&member.orbit),
+            "trace": member.orbit.transverse.trace(),
+            "stable": member.orbit.stable,
+            "bifurcation": member.bifurcation.map(word),
+        })
+    };
+    Value::Array(family.members.iter().map(member).collect())
+}
+
+/// The family as a table, and why it ends early.
+fn rows(family: &Family, name: &str) -> String {
+    let head = [name, "period", "energy", "trace", "", ""];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for member in &family.members {
+        let orbit = &member.orbit;
+        rows.push(vec![
+            shown(member.value),
+            shown(orbit.period),
+            shown(orbit.energy),
+            shown(orbit.transverse.trace()),
+            if orbit.stable { "stable" } else { "unstable" }.to_owned(),
+            member.bifurcation.map_or("", word).to_owned(),
+        ]);
+    }
+    let mut text = format!("\n{}", table(&rows));
+    for why in &family.ended {
+        text.push_str(&format!("{why}\n"));
+    }
+    text
+}
+
+fn trivial(what: Removed) -> &'static [&'static str] {
+    match what {
+        Removed::Nothing => &[],
+        Removed::Flow => &["flow"],
+        Removed::FlowAndEnergy => &["flow", "energy"],
+    }
+}
+
+/// All multipliers, the trivial ones last.
+fn multipliers(orbit: &Orbit) -> Vec<[f64; 2]> {
+    let mut all = orbit.multipliers.clone();
+    all.extend(std::iter::repeat_n([1.0, 0.0], orbit.trivial.count()));
+    all
+}
+
+fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
+    let mut object = study.head(orbit.settings);
+    let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
+    insert("period", json!(orbit.period));
+    insert("start", study.named(study.space.variables(&orbit.state)));
+    insert("energy", json!(orbit.energy));
+    insert("action", json!(orbit.action));
+    insert("closure", json!(orbit.closure));
+    insert("multipliers", json!(multipliers(orbit)));
+    insert("trivial", json!(trivial(orbit.trivial)));
+    insert("trace", json!(orbit.transverse.trace()));
+    insert("stable", json!(orbit.stable));
+    object
+}
+
+fn text(study: &Study, orbit: &Orbit) -> String {
+    let names = study.space.names();
+    let start = names.iter().zip(study.space.variables(&orbit.state));
+    let start: Vec<String> = start.map(|(name, &x)| format!("{name} = {x:?}")).collect();
+    let complex = |z: &[f64; 2]| match z[1] {
+        0.0 => shown(z[0]),
+        im => format!("{} {} {}i", shown(z[0]), if im < 0.0 { '−' } else { '+' }, shown(im.abs())),
+    };
+    let all: Vec<String> = orbit.multipliers.iter().map(complex).collect();
+    let stable = if orbit.stable { "stable" } else { "unstable" };
+    let mut text = format!("{stable} periodic orbit\n\n");
+    text.push_str(&format!("period   {:?}\n", orbit.period));
+    text.push_str(&format!("energy   {:?}\n", orbit.energy));
+    if let Some(action) = orbit.action {
+        text.push_str(&format!("∮ p dq   {action:?}\n"));
+    }
+    text.push_str(&format!("start    {}\n", start.join(", ")));
+    text.push_str(&format!("closure  {:.1e}\n", orbit.closure));
+    let all = if all.is_empty() { "none but these".to_owned() } else { all.join(", ") };
+    text.push_str(&format!("\nmultipliers {all}\n"));
+    if orbit.trivial.count() > 0 {
+        let names = trivial(orbit.trivial).join(" and of the ");
+        text.push_str(&format!("and 1 of the {names}\n"));
+    }
+    text
+}

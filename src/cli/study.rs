@@ -1,0 +1,225 @@
+//! What the commands that study a motion have in common: their arguments, the system they begin
+//! with, the head of their JSON, and how they end.
+//!
+//! In: arguments. Out: a system at a state, with a method; an object or a text, written. Never
+//! here: what is computed.
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde_json::{Map, Value};
+
+use super::assignment::{self, Assignment, number};
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::output::{Form, Output};
+use super::{open, run};
+use crate::dynamics::{DynamicsError, PhaseSpace};
+use crate::experiment::{Derived, choose_method};
+use crate::integrate::{Method, Settings};
+use crate::model::Model;
+use crate::num::DoubleDouble;
+use crate::system::{InitialOverride, State};
+
+/// The arguments of each of these commands.
+#[derive(Debug, clap::Args)]
+pub(super) struct StudyArguments {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    name: OsString,
+    /// Sets a parameter.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<Assignment>,
+    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    init: Vec<Assignment>,
+    /// The integrator, a name out of `phaselab methods`.
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
+    /// The step of an integrator of fixed step.
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
+    step: Option<f64>,
+    /// The relative tolerance of an integrator that chooses its steps.
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    tolerance: Option<f64>,
+    /// How it is written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// How a result is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(super) enum Format {
+    /// For reading.
+    #[default]
+    Text,
+    /// One object.
+    Json,
+}
+
+/// A system to be studied, at a state.
+pub(super) struct Study {
+    pub(super) model: Model,
+    pub(super) space: PhaseSpace,
+    /// The initial state, in the variables of the space.
+    pub(super) start: State,
+    pub(super) method: &'static Method,
+    pub(super) settings: Settings,
+}
+
+impl Study {
+    /// Reads, derives, compiles, and begins at the initial state.
+    pub(super) fn open(
+        arguments: &StudyArguments,
+        interrupt: &Interrupt,
+    ) -> Result<Study, CommandError> {
+        let document = open::find(&arguments.name)?;
+        let mut model = open::read(&document)?;
+        let parameters = assignment::parameters(&model, &arguments.set)?;
+        let given = assignment::initial(&model, &parameters, &arguments.init)?;
+        model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
+        let settings = run::settings(arguments.step, arguments.tolerance, &model)?;
+        let mut derived = open::derive(&document, model)?;
+        derived.equations.pool.set_cancel(interrupt.cancel().clone());
+        let system = derived
+            .compile(&[])
+            .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+        let Derived { model, equations } = derived;
+        let name = arguments.method.as_deref().unwrap_or(&model.run.method);
+        let method =
+            choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
+        run::misplaced(arguments.step, arguments.tolerance, method)?;
+        let space = PhaseSpace::of(&model, &equations, &system, &parameters).map_err(failed)?;
+        let start = system
+            .initial(model.run.start, &parameters, &given)
+            .and_then(|state| space.state(&state))
+            .map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
+        Ok(Study { model, space, start, method, settings })
+    }
+
+    /// When to end: as requested, otherwise as the file says, otherwise 10 after the start.
+    pub(super) fn until(&self, until: Option<f64>) -> f64 {
+        until.or(self.model.run.until).unwrap_or(self.start.time + 10.0)
+    }
+
+    /// The fields that every object begins with.
+    pub(super) fn head(&self, settings: Settings) -> Map<String, Value> {
+        let system = self.space.system();
+        let parameters = self.space.parameters();
+        let header = run::header(&self.model, system, parameters, self.method, settings);
+        let mut head = Map::new();
+        head.insert("phaselab".to_owned(), header.phaselab.into());
+        head.insert("title".to_owned(), header.title.into());
+        head.insert("parameters".to_owned(), header.parameters.into());
+        head.insert("method".to_owned(), header.method.into());
+        head
+    }
+
+    /// The start with other coordinates.
+    pub(super) fn around(&self, set: &[Assignment]) -> Result<State, CommandError> {
+        let mut state = self.start.clone();
+        let given = assignment::initial(&self.model, self.space.parameters(), set)?;
+        for one in given {
+            let InitialOverride::Position(i, x) = one else {
+                let why = "--around takes coordinates; momenta are those of the start, --init";
+                return Err(CommandError::WrongUse(why.to_owned()));
+            };
+            state.set(i, DoubleDouble::written(x));
+        }
+        Ok(state)
+    }
+
+    /// The variables of a state by their names.
+    pub(super) fn named(&self, variables: &[f64]) -> Value {
+        let names = self.space.names().iter().cloned();
+        Value::Object(names.zip(variables.iter().map(|&x| x.into())).collect())
+    }
+}
+
+/// How a computation fails.
+pub(super) fn failed(error: DynamicsError) -> CommandError {
+    match error {
+        DynamicsError::Method(_) => CommandError::WrongUse(error.to_string()),
+        DynamicsError::Motion(_) | DynamicsError::Unsuited(_) => {
+            CommandError::CouldNot(error.to_string())
+        }
+    }
+}
+
+/// The status of a result in its JSON.
+pub(super) fn status(failure: Option<&DynamicsError>) -> &'static str {
+    match failure {
+        None => "completed",
+        Some(failure) if failure.is_cancelled() => "stopped",
+        Some(_) => "faulted",
+    }
+}
+
+/// Writes a result, and ends as its failure or a signal requires.
+pub(super) fn write(
+    arguments: &StudyArguments,
+    (object, text): (Map<String, Value>, String),
+    failure: Option<DynamicsError>,
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
+    let (form, text) = match arguments.format {
+        Format::Text => (Form::Text, text),
+        Format::Json => (Form::Json, format!("{:#}\n", Value::Object(object))),
+    };
+    let mut out = Output::open(arguments.output.as_deref(), form)?;
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    if out.is_file() {
+        interrupt.saves();
+    }
+    out.finish()?;
+    match (interrupt.signal(), failure) {
+        (Some(signal), _) => Err(CommandError::Signal(signal)),
+        (None, Some(failure)) => Err(failed(failure)),
+        (None, None) => Ok(()),
+    }
+}
+
+/// A number in a text: seven digits.
+pub(super) fn shown(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let plain = format!("{x:.6e}");
+    let (digits, exponent) = plain.split_once('e').unwrap_or((&plain, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-5..7).contains(&exponent) {
+        let places = usize::try_from(6 - exponent).unwrap_or(0);
+        let written = format!("{x:.places$}");
+        if !written.contains('.') {
+            return written;
+        }
+        return written.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    format!("{digits}e{exponent}")
+}
+
+/// Rows of cells in columns, the first to the left, the others to the right.
+pub(super) fn table(rows: &[Vec<String>]) -> String {
+    let width = |text: &str| unicode_width::UnicodeWidthStr::width(text);
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let widest = |j: usize| rows.iter().filter_map(|row| row.get(j)).map(|c| width(c)).max();
+    let widths: Vec<usize> = (0..columns).map(|j| widest(j).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (j, cell) in row.iter().enumerate() {
+            let gap = " ".repeat(widths[j] - width(cell));
+            let cell = if j == 0 { format!("{cell}{gap}") } else { format!("  {gap}{cell}") };
+            line.push_str(&cell);
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,27 @@
+//! What the derivatives of a motion tell: its flow map, its exponents, the periodic orbits and
+//! equilibria near it.
+//!
+//! In: a system, a method, a state. Out: numbers, with what they are sure of. Never here: text,
+//! files, threads.
+
+mod carrier;
+mod equilibria;
+mod error;
+mod family;
+mod flow_map;
+mod linear;
+mod lyapunov;
+mod orbit;
+mod phase_space;
+mod quadrature;
+mod transverse;
+
+pub use carrier::Carrier;
+pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria};
+pub use error::DynamicsError;
+pub use family::{Along, Bifurcation, Family, Member, family};
+pub use flow_map::{FlowMap, flow_map};
+pub use lyapunov::{Chaos, Lyapunov, lyapunov};
+pub use orbit::{Fixed, Orbit, periodic_orbit};
+pub use phase_space::{PhaseSpace, VectorField};
+pub use transverse::Removed;

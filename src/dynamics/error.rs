@@ -1,0 +1,25 @@
+//! Why a question about the derivatives of a motion has no answer.
+
+use crate::integrate::MethodError;
+use crate::system::{MotionError, MotionErrorKind};
+
+/// Why a computation failed, as a sentence for the user.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum DynamicsError {
+    /// The method does not suit the system.
+    #[error(transparent)]
+    Method(#[from] MethodError),
+    /// The motion cannot begin or continue.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The question does not apply to the system.
+    #[error("{0}")]
+    Unsuited(String),
+}
+
+impl DynamicsError {
+    /// Whether the computation was cancelled.
+    pub fn is_cancelled(&self) -> bool {
+        matches!(self, DynamicsError::Motion(fault) if fault.kind == MotionErrorKind::Cancelled)
+    }
+}

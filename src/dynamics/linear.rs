@@ -1,0 +1,73 @@
+//! Linear algebra of small matrices: eigenvalues, least squares.
+
+use nalgebra::linalg::{Schur, SymmetricEigen, balancing};
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// The maximal number of iterations of a decomposition.
+const SWEEPS: usize = 10_000;
+
+/// The eigenvalues of a matrix as real and imaginary parts, by falling modulus, of a pair the
+/// positive imaginary part first; empty if they cannot be found.
+pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
+    if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
+        return Vec::new();
+    }
+    let mut balanced = matrix.clone();
+    balancing::balance_parlett_reinsch(&mut balanced);
+    let Some(schur) = Schur::try_new(balanced, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let mut values: Vec<[f64; 2]> =
+        schur.complex_eigenvalues().iter().map(|z| [z.re, z.im]).collect();
+    let modulus = |z: &[f64; 2]| z[0] * z[0] + z[1] * z[1];
+    values.sort_by(|a, b| {
+        let (x, y) = (modulus(a), modulus(b));
+        // of a pair rounding must not decide
+        if (x - y).abs() <= 1e-12 * x.max(y) {
+            b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1]))
+        } else {
+            y.total_cmp(&x)
+        }
+    });
+    values
+}
+
+/// The solution of A x = b of least norm in the sense of least squares; singular values up to
+/// `cut` count as zero.
+pub(super) fn least_squares(a: &DMatrix<f64>, b: &DVector<f64>, cut: f64) -> Option<DVector<f64>> {
+    if a.iter().chain(b.iter()).any(|x| !x.is_finite()) {
+        return None;
+    }
+    let svd = a.clone().try_svd(true, true, f64::EPSILON, SWEEPS)?;
+    let largest = svd.singular_values.max();
+    svd.solve(b, cut.max(1e-12 * largest)).ok().filter(|x| x.iter().all(|x| x.is_finite()))
+}
+
+/// Unit vectors that span what a matrix takes to zero: up to a part `cut` of what it does to others.
+/// There is at least one.
+pub(super) fn kernel(matrix: &DMatrix<f64>, cut: f64) -> Vec<DVector<f64>> {
+    let (rows, columns) = matrix.shape();
+    // as many rows as columns at least, so that all right singular vectors are there
+    let full = matrix.clone().resize_vertically(rows.max(columns), 0.0);
+    let Some(svd) = full.try_svd(false, true, f64::EPSILON, SWEEPS) else { return Vec::new() };
+    let Some(vectors) = svd.v_t else { return Vec::new() };
+    let (largest, least) = (svd.singular_values.max(), svd.singular_values.min());
+    let small = |i: &usize| svd.singular_values[*i] <= (cut * largest).max(least);
+    (0..columns).filter(small).map(|i| vectors.row(i).transpose()).collect()
+}
+
+/// A unit vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
+pub(super) fn null_vector(
+    matrix: &DMatrix<f64>,
+    omega: f64,
+    rank: usize,
+) -> Option<Vec<Complex<f64>>> {
+    let n = matrix.nrows();
+    let shifted = DMatrix::from_fn(n, n, |i, j| {
+        Complex::new(matrix[(i, j)], if i == j { -omega } else { 0.0 })
+    });
+    // its right singular vectors
+    let square = shifted.adjoint() * &shifted;
+    let eigen = SymmetricEigen::try_new(square, f64::EPSILON, SWEEPS)?;
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    Some(eigen.eigenvectors.column(*order.get(rank)?).iter().copied().collect())
+}

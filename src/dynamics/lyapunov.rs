@@ -1,0 +1,412 @@
+//! The Lyapunov exponents of a motion.
+//!
+//! Tangent vectors are carried along and made orthonormal again and again; the logarithms of their
+//! growth add up (G. Benettin et al., Meccanica 15 (1980) 9). The direction of the motion, and where
+//! H is conserved that of the energy, are taken out: their exponents are zero, and left in they
+//! hide the pairing λᵢ = −λ₂ₙ₊₁₋ᵢ. What is left is carried in symplectic frames, in which pairs hold
+//! at every time.
+//!
+//! An exponent is the mean rate of growth with a weight that vanishes smoothly at both ends
+//! (S. Das et al., Europhys. Lett. 114 (2016) 40005), which converges faster than the plain mean
+//! where the motion is periodic. MEGNO is the mean exponential growth of nearby orbits
+//! (P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205): about 2 for regular motion,
+//! λt/2 for chaotic.
+//!
+//! In: a state, a time. Out: exponents with their uncertainty, MEGNO, a verdict with its reason.
+//! Never here: text.
+
+use nalgebra::DVector;
+
+use super::carrier::Carrier;
+use super::error::DynamicsError;
+use super::phase_space::{PhaseSpace, VectorField};
+use super::transverse::{self, Removed};
+use crate::integrate::{Method, Settings};
+use crate::num::math;
+use crate::system::State;
+
+/// Vectors are made orthonormal where one has grown or shrunk by this factor, …
+const GROWN: f64 = 8.0;
+
+/// … and at least so often on the way.
+const LEAST_ROUNDS: f64 = 256.0;
+
+/// The number of parts of the motion whose exponents are compared.
+const BLOCKS: usize = 10;
+
+/// The points of the curve.
+const POINTS: usize = 200;
+
+/// A verdict needs this many steps of a series, or ten times as many of fixed size.
+const STEPS: u64 = 120;
+
+/// MEGNO up to which a motion is regular, and from which it is chaotic.
+const REGULAR: f64 = 2.8;
+const CHAOTIC: f64 = 5.0;
+
+/// A chaotic motion has grown by this many powers of e.
+const GROWTH: f64 = 8.0;
+
+/// A motion slower than this, relative to its size and to its linear rates, is at rest.
+const AT_REST: f64 = 1e-13;
+
+/// Whether neighbouring motions part exponentially.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Chaos {
+    /// They do not.
+    Regular,
+    /// They do.
+    Chaotic,
+    /// It cannot be told.
+    Undecided,
+}
+
+/// The exponents of a motion.
+#[derive(Clone, Debug)]
+pub struct Lyapunov {
+    /// The time reached.
+    pub time: f64,
+    /// All exponents, the largest first.
+    pub exponents: Vec<f64>,
+    /// Their uncertainties.
+    pub uncertainty: Vec<f64>,
+    /// Which directions were taken out; their exponents are zero.
+    pub removed: Removed,
+    /// MEGNO, averaged over the time.
+    pub megno: f64,
+    /// The verdict.
+    pub verdict: Chaos,
+    /// Its reason.
+    pub reason: String,
+    /// The sum of all exponents: the mean divergence.
+    pub sum: f64,
+    /// The largest |λᵢ + λ₂ₙ₊₁₋ᵢ|; `None` where pairs are not expected.
+    pub pairing_residual: Option<f64>,
+    /// The plain mean of the largest exponent up to a time.
+    pub curve: Vec<(f64, f64)>,
+    /// The step or tolerance used.
+    pub settings: Settings,
+    /// Why the motion ended early.
+    pub failure: Option<DynamicsError>,
+}
+
+/// The growth of the vectors so far.
+struct Growth {
+    /// The times at which it was measured, the first is the start.
+    times: Vec<f64>,
+    /// The logarithms by which each vector has grown up to these times.
+    logarithms: Vec<Vec<f64>>,
+}
+
+/// Follows a motion from a state of the space until a time, and `look`s on after each step.
+///
+/// # Errors
+/// Returns an error if the motion cannot begin, or is too short for any exponent. If it cannot
+/// continue, or is cancelled, the result is that of the time reached.
+pub fn lyapunov(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    until: f64,
+    look: &mut dyn FnMut(f64),
+) -> Result<Lyapunov, DynamicsError> {
+    if until <= start.time {
+        return Err(DynamicsError::Unsuited(
+            "exponents are means over the time to come: the end lies after the start".to_owned(),
+        ));
+    }
+    let n = space.dimension();
+    let mut field = space.vector_field();
+    field.evaluate(start.time, space.variables(start))?;
+    let what = removed(space, start, &field);
+    let rates = field.rate();
+    let frame = transverse::frame(&rates, what, space.is_hamiltonian());
+    let count = frame.ncols();
+    // one more vector, in general position, that is never turned: for MEGNO
+    let free = DVector::from_fn(n, |i, _| 0.5 + math::sin(2.4 * (i as f64 + 1.0)).abs());
+    let mut vectors = frame.insert_column(count, 0.0);
+    vectors.set_column(count, &free.normalize());
+    let mut carrier = Carrier::new(space, method, settings, count + 1)?;
+    carrier.start(start, &vectors)?;
+
+    let mut growth = Growth { times: vec![start.time], logarithms: vec![vec![0.0; count]] };
+    let mut megno = Megno::new(start.time);
+    let mut failure = None;
+    let round = (until - start.time) / LEAST_ROUNDS;
+    while carrier.time() < until {
+        if let Err(fault) = carrier.step(until) {
+            failure = Some(DynamicsError::Motion(fault));
+            break;
+        }
+        let (begin, end) = carrier.interval();
+        for part in 1..=MEGNO_PARTS {
+            let now = begin + (end - begin) * f64::from(part) / f64::from(MEGNO_PARTS);
+            let (_, vectors) = carrier.at(now)?;
+            megno.add(now, math::ln(vectors.column(count).norm()));
+        }
+        let (state, mut vectors) = carrier.at(end)?;
+        look(end);
+        let due = end - growth.times[growth.times.len() - 1] >= round || end >= until;
+        let sizes = vectors.column_iter().map(|v| v.norm());
+        if due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size)) {
+            field.evaluate(end, space.variables(&state))?;
+            let free = vectors.column(count).into_owned();
+            megno.rescale(free.norm());
+            let mut turned = vectors.columns(0, count).into_owned();
+            let lengths = transverse::orthonormalise(&mut turned, &field.rate(), what);
+            let last = &growth.logarithms[growth.logarithms.len() - 1];
+            let now = last.iter().zip(&lengths).map(|(sum, x)| sum + math::ln(*x)).collect();
+            growth.times.push(end);
+            growth.logarithms.push(now);
+            vectors.columns_mut(0, count).copy_from(&turned);
+            vectors.set_column(count, &free.normalize());
+            carrier.start(&state, &vectors)?;
+        }
+    }
+    if growth.times.len() < 2 {
+        return Err(failure.unwrap_or_else(|| {
+            DynamicsError::Unsuited("the motion is too short for any exponent".to_owned())
+        }));
+    }
+    Ok(result(space, &carrier, what, &growth, &megno, failure))
+}
+
+/// The parts of a step at which MEGNO is summed.
+const MEGNO_PARTS: u32 = 4;
+
+/// Which directions are taken out.
+fn removed(space: &PhaseSpace, start: &State, field: &VectorField) -> Removed {
+    let size = DVector::from_column_slice(space.variables(start)).norm().max(1.0);
+    let moves = field.rate().norm() > AT_REST * size * field.derivative().norm();
+    match (space.is_hamiltonian(), moves && space.is_autonomous()) {
+        (true, true) => Removed::FlowAndEnergy,
+        (false, true) if space.is_conservative() => Removed::Flow,
+        // with friction a motion may come to rest, and has no direction there
+        _ => Removed::Nothing,
+    }
+}
+
+/// The mean exponential growth of nearby orbits.
+struct Megno {
+    start: f64,
+    time: f64,
+    /// ln |δ| now, and what was taken off when it was made shorter.
+    logarithm: f64,
+    taken: f64,
+    /// ∫ s d ln|δ|, and ∫ Y dt.
+    moment: f64,
+    sum: f64,
+    last: f64,
+}
+
+impl Megno {
+    fn new(start: f64) -> Megno {
+        Megno { start, time: start, logarithm: 0.0, taken: 0.0, moment: 0.0, sum: 0.0, last: 0.0 }
+    }
+
+    fn add(&mut self, time: f64, logarithm: f64) {
+        let logarithm = logarithm + self.taken;
+        let middle = 0.5 * (time + self.time) - self.start;
+        self.moment += middle * (logarithm - self.logarithm);
+        let now = 2.0 * self.moment / (time - self.start);
+        self.sum += 0.5 * (now + self.last) * (time - self.time);
+        (self.time, self.logarithm, self.last) = (time, logarithm, now);
+    }
+
+    fn rescale(&mut self, length: f64) {
+        self.taken += math::ln(length);
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / (self.time - self.start)
+    }
+}
+
+impl Growth {
+    /// The mean rate of growth of a vector between two times, with a smooth weight.
+    fn weighted(&self, vector: usize, begin: f64, end: f64) -> f64 {
+        let weight = |time: f64| {
+            let s = (time - begin) / (end - begin);
+            if s > 0.0 && s < 1.0 { math::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 }
+        };
+        let (mut sum, mut whole) = (0.0, 0.0);
+        for (times, logs) in self.times.windows(2).zip(self.logarithms.windows(2)) {
+            let [from, to] = [times[0], times[1]];
+            // the growth of a round is spread over it; Simpson's rule for the weight
+            let mean = (weight(from) + 4.0 * weight(0.5 * (from + to)) + weight(to)) / 6.0;
+            sum += mean * (logs[1][vector] - logs[0][vector]);
+            whole += mean * (to - from);
+        }
+        if whole > 0.0 { sum / whole } else { self.plain(vector, begin, end) }
+    }
+
+    /// The plain mean rate of growth of a vector between two times.
+    fn plain(&self, vector: usize, begin: f64, end: f64) -> f64 {
+        (self.at(vector, end) - self.at(vector, begin)) / (end - begin)
+    }
+
+    /// The logarithm of the growth of a vector up to a time, interpolated.
+    fn at(&self, vector: usize, time: f64) -> f64 {
+        let next = self.times.partition_point(|&t| t < time).clamp(1, self.times.len() - 1);
+        let (from, to) = (self.times[next - 1], self.times[next]);
+        let part = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        let [a, b] = [next - 1, next].map(|i| self.logarithms[i][vector]);
+        a + part * (b - a)
+    }
+
+    fn begin(&self) -> f64 {
+        self.times[0]
+    }
+
+    fn end(&self) -> f64 {
+        self.times[self.times.len() - 1]
+    }
+
+    /// The uncertainty of a weighted mean: the spread of the parts of the motion, and the change of
+    /// direction of a vector, whose logarithm is of order 1, over the whole time.
+    fn uncertainty(&self, vector: usize) -> f64 {
+        let length = (self.end() - self.begin()) / BLOCKS as f64;
+        let block = |i: usize| {
+            let begin = self.begin() + length * i as f64;
+            self.plain(vector, begin, begin + length)
+        };
+        // the first part belongs to the search for the direction
+        let all: Vec<f64> = (1..BLOCKS).map(block).collect();
+        let count = all.len() as f64;
+        let mean = all.iter().sum::<f64>() / count;
+        let variance = all.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
+        let turning = 2.0 / (self.end() - self.begin());
+        // the weight makes less of the parts near both ends
+        (1.7 * variance / count + turning * turning).sqrt()
+    }
+}
+
+fn result(
+    space: &PhaseSpace,
+    carrier: &Carrier,
+    what: Removed,
+    growth: &Growth,
+    megno: &Megno,
+    failure: Option<DynamicsError>,
+) -> Lyapunov {
+    let (begin, end) = (growth.begin(), growth.end());
+    let count = growth.logarithms[0].len();
+    let mut all: Vec<(f64, f64)> = (0..count)
+        .map(|i| (growth.weighted(i, begin, end), growth.uncertainty(i)))
+        .chain(std::iter::repeat_n((0.0, 0.0), what.count()))
+        .collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (exponents, uncertainty): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
+    let pairs = exponents.iter().zip(exponents.iter().rev());
+    let pairing = pairs.map(|(a, b)| (a + b).abs()).fold(0.0, f64::max);
+    let curve = (1..=POINTS).map(|i| begin + (end - begin) * i as f64 / POINTS as f64);
+    let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
+    let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
+    let mean = megno.mean();
+    let (verdict, reason) = judged(carrier, growth, (&exponents, &uncertainty), mean);
+    Lyapunov {
+        time: end,
+        sum: exponents.iter().sum(),
+        exponents,
+        uncertainty,
+        removed: what,
+        megno: mean,
+        verdict,
+        reason,
+        pairing_residual: space.is_hamiltonian().then_some(pairing),
+        curve,
+        settings: carrier.settings(),
+        failure,
+    }
+}
+
+/// The verdict and its reason.
+fn judged(
+    carrier: &Carrier,
+    growth: &Growth,
+    (exponents, uncertainty): (&[f64], &[f64]),
+    megno: f64,
+) -> (Chaos, String) {
+    if growth.logarithms[0].is_empty() {
+        let reason =
+            "a motion of one degree of freedom with conserved energy has no exponent but 0";
+        return (Chaos::Regular, reason.to_owned());
+    }
+    let grown = growth.at(0, growth.end());
+    let least = if carrier.is_fixed() { 10 * STEPS } else { STEPS };
+    let (largest, off) = (exponents[0], uncertainty[0]);
+    if carrier.steps() < least {
+        let reason =
+            format!("the motion is too short: {} steps, and {least} are needed", carrier.steps());
+        return (Chaos::Undecided, reason);
+    }
+    if grown >= GROWTH && megno >= CHAOTIC && largest > 2.0 * off {
+        let reason = format!(
+            "neighbouring motions part by e^{grown:.1}, and MEGNO is {megno:.1}, where regular \
+             motion has 2"
+        );
+        return (Chaos::Chaotic, reason);
+    }
+    if megno <= REGULAR && grown < GROWTH + math::ln(carrier.steps() as f64) {
+        let reason = format!(
+            "neighbouring motions part no faster than in proportion to time: MEGNO is \
+             {megno:.2}, and chaotic motion exceeds {CHAOTIC}"
+        );
+        return (Chaos::Regular, reason);
+    }
+    let reason = format!(
+        "neighbouring motions part by e^{grown:.1} and MEGNO is {megno:.1}, between regular (up to \
+         {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
+    );
+    (Chaos::Undecided, reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::*;
+
+    #[test]
+    fn a_weighted_mean_of_constant_growth_is_that_growth() {
+        let times: Vec<f64> = (0..100).map(|i| f64::from(i) * 0.37).collect();
+        let logarithms = times.iter().map(|t| vec![0.3 * t, -2.0 * t]).collect();
+        let growth = Growth { times, logarithms };
+        let end = growth.end();
+        assert!((growth.weighted(0, 0.0, end) - 0.3).abs() < 1e-14);
+        assert!((growth.weighted(1, 0.0, end) + 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn megno_is_two_for_linear_growth_and_half_the_exponents_for_exponential() {
+        let (mut linear, mut exponential) = (Megno::new(0.0), Megno::new(0.0));
+        for i in 1..=200_000 {
+            let time = f64::from(i) * 0.01;
+            linear.add(time, math::ln(1.0 + time));
+            exponential.add(time, 0.1 * time);
+        }
+        assert!((linear.mean() - 2.0).abs() < 0.02, "{}", linear.mean());
+        assert!((exponential.mean() - 0.05 * 2000.0).abs() < 0.1, "{}", exponential.mean());
+    }
+
+    #[test]
+    fn frames_are_symplectic_and_outside_what_is_taken_out() {
+        let rates = DVector::from_vec(vec![0.3, -1.0, 0.2, 0.5, 2.0, -0.7]);
+        let frame = transverse::frame(&rates, Removed::FlowAndEnergy, true);
+        assert_eq!(frame.ncols(), 4);
+        let one = frame.transpose() * &frame;
+        assert!((one - DMatrix::identity(4, 4)).amax() < 1e-14);
+        assert!((frame.transpose() * &rates).amax() < 1e-14);
+        let form = |a: usize, b: usize| {
+            (0..3)
+                .map(|i| frame[(i, a)] * frame[(i + 3, b)] - frame[(i + 3, a)] * frame[(i, b)])
+                .sum::<f64>()
+        };
+        for (a, b) in [(0, 3), (1, 2)] {
+            assert!((form(a, b).abs() - 1.0).abs() < 1e-14);
+        }
+        for (a, b) in [(0, 1), (0, 2), (1, 3), (2, 3)] {
+            assert!(form(a, b).abs() < 1e-14);
+        }
+    }
+}

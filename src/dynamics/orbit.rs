@@ -1,0 +1,431 @@
+//! Periodic orbits: closed by Newton's method on the flow map, with their multipliers.
+//!
+//! In: a state near the orbit, and what is held fixed. Out: the orbit's start, its period, the
+//! multipliers of its monodromy matrix, its stability. Never here: families, text.
+//!
+//! Unknown are the state and the period; the equations are that the motion closes, that the state
+//! does not move along the orbit, and that the energy (or the period) is the given one. They are
+//! solved by least squares, because with a conserved energy one of them follows from the others, and
+//! symmetries leave a choice (Viswanath, SIAM Review 43 (2001) 478, has the method).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::carrier::Carrier;
+use super::error::DynamicsError;
+use super::flow_map::flow_map;
+use super::linear;
+use super::phase_space::PhaseSpace;
+use super::quadrature::gauss;
+use super::transverse::{self, Removed};
+use crate::integrate::{Method, Settings, Stepping};
+use crate::num::{DoubleDouble, math};
+use crate::system::State;
+
+/// The maximal number of steps of Newton's method, and of halvings of one.
+const STEPS: usize = 50;
+const HALVINGS: u32 = 10;
+
+/// An orbit is closed up to this part of its size.
+const CLOSED: f64 = 1e-9;
+
+/// A residual below this part of the size is rounding.
+const ROUNDING: f64 = 2e-15;
+
+/// The steps in which a return to the start is looked for, of a series and of a fixed size.
+const LOOKED: u64 = 600;
+const LOOKED_FIXED: u64 = 20_000;
+
+/// A time later than any return.
+const ENDLESS: f64 = 1e20;
+
+/// A return this near, relative to the farthest distance, is taken at once, …
+const NEAR: f64 = 0.2;
+
+/// … and one up to this distance if there is no other.
+const FAR: f64 = 0.5;
+
+/// A multiplier this close to the unit circle lies on it.
+const ON_CIRCLE: f64 = 1e-6;
+
+/// What is the same for the orbit that is searched for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Fixed {
+    /// The energy.
+    Energy(f64),
+    /// The period.
+    Period(f64),
+    /// Neither: a limit cycle.
+    Nothing,
+}
+
+/// A periodic orbit.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    /// The period.
+    pub period: f64,
+    /// A state on it.
+    pub state: State,
+    /// The energy there.
+    pub energy: f64,
+    /// The distance by which it does not close, relative to its size.
+    pub closure: f64,
+    /// ∮ p dq, for canonical variables.
+    pub action: Option<f64>,
+    /// The monodromy matrix.
+    pub monodromy: DMatrix<f64>,
+    /// The same across the orbit, without the trivial directions.
+    pub transverse: DMatrix<f64>,
+    /// The multipliers of these, the largest first.
+    pub multipliers: Vec<[f64; 2]>,
+    /// The trivial directions, whose multipliers are 1.
+    pub trivial: Removed,
+    /// Whether no multiplier lies outside the unit circle.
+    pub stable: bool,
+    /// The step or tolerance used.
+    pub settings: Settings,
+}
+
+/// Finds the periodic orbit near a state of the space. Without a period it begins at the first
+/// return near the start.
+///
+/// # Errors
+/// Returns an error if there is none nearby, if the motion cannot be followed, or on cancellation.
+pub fn periodic_orbit(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+    period: Option<f64>,
+    fixed: Fixed,
+) -> Result<Orbit, DynamicsError> {
+    let period = match (period, fixed) {
+        (Some(period), _) | (None, Fixed::Period(period)) => period,
+        (None, _) if !space.is_autonomous() => {
+            return Err(unsuited(
+                "the law of motion depends on time: give the period of the orbit, a multiple of \
+                 that of the law",
+            ));
+        }
+        (None, _) => first_return(space, method, start)?,
+    };
+    let fixed = if space.is_autonomous() { fixed } else { Fixed::Period(period) };
+    if !(period > 0.0 && period.is_finite()) {
+        return Err(unsuited("a period is above zero"));
+    }
+    let mut newton = Newton { space, method, fixed };
+    let mut closed = newton.solve(start, period)?;
+    // the same orbit may have been followed several times
+    if !matches!(fixed, Fixed::Period(_)) {
+        for parts in [5.0, 3.0, 2.0] {
+            while let Some(shorter) = newton.part(&closed, parts) {
+                closed = shorter;
+            }
+        }
+    }
+    newton.described(&closed)
+}
+
+fn unsuited(why: &str) -> DynamicsError {
+    DynamicsError::Unsuited(why.to_owned())
+}
+
+/// The difference of two states, exact, and less whole periods of the coordinates.
+fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVector<f64> {
+    DVector::from_fn(space.dimension(), |i, _| {
+        let apart = end.exact(i) - start.exact(i);
+        match space.periods()[i] {
+            Some(period) => {
+                let turns = (apart.high / period).round();
+                (apart - DoubleDouble::from(period) * turns).high
+            }
+            None => apart.high,
+        }
+    })
+}
+
+/// The time of the first return near the start.
+fn first_return(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+) -> Result<f64, DynamicsError> {
+    let mut carrier = Carrier::new(space, method, settings, 0)?;
+    carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
+    let fixed = method.stepping == Stepping::Fixed;
+    let (steps, parts) = if fixed { (LOOKED_FIXED, 1) } else { (LOOKED, 16) };
+    let mut extent = vec![0.0_f64; space.dimension()];
+    let mut seen: Vec<(f64, DVector<f64>)> = vec![(start.time, DVector::zeros(space.dimension()))];
+    let mut best: Option<(f64, f64)> = None;
+    for step in 1..=steps {
+        carrier.step(if fixed { f64::INFINITY } else { ENDLESS })?;
+        let (begin, end) = carrier.interval();
+        for part in 1..=parts {
+            let now = begin + (end - begin) * f64::from(part) / f64::from(parts);
+            let (state, _) = carrier.at(now)?;
+            let apart = difference(space, &state, start);
+            for (extent, x) in extent.iter_mut().zip(apart.iter()) {
+                *extent = extent.max(x.abs());
+            }
+            seen.push((now, apart));
+        }
+        // a look at all of them costs as much as they are
+        if fixed && step % 64 != 0 {
+            continue;
+        }
+        let distance = |apart: &DVector<f64>| {
+            let parts = apart.iter().zip(&extent).filter(|(_, extent)| **extent > 0.0);
+            parts.map(|(x, extent)| (x / extent) * (x / extent)).sum::<f64>().sqrt()
+        };
+        let all: Vec<f64> = seen.iter().map(|(_, apart)| distance(apart)).collect();
+        let farthest = all.iter().copied().fold(0.0, f64::max);
+        let mut left = false;
+        best = None;
+        for k in 1..all.len() - 1 {
+            left |= all[k] > 0.6 * farthest;
+            if left && all[k] <= all[k - 1] && all[k] <= all[k + 1] {
+                let part = all[k] / farthest;
+                if part < NEAR {
+                    return Ok(seen[k].0 - start.time);
+                }
+                if best.is_none_or(|(least, _)| part < least) {
+                    best = Some((part, seen[k].0 - start.time));
+                }
+            }
+        }
+    }
+    match best {
+        Some((part, time)) if part < FAR => Ok(time),
+        _ => Err(unsuited(
+            "the motion does not return near its start: begin nearer to a periodic orbit, or give \
+             its period",
+        )),
+    }
+}
+
+/// A state whose motion closes after a time, and the derivative of that motion.
+struct Closed {
+    state: State,
+    period: f64,
+    residual: f64,
+    monodromy: DMatrix<f64>,
+    settings: Settings,
+}
+
+pub(super) struct Newton<'a> {
+    pub(super) space: &'a PhaseSpace,
+    pub(super) method: (&'static Method, Settings),
+    pub(super) fixed: Fixed,
+}
+
+/// The motion over one period.
+pub(super) struct Look {
+    miss: DVector<f64>,
+    monodromy: DMatrix<f64>,
+    /// The rates at its two ends.
+    rates: [DVector<f64>; 2],
+    energy: f64,
+    pub(super) size: f64,
+    settings: Settings,
+}
+
+impl Newton<'_> {
+    pub(super) fn look(&self, state: &State, period: f64) -> Result<Look, DynamicsError> {
+        let (space, method) = (self.space, self.method);
+        let map = flow_map(space, method, state, state.time + period, &mut |_| {})?;
+        if let Some(fault) = map.failure {
+            return Err(fault.into());
+        }
+        let mut field = space.vector_field();
+        field.evaluate(state.time, space.variables(state))?;
+        let first = field.rate();
+        field.evaluate(map.time, space.variables(&map.state))?;
+        let miss = difference(space, &map.state, state);
+        let energy = space.system().energy(state, space.parameters())?;
+        let size = DVector::from_column_slice(space.variables(state)).amax();
+        let size = size.max(first.amax() * period.min(1.0));
+        let rates = [first, field.rate()];
+        Ok(Look { miss, monodromy: map.matrix, rates, energy, size, settings: map.settings })
+    }
+
+    /// What is missing: closure, and the energy in units of length.
+    fn residual(&self, look: &Look) -> f64 {
+        let slope = look.rates[0].norm().max(f64::MIN_POSITIVE);
+        let energy = match self.fixed {
+            Fixed::Energy(wanted) => (wanted - look.energy) / slope,
+            _ => 0.0,
+        };
+        math::hypot(look.miss.norm(), energy)
+    }
+
+    fn solve(&mut self, start: &State, period: f64) -> Result<Closed, DynamicsError> {
+        let n = self.space.dimension();
+        let (mut state, mut time) = (start.clone(), period);
+        let mut look = self.look(&state, time)?;
+        let mut residual = self.residual(&look);
+        let mut stalled = 0;
+        for _ in 0..STEPS {
+            if residual <= ROUNDING * look.size || stalled > 1 {
+                break;
+            }
+            let step = self.step(&look, residual).ok_or_else(|| no_orbit(residual, time))?;
+            let mut part = 1.0;
+            let mut next = None;
+            for _ in 0..HALVINGS {
+                let mut there = state.clone();
+                for i in 0..n {
+                    there.set(i, state.exact(i) + DoubleDouble::from(part * step[i]));
+                }
+                let later = time + part * step[n];
+                if (0.2 * period..5.0 * period).contains(&later) {
+                    match self.look(&there, later) {
+                        Ok(found) if self.residual(&found) < residual => {
+                            next = Some((there, later, found));
+                            break;
+                        }
+                        Err(error) if error.is_cancelled() => return Err(error),
+                        _ => {}
+                    }
+                }
+                part *= 0.5;
+            }
+            let Some((there, later, found)) = next else { break };
+            let better = self.residual(&found);
+            stalled = if better > 0.5 * residual { stalled + 1 } else { 0 };
+            (state, time, look, residual) = (there, later, found, better);
+        }
+        let still = look.rates[0].norm() * time < 1e-6 * look.size;
+        if residual > CLOSED * look.size || still {
+            return Err(no_orbit(residual, time));
+        }
+        let settings = look.settings;
+        Ok(Closed { state, period: time, residual, monodromy: look.monodromy, settings })
+    }
+
+    /// The correction of the state and of the period.
+    fn step(&self, look: &Look, residual: f64) -> Option<DVector<f64>> {
+        let (matrix, right) = self.equations(look);
+        // a direction that hardly matters must not be moved along as long as there is much to do
+        let cut = 1e-11 * matrix.amax() + 1e-3 * residual;
+        linear::least_squares(&matrix, &right, cut)
+    }
+
+    /// What is missing, equation by equation, and the derivatives by (z, T).
+    pub(super) fn equations(&self, look: &Look) -> (DMatrix<f64>, DVector<f64>) {
+        let n = self.space.dimension();
+        let autonomous = self.space.is_autonomous();
+        let mut matrix = DMatrix::zeros(n + 2, n + 1);
+        matrix.view_mut((0, 0), (n, n)).copy_from(&(&look.monodromy - DMatrix::identity(n, n)));
+        let speed = look.rates[0].norm();
+        if autonomous && speed > 0.0 {
+            // the state does not move along the orbit
+            matrix.view_mut((n, 0), (1, n)).copy_from(&(look.rates[0].transpose() / speed));
+        }
+        if !matches!(self.fixed, Fixed::Period(_)) {
+            matrix.view_mut((0, n), (n, 1)).copy_from(&look.rates[1]);
+        }
+        if let Fixed::Energy(_) = self.fixed {
+            // ∇H = −𝕁 f, in units of the speed
+            let half = n / 2;
+            for i in 0..half {
+                matrix[(n + 1, i)] = -look.rates[0][half + i] / speed;
+                matrix[(n + 1, half + i)] = look.rates[0][i] / speed;
+            }
+        }
+        (matrix, -self.missed(look))
+    }
+
+    /// The distance by which the motion does not close, no motion along the orbit, and the energy in
+    /// excess in units of the speed.
+    pub(super) fn missed(&self, look: &Look) -> DVector<f64> {
+        let n = self.space.dimension();
+        let mut missed = DVector::zeros(n + 2);
+        missed.rows_mut(0, n).copy_from(&look.miss);
+        if let Fixed::Energy(wanted) = self.fixed {
+            missed[n + 1] = (look.energy - wanted) / look.rates[0].norm();
+        }
+        missed
+    }
+
+    /// The orbit at a state from which the motion closes.
+    pub(super) fn at(&self, state: &State, period: f64) -> Result<Orbit, DynamicsError> {
+        let look = self.look(state, period)?;
+        let (residual, settings) = (self.residual(&look), look.settings);
+        let monodromy = look.monodromy;
+        let state = state.clone();
+        self.described(&Closed { state, period, residual, monodromy, settings })
+    }
+
+    /// The orbit after a part of its period, if it closes there already.
+    fn part(&mut self, closed: &Closed, parts: f64) -> Option<Closed> {
+        let look = self.look(&closed.state, closed.period / parts).ok()?;
+        if self.residual(&look) > 1e-6 * look.size {
+            return None;
+        }
+        self.solve(&closed.state, closed.period / parts).ok()
+    }
+
+    fn described(&self, closed: &Closed) -> Result<Orbit, DynamicsError> {
+        let space = self.space;
+        let mut field = space.vector_field();
+        field.evaluate(closed.state.time, space.variables(&closed.state))?;
+        let trivial = match (space.is_autonomous(), space.is_hamiltonian()) {
+            (true, true) => Removed::FlowAndEnergy,
+            (true, false) => Removed::Flow,
+            (false, _) => Removed::Nothing,
+        };
+        let frame = transverse::frame(&field.rate(), trivial, space.is_hamiltonian());
+        let transverse = frame.transpose() * &closed.monodromy * &frame;
+        let multipliers = linear::eigenvalues(&transverse);
+        let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
+        let size = DVector::from_column_slice(space.variables(&closed.state)).amax();
+        Ok(Orbit {
+            period: closed.period,
+            energy: space.system().energy(&closed.state, space.parameters())?,
+            closure: closed.residual / size.max(f64::MIN_POSITIVE),
+            action: self.action(closed)?,
+            state: closed.state.clone(),
+            monodromy: closed.monodromy.clone(),
+            transverse,
+            multipliers,
+            trivial,
+            stable,
+            settings: closed.settings,
+        })
+    }
+
+    /// ∮ p dq, summed step by step.
+    fn action(&self, closed: &Closed) -> Result<Option<f64>, DynamicsError> {
+        let space = self.space;
+        if space.form() != crate::system::Form::Momentum {
+            return Ok(None);
+        }
+        let (method, settings) = self.method;
+        let mut carrier = Carrier::new(space, method, settings, 0)?;
+        carrier.start(&closed.state, &DMatrix::zeros(space.dimension(), 0))?;
+        let rule = gauss(if method.stepping == Stepping::Fixed { 3 } else { 16 });
+        let mut field = space.vector_field();
+        let (half, until) = (space.dimension() / 2, closed.state.time + closed.period);
+        let mut sum = 0.0;
+        while carrier.time() < until {
+            carrier.step(until)?;
+            let (begin, end) = carrier.interval();
+            let end = end.min(until);
+            for &(part, weight) in &rule {
+                let now = begin + part * (end - begin);
+                let (state, _) = carrier.at(now)?;
+                let z = space.variables(&state);
+                field.evaluate(now, z)?;
+                let rate = field.rate();
+                let power: f64 = (0..half).map(|i| z[half + i] * rate[i]).sum();
+                sum += weight * (end - begin) * power;
+            }
+        }
+        Ok(Some(sum))
+    }
+}
+
+fn no_orbit(residual: f64, period: f64) -> DynamicsError {
+    DynamicsError::Unsuited(format!(
+        "no periodic orbit was found near the start: the best one misses itself by {residual:.1e} \
+         after {period:.6}"
+    ))
+}

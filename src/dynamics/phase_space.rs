@@ -1,0 +1,240 @@
+//! The phase space of a system: its canonical variables (q, p), or the variables of its brackets,
+//! at one set of parameters.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::DynamicsError;
+use crate::expr::Expr;
+use crate::mechanics::Equations;
+use crate::model::{Action, Mechanics, Model};
+use crate::system::{Form, MotionError, Rates, State, System};
+
+/// A system in canonical variables.
+#[derive(Clone, Debug)]
+pub struct PhaseSpace {
+    system: System,
+    parameters: Vec<f64>,
+    names: Vec<String>,
+    hamiltonian: bool,
+    autonomous: bool,
+    conservative: bool,
+    periods: Vec<Option<f64>>,
+    cyclic: Vec<usize>,
+}
+
+impl PhaseSpace {
+    /// The phase space of a compiled system at these parameters.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no derivative everywhere, or is held to constraints.
+    pub fn of(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
+        refuse(system)?;
+        let n = system.degrees();
+        let channels = system.channels();
+        let (names, degrees): (Vec<String>, _) = if system.form() == Form::Variables {
+            (channels[..n].iter().map(|c| c.name.clone()).collect(), n)
+        } else {
+            let q = channels[..n].iter();
+            (q.chain(&channels[2 * n..3 * n]).map(|c| c.name.clone()).collect(), n)
+        };
+        let none = |forces: &[Expr]| forces.iter().all(|&force| force == Expr::ZERO);
+        let hamiltonian = match &model.mechanics {
+            Mechanics::Lagrangian { dissipation, forces, .. } => {
+                *dissipation == Expr::ZERO && none(forces)
+            }
+            Mechanics::Hamiltonian { forces, .. } => none(forces),
+            Mechanics::Poisson { .. } => false,
+        };
+        let autonomous = !system.without_tangents().exact_rates().depends_on_time();
+        let mut periods: Vec<Option<f64>> =
+            (0..degrees).map(|i| system.period(i, parameters)).collect();
+        periods.resize(names.len(), None);
+        Ok(PhaseSpace {
+            system: system.without_tangents(),
+            parameters: parameters.to_vec(),
+            names,
+            hamiltonian,
+            autonomous,
+            conservative: autonomous && equations.energy_rate == Expr::ZERO,
+            periods,
+            cyclic: equations.cyclic.clone(),
+        })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The parameters.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// The same space at other parameters.
+    #[must_use]
+    pub fn at_parameters(&self, parameters: &[f64]) -> PhaseSpace {
+        PhaseSpace { parameters: parameters.to_vec(), ..self.clone() }
+    }
+
+    /// The names of the variables: coordinates, then momenta; or the variables of brackets.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The number of variables.
+    pub fn dimension(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The form of its states.
+    pub fn form(&self) -> Form {
+        if self.system.form() == Form::Variables { Form::Variables } else { Form::Momentum }
+    }
+
+    /// Whether its variables are canonical and the motion is Hamilton's, without other forces.
+    pub fn is_hamiltonian(&self) -> bool {
+        self.hamiltonian
+    }
+
+    /// Whether the law of motion is the same at all times.
+    pub fn is_autonomous(&self) -> bool {
+        self.autonomous
+    }
+
+    /// Whether the energy is conserved at all times.
+    pub fn is_conservative(&self) -> bool {
+        self.conservative
+    }
+
+    /// The cyclic coordinates, by index.
+    pub fn cyclic(&self) -> &[usize] {
+        &self.cyclic
+    }
+
+    /// The period of each variable, if it has one.
+    pub fn periods(&self) -> &[Option<f64>] {
+        &self.periods
+    }
+
+    /// A state in the variables of this space.
+    ///
+    /// # Errors
+    /// Returns an error if the velocities have no momenta.
+    pub fn state(&self, state: &State) -> Result<State, MotionError> {
+        self.system.convert(state, self.form(), &self.parameters)
+    }
+
+    /// A state at these variables. The auxiliary numbers are those of `like`.
+    pub fn state_at(&self, like: &State, variables: &[f64]) -> State {
+        let mut state = like.clone();
+        for (i, &x) in variables.iter().enumerate() {
+            state.values[i] = x;
+            state.carry[i] = 0.0;
+        }
+        state
+    }
+
+    /// The variables of a state.
+    pub fn variables<'a>(&self, state: &'a State) -> &'a [f64] {
+        &state.values[..self.dimension()]
+    }
+
+    /// The rates of change of its variables, with their derivatives.
+    pub fn vector_field(&self) -> VectorField {
+        VectorField::new(self)
+    }
+
+    /// The largest entry of |M𝕁Mᵀ − 𝕁|.
+    pub fn symplectic_residual(matrix: &DMatrix<f64>) -> f64 {
+        let size = matrix.nrows();
+        let n = size / 2;
+        let unit = DMatrix::from_fn(size, size, |i, j| {
+            f64::from(i8::from(j == i + n) - i8::from(i == j + n))
+        });
+        (matrix * &unit * matrix.transpose() - unit).amax()
+    }
+}
+
+/// Refuses what has no derivative at some places, where nothing here would notice.
+fn refuse(system: &System) -> Result<(), DynamicsError> {
+    let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
+    let discontinuities = system.discontinuities();
+    if system.constraints() > 0 {
+        return unsuited(
+            "the motion is held to constraints, and derivatives of such motions are not computed: \
+             describe it by independent coordinates",
+        );
+    }
+    if system.has_kinks() {
+        return unsuited(
+            "the forces have kinks or jumps (abs, sign, min, max, or a cut of atan2), across which \
+             derivatives of the motion are not computed",
+        );
+    }
+    if discontinuities.impulses.iter().any(|impulse| impulse.scheduled) {
+        return unsuited(
+            "impulses act on the way, across which derivatives of the motion are not computed",
+        );
+    }
+    if discontinuities.events.iter().any(|event| event.action != Action::Mark) {
+        return unsuited("events act on the motion, across which its derivatives are not computed");
+    }
+    if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {
+        return unsuited(
+            "its velocities follow from its momenta by iteration only, and derivatives of such \
+             motions are not computed",
+        );
+    }
+    Ok(())
+}
+
+/// The rates of change f(z) of the variables z of a phase space, and their derivatives ∂f/∂z.
+#[derive(Clone, Debug)]
+pub struct VectorField {
+    rates: Rates,
+    dimension: usize,
+    first: usize,
+    numbers: Vec<f64>,
+    out: Vec<f64>,
+}
+
+impl VectorField {
+    fn new(space: &PhaseSpace) -> VectorField {
+        let dimension = space.dimension();
+        let system = space.system.with_tangents(dimension);
+        let mut rates = system.canonical_rates();
+        rates.set_parameters(&space.parameters);
+        let mut numbers = vec![0.0; system.state_len()];
+        for i in 0..dimension {
+            numbers[system.tangent_place(i) + i] = 1.0;
+        }
+        let out = vec![0.0; system.state_len()];
+        VectorField { rates, dimension, first: system.tangent_place(0), numbers, out }
+    }
+
+    /// Evaluates at a time and at these variables.
+    ///
+    /// # Errors
+    /// Returns an error if there are no rates, as at a singular mass matrix.
+    pub fn evaluate(&mut self, time: f64, variables: &[f64]) -> Result<(), MotionError> {
+        self.numbers[..self.dimension].copy_from_slice(&variables[..self.dimension]);
+        self.rates.evaluate(time, &self.numbers, &mut self.out)
+    }
+
+    /// f(z).
+    pub fn rate(&self) -> DVector<f64> {
+        DVector::from_column_slice(&self.out[..self.dimension])
+    }
+
+    /// ∂f/∂z.
+    pub fn derivative(&self) -> DMatrix<f64> {
+        let n = self.dimension;
+        DMatrix::from_column_slice(n, n, &self.out[self.first..self.first + n * n])
+    }
+}

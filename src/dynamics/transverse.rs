@@ -1,0 +1,110 @@
+//! The directions across a motion: those in which neighbouring motions of the same energy differ
+//! from it by more than a shift in time.
+//!
+//! In: the rates f at a state. Out: an orthonormal frame of the directions that are left when f,
+//! and with a conserved H also ∇H = −𝕁f, are taken out. Where both are, the frame is symplectic,
+//! e₁ … eₘ, 𝕁eₘ … 𝕁e₁, in that order: a triangular matrix between two such frames has reciprocal
+//! diagonal entries in pairs, so that exponents come in pairs ±λ at every time. Never here: how the
+//! directions move.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Which directions are taken out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Removed {
+    /// None: the law of motion depends on time, or motions come to rest.
+    Nothing,
+    /// That of the motion itself.
+    Flow,
+    /// That of the motion and that of the energy.
+    FlowAndEnergy,
+}
+
+impl Removed {
+    /// The number of directions taken out.
+    pub fn count(self) -> usize {
+        match self {
+            Removed::Nothing => 0,
+            Removed::Flow => 1,
+            Removed::FlowAndEnergy => 2,
+        }
+    }
+}
+
+/// 𝕁 v for v = (δq, δp): (δp, −δq).
+fn rotated(v: &DVector<f64>) -> DVector<f64> {
+    let n = v.len() / 2;
+    DVector::from_fn(v.len(), |i, _| if i < n { v[i + n] } else { -v[i - n] })
+}
+
+/// The unit vectors of what is taken out at a place with these rates.
+pub(super) fn removed(rates: &DVector<f64>, what: Removed) -> Vec<DVector<f64>> {
+    let Some(along) = rates.try_normalize(0.0) else { return Vec::new() };
+    match what {
+        Removed::Nothing => Vec::new(),
+        Removed::Flow => vec![along],
+        Removed::FlowAndEnergy => vec![along.clone(), rotated(&along)],
+    }
+}
+
+/// Takes the components along orthonormal vectors out of a vector, twice against rounding.
+pub(super) fn take_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
+    for _ in 0..2 {
+        for unit in of {
+            let part = unit.dot(v);
+            v.axpy(-part, unit, 1.0);
+        }
+    }
+}
+
+/// An orthonormal frame across a motion with these rates; symplectic if `canonical`.
+pub(super) fn frame(rates: &DVector<f64>, what: Removed, canonical: bool) -> DMatrix<f64> {
+    let n = rates.len();
+    let mut taken = removed(rates, what);
+    let wanted = n - taken.len();
+    let mut first = Vec::new();
+    let mut last = Vec::new();
+    while first.len() + last.len() < wanted {
+        // the unit vector that lies farthest outside what there is
+        let outside = |i: usize| {
+            let mut v = DVector::zeros(n);
+            v[i] = 1.0;
+            take_out(&mut v, &taken);
+            v
+        };
+        let Some(found) = (0..n).map(outside).max_by(|a, b| a.norm().total_cmp(&b.norm())) else {
+            break;
+        };
+        let unit = found.normalize();
+        taken.push(unit.clone());
+        if canonical && what != Removed::Flow {
+            let partner = rotated(&unit);
+            taken.push(partner.clone());
+            last.push(partner);
+        }
+        first.push(unit);
+    }
+    first.extend(last.into_iter().rev());
+    DMatrix::from_fn(n, first.len(), |i, j| first[j][i])
+}
+
+/// Makes the columns of `vectors` orthonormal, one after the other, outside what is taken out at a
+/// place with these rates. Returns their lengths after those before them were taken out.
+pub(super) fn orthonormalise(
+    vectors: &mut DMatrix<f64>,
+    rates: &DVector<f64>,
+    what: Removed,
+) -> Vec<f64> {
+    let mut taken = removed(rates, what);
+    let mut lengths = Vec::with_capacity(vectors.ncols());
+    for mut column in vectors.column_iter_mut() {
+        let mut v = DVector::from_column_slice(column.as_slice());
+        take_out(&mut v, &taken);
+        let length = v.norm();
+        lengths.push(length);
+        let unit = v / length;
+        column.copy_from(&unit);
+        taken.push(unit);
+    }
+    lengths
+}

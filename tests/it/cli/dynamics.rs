@@ -1,0 +1,93 @@
+//! `flow`, `lyapunov`, `orbit` and `equilibria` as commands.
+
+use super::{phaselab, with_file};
+
+#[test]
+fn the_tangent_map_is_an_object_with_named_fields() {
+    let found = phaselab(&["flow", "damped-pendulum", "--until", "2", "--format", "json"]).json();
+    assert_eq!(found["variables"], serde_json::json!(["theta", "p_theta"]));
+    assert_eq!(found["t"], 2.0);
+    assert_eq!(found["status"], "completed");
+    assert_eq!(found["method"]["name"], "taylor");
+    assert!(found["title"].is_string() && found["parameters"].is_object());
+    let m = |i: usize, j: usize| found["matrix"][i][j].as_f64().unwrap();
+    let determinant = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+    assert!((determinant - found["determinant"].as_f64().unwrap()).abs() < 1e-14);
+    assert!((determinant - found["determinant_expected"].as_f64().unwrap()).abs() < 1e-13);
+    // friction is not canonical: for one degree of freedom the residual is |det − 1|
+    let residual = found["symplectic_residual"].as_f64().unwrap();
+    assert!((residual - (1.0 - determinant)).abs() < 1e-14);
+    assert!(found["state"]["p_theta"].is_f64());
+    let text = phaselab(&["flow", "pendulum", "--until", "1"]).success();
+    assert!(text.contains("det M = 1, expected 1"), "{text}");
+}
+
+#[test]
+fn exponents_come_with_a_verdict_and_as_many_as_asked() {
+    let words = ["lyapunov", "henon-heiles", "--init", "x=0", "--init", "y=-0.18540508709080214"];
+    let words = [&words[..], &["--init", "p_x=0.45975654576795759", "--init", "p_y=0"]].concat();
+    let words = [&words[..], &["--until", "69", "--format", "json"]].concat();
+    let found = phaselab(&words).json();
+    assert_eq!(found["verdict"], "chaotic");
+    assert_eq!(found["exponents"].as_array().unwrap().len(), 4);
+    assert!((found["exponents"][0].as_f64().unwrap() - 0.19195).abs() < 2e-4);
+    assert!(found["pairing_residual"].as_f64().unwrap() < 1e-14);
+    assert_eq!(found["trivial"], serde_json::json!(["flow", "energy"]));
+    assert_eq!(found["curve"].as_array().unwrap().len(), 200);
+    let one = phaselab(&[&words[..], &["--exponents", "1"]].concat()).json();
+    assert_eq!(one["exponents"].as_array().unwrap().len(), 1);
+    let none = phaselab(&["lyapunov", "pendulum", "--exponents", "0"]);
+    assert_eq!(none.code, 2);
+}
+
+#[test]
+fn an_orbit_and_its_family_are_written() {
+    let words = ["orbit", "pendulum", "--init", "theta=0.3", "--format", "json"];
+    let found = phaselab(&[&words[..], &["--along", "energy=-9:-6:2"]].concat()).json();
+    assert!((found["period"].as_f64().unwrap() - 2.01740933501252).abs() < 1e-12);
+    assert_eq!(found["multipliers"], serde_json::json!([[1.0, 0.0], [1.0, 0.0]]));
+    assert_eq!(found["stable"], true);
+    let values: Vec<f64> =
+        found["family"].as_array().unwrap().iter().map(|m| m["value"].as_f64().unwrap()).collect();
+    assert_eq!(values, [-9.0, -6.0]);
+    for wrong in ["energy", "energy=1:2", "energy=1:2:1", "energy=1:1:3", "gg=1:2:3"] {
+        let done = phaselab(&["orbit", "pendulum", "--along", wrong]);
+        assert_eq!(done.code, 2, "{wrong}: {}", done.stderr);
+    }
+    let done = phaselab(&["orbit", "damped-pendulum", "--energy", "1"]);
+    assert_eq!(done.code, 2);
+}
+
+#[test]
+fn equilibria_are_listed_by_energy() {
+    let found = phaselab(&["equilibria", "double-pendulum", "--format", "json"]).json();
+    let all = found["equilibria"].as_array().unwrap();
+    let kinds: Vec<&str> = all.iter().map(|one| one["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["minimum", "saddle", "saddle", "maximum"]);
+    assert_eq!(all[0]["frequencies"].as_array().unwrap().len(), 2);
+    let near = phaselab(&["equilibria", "double-pendulum", "--around", "theta1=pi"]).success();
+    assert!(near.starts_with("minimum, stable"), "{near}");
+    let wrong = phaselab(&["equilibria", "double-pendulum", "--around", "theta1'=1"]);
+    assert_eq!(wrong.code, 2);
+}
+
+#[test]
+fn what_has_no_derivative_ends_with_a_sentence() {
+    for command in ["flow", "lyapunov", "orbit", "equilibria"] {
+        let done = phaselab(&[command, "pendulum-rod"]);
+        assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{command}");
+        assert!(done.stderr.contains("constraints"), "{command}: {}", done.stderr);
+        let done = phaselab(&[command, "pendulum", "--step", "0.1"]);
+        assert_eq!(done.code, 2, "{command}");
+        let done = phaselab(&[command, "no-such-thing"]);
+        assert_eq!(done.code, 2, "{command}");
+    }
+    // a motion that ends early has its map so far, and the reason
+    let text = "title = \"t\"\n[coordinates]\nr = { initial = 1.0, momentum = 0.0 }\n\
+                [hamiltonian]\nH = \"1/2*p_r^2 - 1/r\"\n";
+    let done = with_file(text, &["flow", "./system.toml", "--until", "3", "--format", "json"]);
+    assert_eq!(done.code, 1);
+    let found: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+    assert_eq!(found["status"], "faulted");
+    assert!(found["t"].as_f64().unwrap() > 1.0 && found["message"].is_string());
+}

@@ -1,0 +1,135 @@
+//! Equilibria and small oscillations.
+
+use phaselab::dynamics::{DynamicsError, Equilibrium, Kind, equilibria};
+
+use super::{Case, file, preset};
+
+fn of(case: &Case) -> Vec<Equilibrium> {
+    equilibria(&case.space, &case.start).unwrap().found
+}
+
+fn frequencies(one: &Equilibrium) -> Vec<f64> {
+    one.modes.iter().map(|mode| mode.frequency).collect()
+}
+
+fn close(a: f64, b: f64, within: f64) {
+    assert!((a - b).abs() <= within, "{a} is not {b}");
+}
+
+#[test]
+fn the_double_pendulum_has_four() {
+    let found = of(&preset("double-pendulum", &[], &[]));
+    let kinds: Vec<_> = found.iter().map(|one| (one.kind.unwrap(), one.stable)).collect();
+    let saddle = (Kind::Saddle, Some(false));
+    assert_eq!(kinds, [(Kind::Minimum, Some(true)), saddle, saddle, (Kind::Maximum, Some(false))]);
+    // ω² = (2 ∓ √2) g/l, and the amplitudes 1 : ±√2
+    let g = 9.81;
+    let modes = &found[0].modes;
+    for (mode, sign) in modes.iter().zip([-1.0, 1.0]) {
+        close(mode.frequency * mode.frequency, (2.0 + sign * 2.0_f64.sqrt()) * g, 1e-11);
+        close(mode.in_phase[0] / mode.in_phase[1], -sign / 2.0_f64.sqrt(), 1e-10);
+    }
+    // upright both, the same numbers grow
+    let grows: Vec<f64> = found[3].eigenvalues.iter().map(|z| z[0]).collect();
+    close(grows[0], modes[1].frequency, 1e-10);
+    assert!(found[3].modes.is_empty());
+}
+
+#[test]
+fn the_points_of_lagrange_are_found_and_judged() {
+    // L1, L2, L3 at μ = 0.01215 by their quintics; L4 and L5 by equilateral triangles
+    let mu = 0.01215;
+    let found = of(&preset("restricted-three-body", &[("mu", mu), ("x0", 0.5)], &[]));
+    assert_eq!(found.len(), 5);
+    let force = |x: f64| {
+        let (a, b) = (x + mu, x - 1.0 + mu);
+        x - (1.0 - mu) * a / a.abs().powi(3) - mu * b / b.abs().powi(3)
+    };
+    let root = |mut low: f64, mut high: f64| {
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if (force(middle) < 0.0) == (force(low) < 0.0) { low = middle } else { high = middle }
+        }
+        low
+    };
+    let collinear = [root(0.5, 0.95), root(1.01, 1.5), root(-1.5, -0.5)];
+    for (one, x) in found.iter().zip(collinear) {
+        close(one.variables[0], x, 1e-13);
+        assert_eq!((one.kind, one.stable), (Some(Kind::Saddle), Some(false)));
+    }
+    for one in &found[3..] {
+        close(one.variables[0], 0.5 - mu, 1e-12);
+        close(one.variables[1].abs(), 3.0_f64.sqrt() / 2.0, 1e-12);
+        // a maximum, and stable: λ⁴ + λ² + (27/4) μ (1 − μ) = 0
+        assert_eq!((one.kind, one.stable), (Some(Kind::Maximum), Some(true)));
+        let root = (1.0 - 27.0 * mu * (1.0 - mu)).sqrt();
+        let expected = [(0.5 * (1.0 - root)).sqrt(), (0.5 * (1.0 + root)).sqrt()];
+        for (frequency, expected) in frequencies(one).iter().zip(expected) {
+            close(*frequency, expected, 1e-11);
+        }
+    }
+    // beyond Routh's ratio they are not
+    let found = of(&preset("restricted-three-body", &[("mu", 0.05), ("x0", 0.5)], &[]));
+    assert!(
+        found[3..].iter().all(|one| one.stable == Some(false) && one.kind == Some(Kind::Maximum))
+    );
+}
+
+#[test]
+fn equal_frequencies_have_two_modes() {
+    let found = of(&preset("henon-heiles", &[], &[]));
+    assert_eq!(found.len(), 4);
+    let [first, second] = &found[0].modes[..] else { panic!("{:?}", found[0]) };
+    close(first.frequency, 1.0, 1e-12);
+    close(second.frequency, 1.0, 1e-12);
+    let (a, b) = (&first.in_phase, &second.in_phase);
+    assert!((a[0] * b[1] - a[1] * b[0]).abs() > 0.1, "{a:?} {b:?}");
+    for saddle in &found[1..] {
+        assert_eq!(saddle.kind, Some(Kind::Saddle));
+        close(saddle.energy, 1.0 / 6.0, 1e-14);
+    }
+}
+
+#[test]
+fn what_is_cyclic_goes_on() {
+    // a steady precession of the top: A cosθ Ω² − C ω₃ Ω + Mgl = 0
+    let case = preset("heavy-top", &[], &[]);
+    let found = of(&case);
+    let one = found.iter().find(|one| one.variables[0] > 0.0 && one.variables[0] < 3.0).unwrap();
+    let [(phi, precession), (psi, spin)] = one.rates[..] else { panic!("{one:?}") };
+    assert_eq!((phi, psi), (1, 2));
+    let cos = one.variables[0].cos();
+    let whole = spin + precession * cos;
+    let parameter = |name: &str| {
+        let loaded = crate::hand::loaded("heavy-top", 1);
+        case.space.parameters()[loaded.model.parameter(name).unwrap()]
+    };
+    let (a, c, mgl) = (parameter("I1"), parameter("I3"), parameter("Mgl"));
+    close(a * cos * precession * precession - c * whole * precession + mgl, 0.0, 1e-12);
+    assert_eq!((one.kind, one.stable), (Some(Kind::Minimum), Some(true)));
+    // of a planet: a circle of radius p²/mk, whose radial frequency is that of the revolution
+    let found = of(&preset("planet", &[], &[]));
+    let [circle] = &found[..] else { panic!("{found:?}") };
+    let momentum = circle.variables[3];
+    close(circle.variables[0], momentum * momentum / 39.47841760435743, 1e-13);
+    close(frequencies(circle)[0], circle.rates[0].1, 1e-10);
+}
+
+#[test]
+fn friction_damps_and_brackets_have_eigenvalues_only() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 - cos(x)\"\nforces = { x = \"-0.2*p_x\" }\n";
+    let found = of(&file(text, &[]));
+    let low = found.iter().find(|one| one.variables[0] == 0.0).unwrap();
+    assert_eq!((low.kind, low.stable, low.modes.len()), (Some(Kind::Minimum), Some(true), 0));
+    close(low.eigenvalues[0][0], -0.1, 1e-13);
+    close(low.eigenvalues[0][1], 0.99_f64.sqrt(), 1e-13);
+    // none where there is a force everywhere, or where the law depends on time
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + exp(x)\"\n";
+    assert!(of(&file(text, &[])).is_empty());
+    let case = preset("kapitza", &[], &[]);
+    assert!(matches!(equilibria(&case.space, &case.start), Err(DynamicsError::Unsuited(_))));
+    let body = of(&preset("free-rigid-body", &[], &[]));
+    assert!(body.iter().all(|one| one.kind.is_none()));
+}

@@ -1,0 +1,97 @@
+//! Families of periodic orbits.
+
+use phaselab::dynamics::{Along, Bifurcation, Family, Fixed, Member, family, periodic_orbit};
+
+use super::{Case, file, taylor};
+
+fn of(case: &Case, period: Option<f64>, (along, fixed): (Along, Fixed), values: &[f64]) -> Family {
+    let orbit = periodic_orbit(&case.space, taylor(), &case.start, period, fixed).unwrap();
+    family(&case.space, taylor(), &orbit, (along, fixed), values).unwrap()
+}
+
+fn asked(family: &Family) -> Vec<&Member> {
+    family.members.iter().filter(|member| member.bifurcation.is_none()).collect()
+}
+
+#[test]
+fn the_swings_of_a_pendulum_have_their_closed_form_periods() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.6, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + 1 - cos(x)\"\n";
+    let case = file(text, &[]);
+    // of amplitudes of 60° and 120°, in 2π: E = 1 − cos θ₀
+    let (small, large) = (1.073182007149364, 1.37288050061835);
+    let tau = std::f64::consts::TAU;
+    let found = of(&case, None, (Along::Energy, Fixed::Energy(0.2)), &[0.5, 1.5]);
+    let [one, two] = asked(&found)[..] else { panic!("{found:?}") };
+    assert!((one.orbit.period - small * tau).abs() < 1e-10 && one.value == 0.5);
+    assert!((two.orbit.period - large * tau).abs() < 1e-10 && two.value == 1.5);
+    assert!(found.ended.is_empty());
+    // and by their period
+    let values = [small * tau, large * tau];
+    let found = of(&case, None, (Along::Period, Fixed::Energy(0.2)), &values);
+    let energies: Vec<f64> = asked(&found).iter().map(|member| member.orbit.energy).collect();
+    assert!((energies[0] - 0.5).abs() < 1e-9 && (energies[1] - 1.5).abs() < 1e-9, "{energies:?}");
+}
+
+#[test]
+fn orbits_bifurcate_at_the_characteristic_values_of_mathieu() {
+    // across the orbit x = ½ cos t, y = 0: ÿ + (δ + ½ cos t) y = 0, which is Mathieu's equation with
+    // a = 4 δ and |q| = 1; a₀, b₁, a₁, b₂, a₂ of M. Abramowitz, I. A. Stegun, table 20.1
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, momentum = 0 }\n\
+                y = { initial = 0, momentum = 0 }\n[parameters]\ndelta = 0.2\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) + 1/2*x^2 + 1/2*delta*y^2 + 1/2*x*y^2\"\n";
+    let case = file(text, &[]);
+    let fixed = Fixed::Energy(0.125);
+    let found = of(&case, Some(6.28), (Along::Parameter(0), fixed), &[-0.2, 0.3, 1.2]);
+    let bifurcations: Vec<(Bifurcation, f64)> = found
+        .members
+        .iter()
+        .filter_map(|member| Some((member.bifurcation?, 4.0 * member.value)))
+        .collect();
+    let expected = [
+        (Bifurcation::Branching, -0.45513860),
+        (Bifurcation::PeriodDoubling, -0.11024882),
+        (Bifurcation::PeriodDoubling, 1.85910807),
+        (Bifurcation::Branching, 3.91702477),
+        (Bifurcation::Branching, 4.37130098),
+    ];
+    assert_eq!(bifurcations.len(), expected.len(), "{bifurcations:?} {:?}", found.ended);
+    for ((kind, value), (wanted, at)) in bifurcations.iter().zip(expected) {
+        assert_eq!(*kind, wanted);
+        assert!((value - at).abs() < 2e-7, "{value} is not {at}");
+    }
+    // stable between b₁ and a₁ … no: between a₀ and b₁, and between a₁ and b₂
+    for member in asked(&found) {
+        assert!((member.orbit.energy - 0.125).abs() < 1e-10);
+        assert_eq!(member.orbit.stable, false, "{}", member.value);
+    }
+}
+
+#[test]
+fn a_family_turns_back_at_its_fold() {
+    // r' = r (μ + r² − r⁴), φ' = −1: circles r² = (1 ± √(1 + 4μ))/2, which meet at μ = −1/4
+    let text = "title = \"t\"\n[variables]\nx = { initial = 0.95 }\ny = { initial = 0 }\n\
+                [parameters]\nmu = { value = -0.1, min = -1, max = 1 }\n\
+                [definitions]\ng = \"mu + (x^2 + y^2) - (x^2 + y^2)^2\"\n\
+                [poisson]\nH = \"1/2*(x^2 + y^2)\"\nbrackets = [[\"x\", \"y\", \"1\"]]\n\
+                forces = { x = \"x*g\", y = \"y*g\" }\n";
+    let case = file(text, &[]);
+    let values = [-0.3, -0.2, -0.15, -0.08];
+    let found = of(&case, Some(6.28), (Along::Parameter(0), Fixed::Nothing), &values);
+    let folds: Vec<&Member> = found.members.iter().filter(|m| m.bifurcation.is_some()).collect();
+    let [fold] = folds[..] else { panic!("{found:?}") };
+    assert_eq!(fold.bifurcation, Some(Bifurcation::Fold));
+    assert!((fold.value + 0.25).abs() < 1e-9, "{}", fold.value);
+    let square = |member: &Member| member.orbit.state.values.iter().map(|x| x * x).sum::<f64>();
+    assert!((square(fold) - 0.5).abs() < 1e-4);
+    let mut both = asked(&found);
+    both.sort_by(|a, b| square(a).total_cmp(&square(b)));
+    assert_eq!(both.len(), 6);
+    for (k, member) in both.iter().enumerate() {
+        let root = (1.0 + 4.0 * member.value).sqrt();
+        let sign = if k < 3 { -1.0 } else { 1.0 };
+        assert!((square(member) - 0.5 * (1.0 + sign * root)).abs() < 1e-9);
+        assert!((member.orbit.period - std::f64::consts::TAU).abs() < 1e-10);
+        assert_eq!(member.orbit.stable, k >= 3);
+    }
+}

@@ -1,0 +1,92 @@
+//! Lyapunov exponents.
+
+use phaselab::dynamics::{Chaos, Lyapunov, Removed, lyapunov};
+
+use super::{Case, file, method, preset, taylor};
+
+/// The unstable periodic orbit B of Hénon and Heiles at E = 1/8: its period, and ln|μ|/T.
+const ORBIT: [f64; 4] = [0.0, -0.18540508709080214, 0.45975654576795759, 0.0];
+const PERIOD: f64 = 6.900_599_447_648_208;
+const EXPONENT: f64 = 0.19195453623623;
+
+fn of(case: &Case, until: f64) -> Lyapunov {
+    lyapunov(&case.space, taylor(), &case.start, until, &mut |_| {}).unwrap()
+}
+
+#[test]
+fn a_periodic_orbit_has_the_exponents_of_its_multipliers() {
+    let case = preset("henon-heiles", &[], &ORBIT);
+    let found = of(&case, 20.0 * PERIOD);
+    let [largest, zero, other, least] = found.exponents[..] else { panic!("{found:?}") };
+    assert!((largest - EXPONENT).abs() < 2e-6, "{largest}");
+    assert_eq!((zero, other, found.removed), (0.0, 0.0, Removed::FlowAndEnergy));
+    assert!((largest + least).abs() < 1e-15 && found.pairing_residual.unwrap() < 1e-15);
+    assert!(found.sum.abs() < 1e-15);
+    assert_eq!(found.verdict, Chaos::Chaotic, "{}", found.reason);
+    // MEGNO of pure exponential growth is λt/2 on average
+    let expected = 0.5 * EXPONENT * found.time;
+    assert!((found.megno / expected - 1.0).abs() < 0.1, "{} {expected}", found.megno);
+    for ((exponent, off), known) in
+        found.exponents.iter().zip(&found.uncertainty).zip([EXPONENT, 0.0, 0.0, -EXPONENT])
+    {
+        assert!((exponent - known).abs() <= *off);
+    }
+    // another method agrees as far as it follows the orbit
+    let other =
+        lyapunov(&case.space, method("yoshida6", Some(0.05)), &case.start, 70.0, &mut |_| {});
+    assert!((other.unwrap().exponents[0] - EXPONENT).abs() < 1e-3);
+}
+
+#[test]
+fn chaotic_and_regular_motions_of_henon_and_heiles_are_told_apart() {
+    // starts of ChaosTools' tests; exponents at E = 1/8 lie between 0.037 and 0.046 over 10⁶
+    let chaotic = of(&preset("henon-heiles", &[], &[0.0, -0.25, 0.42081, 0.0]), 4000.0);
+    assert_eq!(chaotic.verdict, Chaos::Chaotic, "{}", chaotic.reason);
+    let (largest, off) = (chaotic.exponents[0], chaotic.uncertainty[0]);
+    assert!((0.03..0.08).contains(&largest) && off < 0.02, "{largest} ± {off}");
+    assert!(chaotic.pairing_residual.unwrap() < 1e-14);
+    assert!(chaotic.megno > 20.0);
+    for start in [[0.0, 0.295456, 0.407308431, 0.0], [0.0, 0.483, 0.27898039, 0.0]] {
+        let regular = of(&preset("henon-heiles", &[], &start), 1500.0);
+        assert_eq!(regular.verdict, Chaos::Regular, "{}", regular.reason);
+        assert!(regular.exponents[0].abs() <= regular.uncertainty[0]);
+    }
+    let short = of(&preset("henon-heiles", &[], &[0.0, -0.25, 0.42081, 0.0]), 5.0);
+    assert_eq!(short.verdict, Chaos::Undecided);
+    assert!(short.reason.contains("too short"));
+}
+
+#[test]
+fn megno_of_a_torus_is_two() {
+    let found = of(&preset("henon-heiles", &[], &[0.0, 0.483, 0.27898039, 0.0]), 3000.0);
+    assert!((found.megno - 2.0).abs() < 0.2, "{}", found.megno);
+    // and that of motions that only drift apart in time
+    let found = of(&preset("pendulum", &[], &[1.5, 0.0]), 2000.0);
+    assert!((found.megno - 2.0).abs() < 0.1, "{}", found.megno);
+    assert_eq!(found.exponents, [0.0, 0.0]);
+    assert_eq!(found.verdict, Chaos::Regular);
+}
+
+#[test]
+fn friction_gives_the_exponents_of_the_linear_system() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.3, momentum = 0.7 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2\"\nforces = { x = \"-0.3*p_x\" }\n";
+    let found = of(&file(text, &[]), 300.0);
+    for exponent in &found.exponents {
+        assert!((exponent + 0.15).abs() < 1e-4, "{exponent}");
+    }
+    assert!((found.sum + 0.3).abs() < 1e-13);
+    assert_eq!((found.removed, found.pairing_residual), (Removed::Nothing, None));
+    assert_eq!(found.verdict, Chaos::Regular);
+}
+
+#[test]
+fn an_unstable_equilibrium_has_the_exponents_of_its_eigenvalues() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0, momentum = 0 }\n\
+                y = { initial = 0, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) - 2*x^2 + 3*y^2\"\n";
+    let found = of(&file(text, &[]), 60.0);
+    assert_eq!(found.removed, Removed::Nothing);
+    assert!((found.exponents[0] - 2.0).abs() < 1e-3 && (found.exponents[3] + 2.0).abs() < 1e-3);
+    assert!(found.exponents[1].abs() < 0.02 && found.pairing_residual.unwrap() < 1e-13);
+}

@@ -1,0 +1,121 @@
+//! Periodic orbits.
+
+use phaselab::dynamics::{DynamicsError, Fixed, Orbit, Removed, periodic_orbit};
+
+use super::{Case, file, method, preset, taylor};
+
+fn close(a: f64, b: f64, within: f64) {
+    assert!((a - b).abs() <= within, "{a} is not {b}");
+}
+
+fn of(case: &Case, period: Option<f64>, fixed: Fixed) -> Orbit {
+    periodic_orbit(&case.space, taylor(), &case.start, period, fixed).unwrap()
+}
+
+#[test]
+fn orbit_b_of_henon_and_heiles_is_closed_from_nearby() {
+    let case = preset("henon-heiles", &[], &[0.0, -0.18, 0.46, 0.0]);
+    let found = of(&case, None, Fixed::Energy(0.125));
+    close(found.period, 6.900_599_447_648_208_6, 2e-13);
+    close(found.energy, 0.125, 1e-15);
+    close(found.transverse.trace(), 4.026_594_859_728_68, 1e-11);
+    assert!(found.closure < 1e-14 && !found.stable);
+    assert_eq!((found.trivial, found.multipliers.len()), (Removed::FlowAndEnergy, 2));
+    let exponent = found.multipliers[0][0].ln() / found.period;
+    close(exponent, 0.191_954_536_236_23, 1e-12);
+    close(found.multipliers[0][0] * found.multipliers[1][0], 1.0, 1e-12);
+    // the same by a method of fixed step, whose own map is closed
+    let other = periodic_orbit(
+        &case.space,
+        method("yoshida8", Some(0.05)),
+        &case.start,
+        None,
+        Fixed::Energy(0.125),
+    );
+    close(other.unwrap().period, found.period, 1e-6);
+}
+
+#[test]
+fn the_pendulum_has_its_closed_form_period() {
+    // T = 4 K(sin 1) for θ₀ = 2 and g/l = 1, E = −cos 2 g/l above the pivot
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1.9, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 - cos(x)\"\n";
+    let found = of(&file(text, &[]), None, Fixed::Energy(-(2.0_f64.cos())));
+    close(found.period, 8.349752926918493, 1e-13);
+    assert!(found.multipliers.is_empty() && found.stable);
+    // dJ/dE = T
+    let case = file(text, &[]);
+    let action = |energy: f64| of(&case, None, Fixed::Energy(energy)).action.unwrap();
+    let energy = -(2.0_f64.cos());
+    let slope = (action(energy + 1e-4) - action(energy - 1e-4)) / 2e-4;
+    close(slope, found.period, 1e-6);
+    // of a given period
+    let found = of(&case, None, Fixed::Period(8.0));
+    assert!(found.period == 8.0 && found.closure < 1e-14);
+    let other = of(&case, None, Fixed::Energy(found.energy));
+    close(other.period, 8.0, 1e-11);
+}
+
+#[test]
+fn the_lyapunov_orbit_at_l1_closes() {
+    // about L1 of the Earth and the Moon
+    let (x, v) = (0.826915, 0.090663934460268879);
+    let case =
+        preset("restricted-three-body", &[("mu", 0.012150585609624), ("x0", x), ("v0", v)], &[]);
+    let found = of(&case, Some(2.7172), Fixed::Energy(energy(&case)));
+    close(found.period, 2.717210310294213, 1e-13);
+    assert!(found.closure < 1e-13 && !found.stable);
+    close(found.multipliers[0][0] * found.multipliers[1][0], 1.0, 1e-8);
+}
+
+fn energy(case: &Case) -> f64 {
+    case.space.system().energy(&case.start, case.space.parameters()).unwrap()
+}
+
+#[test]
+fn the_figure_eight_is_linearly_stable_by_its_two_angles() {
+    let case = preset("figure-eight", &[], &[]);
+    let found = of(&case, Some(6.32591398292621168), Fixed::Energy(-1.28714199563185771));
+    close(found.period, 6.32591398292621168, 1e-11);
+    assert_eq!(found.multipliers.len(), 10);
+    for angle in [0.00842272471, 0.298092529] {
+        let angle = angle * std::f64::consts::TAU;
+        let there = |z: &&[f64; 2]| (z[0] - angle.cos()).abs() + (z[1] - angle.sin()).abs() < 1e-7;
+        assert!(found.multipliers.iter().any(|z| there(&z)), "{angle}: {:?}", found.multipliers);
+    }
+    assert!(found.stable);
+}
+
+#[test]
+fn a_limit_cycle_and_a_driven_orbit_close() {
+    // van der Pol's, ε = 1: T = 6.6632868593231301896996820305
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 2.1, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2\"\nforces = { x = \"(1 - x^2)*p_x\" }\n";
+    let found = of(&file(text, &[]), None, Fixed::Nothing);
+    close(found.period, 6.663_286_859_323_13, 1e-12);
+    assert_eq!((found.trivial, found.stable), (Removed::Flow, true));
+    // Liouville: the only other multiplier is exp ∫ (1 − x²) dt, the determinant
+    close(found.multipliers[0][0], found.monodromy.determinant(), 1e-12);
+    // the answer of an oscillator to a drive: x'' + 0.2 x' + x = cos 2t
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2\"\nforces = { x = \"cos(2*t) - 0.2*p_x\" }\n";
+    let case = file(text, &[]);
+    let found = of(&case, Some(std::f64::consts::PI), Fixed::Nothing);
+    let size = 9.0 + 0.16;
+    close(found.state.values[0], -3.0 / size, 1e-13);
+    close(found.state.values[1], 2.0 * 0.4 / size, 1e-13);
+    assert_eq!(found.trivial, Removed::Nothing);
+    let none = periodic_orbit(&case.space, taylor(), &case.start, None, Fixed::Nothing);
+    assert!(matches!(none, Err(DynamicsError::Unsuited(why)) if why.contains("period")));
+}
+
+#[test]
+fn where_nothing_returns_no_orbit_is_claimed() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 - 1/2*x^2\"\n";
+    let case = file(text, &[]);
+    for period in [None, Some(3.0)] {
+        let found = periodic_orbit(&case.space, taylor(), &case.start, period, Fixed::Energy(-0.5));
+        assert!(matches!(found, Err(DynamicsError::Unsuited(_) | DynamicsError::Motion(_))));
+    }
+}
