@@ -6,10 +6,12 @@
 
 mod assignment;
 mod bracket;
+mod cells;
 mod check;
 mod command;
 mod completions;
 mod config;
+mod crowd;
 mod decimal;
 mod demo;
 mod derive;
@@ -23,6 +25,7 @@ mod lab;
 mod list;
 mod manual;
 mod methods;
+mod motion_options;
 mod open;
 mod output;
 mod play;
@@ -31,6 +34,8 @@ mod report;
 mod rows;
 mod run;
 mod script;
+mod section;
+mod starts;
 mod stderr;
 mod theme;
 

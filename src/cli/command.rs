@@ -25,6 +25,7 @@ use super::methods;
 use super::play;
 use super::record;
 use super::run;
+use super::section;
 use super::stderr;
 use super::theme;
 use crate::diagnostic::nearest;
@@ -71,6 +72,7 @@ enum Command {
     Check(check::Arguments),
     Bracket(bracket::Arguments),
     Run(Box<run::Arguments>),
+    Section(Box<section::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -118,6 +120,7 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Check(arguments) => check::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
+        Command::Section(arguments) => section::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

@@ -98,7 +98,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
     assignment::begin_at(&mut model, &given);
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
-    let settings = settings(arguments, &model)?;
+    let settings = settings(arguments.step, arguments.tolerance, &model)?;
 
     if arguments.method.is_none()
         && let Some(mistake) = open::unknown_method(&model)
@@ -111,7 +111,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
     let columns: Vec<_> = observed
-        .map(|text| assignment::column(model, &mut equations.pool, text))
+        .map(|text| assignment::column(model, &mut equations.pool, text, "--observe"))
         .collect::<Result<_, _>>()?;
     let system = derived
         .compile(&columns)
@@ -131,7 +131,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let method =
         choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
 
-    misplaced(arguments, method)?;
+    misplaced(arguments.step, arguments.tolerance, method)?;
     cautions::before(&system, method);
 
     let header = header(&model, &system, &parameters, method, settings);
@@ -166,10 +166,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 }
 
 /// The step and tolerance: as requested, otherwise the file's.
-fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandError> {
+pub(super) fn settings(
+    step: Option<f64>,
+    tolerance: Option<f64>,
+    model: &Model,
+) -> Result<Settings, CommandError> {
     let wrong = |what: String| Err(CommandError::WrongUse(what));
     let shown = printable::number;
-    match (arguments.step, arguments.tolerance) {
+    match (step, tolerance) {
         (Some(step), _) if step <= 0.0 => {
             wrong(format!("--step {}: a step is above zero", shown(step)))
         }
@@ -184,14 +188,18 @@ fn settings(arguments: &Arguments, model: &Model) -> Result<Settings, CommandErr
 }
 
 /// A step is for fixed-step methods, a tolerance for adaptive ones.
-fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError> {
+pub(super) fn misplaced(
+    step: Option<f64>,
+    tolerance: Option<f64>,
+    method: &Method,
+) -> Result<(), CommandError> {
     let name = method.name;
     let wrong = |what: String| Err(CommandError::WrongUse(what));
     match method.stepping {
-        Stepping::Adaptive if arguments.step.is_some() => {
+        Stepping::Adaptive if step.is_some() => {
             wrong(format!("--step: {name} chooses its steps by a tolerance, --tolerance"))
         }
-        Stepping::Fixed if arguments.tolerance.is_some() => {
+        Stepping::Fixed if tolerance.is_some() => {
             wrong(format!("--tolerance: {name} has a fixed step, --step"))
         }
         _ => Ok(()),
@@ -199,7 +207,7 @@ fn misplaced(arguments: &Arguments, method: &Method) -> Result<(), CommandError>
 }
 
 /// Refuses two columns with the same name, because they could not be distinguished.
-fn refuse_twins(system: &System) -> Result<(), CommandError> {
+pub(super) fn refuse_twins(system: &System) -> Result<(), CommandError> {
     let columns = &system.channels()[..system.columns()];
     for (i, column) in columns.iter().enumerate() {
         if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
@@ -213,7 +221,7 @@ fn refuse_twins(system: &System) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn header(
+pub(super) fn header(
     model: &Model,
     system: &System,
     parameters: &[f64],

@@ -12,6 +12,7 @@ mod list;
 mod manual;
 mod record;
 mod run;
+mod section;
 mod signals;
 mod write;
 

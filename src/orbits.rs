@@ -1,0 +1,15 @@
+//! Many orbits of one system, computed side by side on all cores.
+//!
+//! In: a compiled [`System`](crate::system::System), a method, a [`Start`] for each orbit. Out: one result an orbit, in
+//! the order asked for and the same to the last bit whatever the number of threads. Never here: files, tables, what is
+//! printed.
+
+mod energy_shell;
+mod pool;
+mod section;
+mod start;
+
+pub use energy_shell::{EnergyShell, NotOnShell, Root};
+pub use pool::{PoolError, in_order};
+pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings};
+pub use start::Start;
