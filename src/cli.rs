@@ -37,6 +37,7 @@ mod script;
 mod section;
 mod starts;
 mod stderr;
+mod sweep;
 mod theme;
 
 use command::unknown;

@@ -5,11 +5,15 @@
 //! printed.
 
 mod energy_shell;
+mod measure;
+mod outcome;
 mod pool;
 mod section;
 mod start;
 
 pub use energy_shell::{EnergyShell, NotOnShell, Root};
+pub use measure::{MEASURES, Measure, MeasuredOrbit, Zeros, measure_named};
+pub use outcome::{Outcome, RunPlan};
 pub use pool::{PoolError, in_order};
 pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings};
 pub use start::Start;

@@ -43,7 +43,7 @@ pub(super) enum Cell {
 
 impl Cell {
     /// The cell in comma-separated values.
-    fn plain(&self) -> String {
+    pub(super) fn plain(&self) -> String {
         match self {
             Cell::Count(n) => n.to_string(),
             Cell::Number(x) => shortest(*x).unwrap_or_default(),

@@ -27,6 +27,7 @@ use super::record;
 use super::run;
 use super::section;
 use super::stderr;
+use super::sweep;
 use super::theme;
 use crate::diagnostic::nearest;
 use crate::preset::{Catalog, is_path};
@@ -73,6 +74,7 @@ enum Command {
     Bracket(bracket::Arguments),
     Run(Box<run::Arguments>),
     Section(Box<section::Arguments>),
+    Sweep(Box<sweep::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -121,6 +123,7 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
         Command::Section(arguments) => section::perform(&arguments, &interrupt),
+        Command::Sweep(arguments) => sweep::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

@@ -44,6 +44,7 @@ pub(super) struct MotionOptions {
 }
 
 /// A model as the options set it, before anything is derived from it.
+#[derive(Clone)]
 pub(super) struct Reading {
     pub(super) document: Document,
     pub(super) model: Model,

@@ -113,7 +113,7 @@ impl Sense {
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let mut reading = arguments.motion.read()?;
-    let on = surface(&mut reading.model, &arguments.on)?;
+    let on = surface(&mut reading.model, &arguments.on, "--on")?;
     let event = add_section(&mut reading.model, on, arguments.direction.direction());
     let wanted = arguments.columns.as_deref().map(split);
     let extra =
@@ -150,8 +150,12 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     section.ending(interrupt)
 }
 
-/// The expression of the surface.
-fn surface(model: &mut Model, written: &str) -> Result<Expr, CommandError> {
+/// The expression of a surface, as the option `called` gives it, read into the pool of a model.
+pub(super) fn surface(
+    model: &mut Model,
+    written: &str,
+    called: &str,
+) -> Result<Expr, CommandError> {
     let mut pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Event, "a section");
     let read = scope.read(&mut pool, written);
@@ -161,14 +165,14 @@ fn surface(model: &mut Model, written: &str) -> Result<Expr, CommandError> {
             Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
         });
         let mistakes: Vec<Diagnostic> = mistakes.collect();
-        stderr::show(&report(written, "--on", &mistakes, stderr::has_colour()));
+        stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
         let written = printable::quoted(written);
-        let message = format!("--on: `{written}` is no expression of this system");
+        let message = format!("{called}: `{written}` is no expression of this system");
         return Err(CommandError::WrongUse(message));
     };
     if pool.symbols_of(e).is_empty() {
         let written = printable::quoted(written);
-        let message = format!("--on: `{written}` is a constant, which is never crossed");
+        let message = format!("{called}: `{written}` is a constant, which is never crossed");
         return Err(CommandError::WrongUse(message));
     }
     model.pool = pool;

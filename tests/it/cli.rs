@@ -14,6 +14,7 @@ mod record;
 mod run;
 mod section;
 mod signals;
+mod sweep;
 mod write;
 
 use std::path::Path;
