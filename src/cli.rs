@@ -4,6 +4,7 @@
 //! standard error, an exit code of [`EXITS`]. If the reader closes the pipe early (`| head`), a
 //! command ends quietly and successfully. Never here: mechanics, the integration of a motion.
 
+mod actions;
 mod assignment;
 mod bracket;
 mod cells;

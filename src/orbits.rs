@@ -4,6 +4,8 @@
 //! the order asked for and the same to the last bit whatever the number of threads. Never here: files, tables, what is
 //! printed.
 
+mod actions;
+mod effective_potential;
 mod energy_shell;
 mod measure;
 mod outcome;
@@ -11,6 +13,8 @@ mod pool;
 mod section;
 mod start;
 
+pub use actions::{ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row};
+pub use effective_potential::{EffectivePotential, Region};
 pub use energy_shell::{EnergyShell, NotOnShell, Root};
 pub use measure::{MEASURES, Measure, MeasuredOrbit, Zeros, measure_named};
 pub use outcome::{Outcome, RunPlan};

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use super::actions;
 use super::bracket;
 use super::check;
 use super::completions;
@@ -75,6 +76,7 @@ enum Command {
     Run(Box<run::Arguments>),
     Section(Box<section::Arguments>),
     Sweep(Box<sweep::Arguments>),
+    Actions(Box<actions::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -124,6 +126,7 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Run(arguments) => run::perform(&arguments, &interrupt),
         Command::Section(arguments) => section::perform(&arguments, &interrupt),
         Command::Sweep(arguments) => sweep::perform(&arguments, &interrupt),
+        Command::Actions(arguments) => actions::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

@@ -86,13 +86,22 @@ impl EnergyShell {
     /// # Errors
     /// Returns an error if the energy forbids the place, or if the number does not determine the energy.
     pub fn complete(&self, system: &System, start: &mut Start) -> Result<(), NotOnShell> {
-        let mut energies = Energies {
-            system,
-            observer: system.observer(&start.parameters),
-            values: vec![0.0; system.columns()],
-            start,
-            by: self.by,
-        };
+        let mut observer = system.observer(&start.parameters);
+        self.complete_by(system, &mut observer, start)
+    }
+
+    /// The same with an observer of the system at the parameters of the start.
+    ///
+    /// # Errors
+    /// Returns the errors of [`EnergyShell::complete`].
+    pub(super) fn complete_by(
+        &self,
+        system: &System,
+        observer: &mut Observer,
+        start: &mut Start,
+    ) -> Result<(), NotOnShell> {
+        let mut energies =
+            Energies { system, observer, values: vec![0.0; system.columns()], start, by: self.by };
         let name = energies.name();
         let rate = match energies.quadratic()? {
             Some([a, b, c]) => self.root_of([a, b, c - self.energy], &name)?,
@@ -165,6 +174,9 @@ impl EnergyShell {
         let mut best = (rate, (energies.at(rate)? - self.energy).abs());
         let mut rate = rate;
         for _ in 0..CORRECTIONS {
+            if best.1 <= f64::EPSILON * self.energy.abs() {
+                break;
+            }
             let missing = energies.at(rate)? - self.energy;
             let width = 1e-4 * rate.abs();
             let slope = (energies.at(rate + width)? - energies.at(rate - width)?) / (2.0 * width);
@@ -205,7 +217,7 @@ fn bisected(
 /// The energy as a function of one number of a start.
 struct Energies<'a> {
     system: &'a System,
-    observer: Observer,
+    observer: &'a mut Observer,
     values: Vec<f64>,
     start: &'a Start,
     by: InitialOverride,

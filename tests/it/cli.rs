@@ -1,5 +1,6 @@
 //! The command line, run as a program: its output and its exit codes.
 
+mod actions;
 mod bracket;
 mod check;
 mod completions;

@@ -158,6 +158,30 @@ fn each_direction_has_its_crossings_and_a_start_on_the_section_none() {
     near(times[0].split(',').nth(2).unwrap().parse().unwrap(), 2.0 * PI, 1e-14);
 }
 
+/// Just above its separatrix the pendulum passes its top so slowly that sin θ there has few digits: by symmetry the
+/// crossings are equally far apart, and each is one.
+#[test]
+fn a_slow_passage_is_one_crossing() {
+    let object = section(&[
+        "pendulum",
+        "--set=g=1",
+        "--init=theta=0",
+        "--energy=1.00000001",
+        "--solve=theta'",
+        "--on=sin(theta)",
+        "--direction=either",
+        "--until=60",
+        "--columns=theta",
+    ]);
+    let rows = rows(&object);
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    for (n, row) in (1..).zip(&rows) {
+        // T/2 = k K(k), k² = 2/(1 + E)
+        near(row[2], 10.943208310322342 * f64::from(n), 1e-7);
+        near(row[3], PI * f64::from(n), 1e-14 * f64::from(n));
+    }
+}
+
 const STARTS: &str = "y,p_y\n0,0\n0.1,0.2\n-0.25,0\n0.3,-0.1\n0.9,0\n0.2,0.3\n";
 
 fn with_starts(table: &str, arguments: &[&str]) -> Done {
