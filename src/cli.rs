@@ -4,12 +4,15 @@
 //! standard error, an exit code of [`EXITS`]. If the reader closes the pipe early (`| head`), a
 //! command ends quietly and successfully. Never here: mechanics, the integration of a motion.
 
+mod actions;
 mod assignment;
 mod bracket;
+mod cells;
 mod check;
 mod command;
 mod completions;
 mod config;
+mod crowd;
 mod decimal;
 mod demo;
 mod derive;
@@ -27,6 +30,7 @@ mod list;
 mod lyapunov;
 mod manual;
 mod methods;
+mod motion_options;
 mod open;
 mod orbit;
 mod output;
@@ -36,8 +40,11 @@ mod report;
 mod rows;
 mod run;
 mod script;
+mod section;
+mod starts;
 mod stderr;
 mod study;
+mod sweep;
 mod symmetries;
 mod theme;
 

@@ -22,6 +22,7 @@ pub mod job;
 pub mod mechanics;
 pub mod model;
 pub mod num;
+pub mod orbits;
 pub mod preset;
 pub mod printable;
 pub mod record;

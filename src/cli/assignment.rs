@@ -34,6 +34,18 @@ impl FromStr for Assignment {
     }
 }
 
+impl Assignment {
+    /// An assignment out of a table.
+    pub(super) fn of(name: &str, value: &str) -> Assignment {
+        Assignment { name: name.to_owned(), value: value.to_owned() }
+    }
+
+    /// The name.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+}
+
 /// The greatest length of an error message that quotes an invalid value.
 const LONGEST_REASON: usize = 300;
 
@@ -156,7 +168,11 @@ fn initial_value(
 }
 
 /// The initial value that a name refers to.
-fn place(model: &Model, name: &str, value: f64) -> Result<InitialOverride, CommandError> {
+pub(super) fn place(
+    model: &Model,
+    name: &str,
+    value: f64,
+) -> Result<InitialOverride, CommandError> {
     let coordinate = |name: &str| model.coordinate(name);
     let plain = coordinate(name).map(|i| InitialOverride::Position(i, value));
     // variables of brackets have neither velocities nor momenta at their start
@@ -185,18 +201,21 @@ fn label(model: &Model, given: &InitialOverride) -> String {
 }
 
 /// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the pool of the equations.
-pub(super) fn column(model: &Model, pool: &mut Pool, text: &str) -> Result<Channel, CommandError> {
+pub(super) fn column(
+    model: &Model,
+    pool: &mut Pool,
+    text: &str,
+    called: &str,
+) -> Result<Channel, CommandError> {
     let (name, written) = match text.split_once('=') {
         Some((name, expression)) => (name.trim(), expression.trim()),
         None => (text.trim(), text.trim()),
     };
     if name.is_empty() {
         let text = printable::quoted(text);
-        return Err(CommandError::WrongUse(format!(
-            "--observe {text}: a name stands before the ="
-        )));
+        return Err(CommandError::WrongUse(format!("{called} {text}: a name stands before the =")));
     }
-    let expression = expression(model, pool, written, "--observe")?;
+    let expression = expression(model, pool, written, called)?;
     Ok(Channel { written: name.to_owned(), expression })
 }
 

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use super::actions;
 use super::bracket;
 use super::check;
 use super::completions;
@@ -30,7 +31,9 @@ use super::orbit;
 use super::play;
 use super::record;
 use super::run;
+use super::section;
 use super::stderr;
+use super::sweep;
 use super::symmetries;
 use super::theme;
 use crate::diagnostic::nearest;
@@ -83,6 +86,9 @@ enum Command {
     Lyapunov(Box<lyapunov::Arguments>),
     Orbit(Box<orbit::Arguments>),
     Equilibria(Box<equilibria::Arguments>),
+    Section(Box<section::Arguments>),
+    Sweep(Box<sweep::Arguments>),
+    Actions(Box<actions::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
@@ -136,6 +142,9 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Lyapunov(arguments) => lyapunov::perform(&arguments, &interrupt),
         Command::Orbit(arguments) => orbit::perform(&arguments, &interrupt),
         Command::Equilibria(arguments) => equilibria::perform(&arguments, &interrupt),
+        Command::Section(arguments) => section::perform(&arguments, &interrupt),
+        Command::Sweep(arguments) => sweep::perform(&arguments, &interrupt),
+        Command::Actions(arguments) => actions::perform(&arguments, &interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, &interrupt),

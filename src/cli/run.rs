@@ -111,7 +111,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
     let columns: Vec<_> = observed
-        .map(|text| assignment::column(model, &mut equations.pool, text))
+        .map(|text| assignment::column(model, &mut equations.pool, text, "--observe"))
         .collect::<Result<_, _>>()?;
     let system = derived
         .compile(&columns)
@@ -207,7 +207,7 @@ pub(super) fn misplaced(
 }
 
 /// Refuses two columns with the same name, because they could not be distinguished.
-fn refuse_twins(system: &System) -> Result<(), CommandError> {
+pub(super) fn refuse_twins(system: &System) -> Result<(), CommandError> {
     let columns = &system.channels()[..system.columns()];
     for (i, column) in columns.iter().enumerate() {
         if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {

@@ -200,8 +200,10 @@ impl EventLocator {
         for event in 0..self.sides.len() {
             let coefficients = self.probe.event_functions().expanded(event);
             let mut polynomial = Polynomial { coefficients, length, soonest };
-            if polynomial.begins_at_zero() {
-                // the series has only the digits of an `f64`
+            let doubtful = polynomial.coefficients[0] * self.sides[event] <= 0.0;
+            if doubtful || polynomial.begins_at_zero() {
+                // the series has only the digits of an `f64`, which where its terms cancel (sin θ at π, slowly passed) may
+                // be too few for the sign
                 let exact = self.probe.exactly_at(stepper, event, piece.from)?;
                 polynomial.coefficients[0] = exact.high;
             }

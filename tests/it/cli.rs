@@ -1,5 +1,6 @@
 //! The command line, run as a program: its output and its exit codes.
 
+mod actions;
 mod bracket;
 mod check;
 mod completions;
@@ -13,7 +14,9 @@ mod list;
 mod manual;
 mod record;
 mod run;
+mod section;
 mod signals;
+mod sweep;
 mod write;
 
 use std::path::Path;

@@ -51,9 +51,10 @@ fn table_of(text: &str) -> Table {
 }
 
 /// External items that only some rooms may use: the item, its names in code, the rooms.
-const OUTSIDE: [(&str, &[&str], &[&str]); 4] = [
+const OUTSIDE: [(&str, &[&str], &[&str]); 5] = [
     ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
     ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
+    ("a pool of threads", &["rayon::"], &["orbits"]),
     ("files", &["std::fs", "fs::", "File::"], &["file", "preset", "shell", "cli"]),
     (
         "the terminal",

@@ -25,6 +25,7 @@ mod layers;
 mod mechanics;
 mod methods;
 mod occurrences;
+mod orbits;
 mod plot;
 mod poisson;
 mod preset;

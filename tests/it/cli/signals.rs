@@ -206,6 +206,37 @@ fn a_run_that_is_ended_has_written_its_rows_and_its_end() {
     }
 }
 
+/// A section that is ended has the crossings so far, in an object that is complete.
+#[test]
+fn a_section_that_is_ended_has_what_it_has() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    for _ in 0..TRIES {
+        let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", "--format=json"];
+        let mut child = command(home.path(), &arguments).stdout(Stdio::piped()).spawn().unwrap();
+        let mut out = child.stdout.take().unwrap();
+        let reader = thread::spawn(move || {
+            let mut text = String::new();
+            out.read_to_string(&mut text).unwrap();
+            text
+        });
+        watching(&mut child);
+        thread::sleep(Duration::from_millis(500));
+        signal(&child, Signal::INT);
+        assert_eq!(end(&mut child), Some(130));
+        let text = reader.join().unwrap();
+        let Ok(read) = serde_json::from_str::<serde_json::Value>(&text) else { continue };
+        let orbit = &read["orbits"][0];
+        if orbit["crossings"].as_u64().is_some_and(|crossings| crossings > 0) {
+            assert_eq!(orbit["status"], "stopped");
+            assert_eq!(orbit["message"], "stopped by a signal");
+            assert_eq!(read["rows"].as_array().unwrap().len() as u64, orbit["crossings"]);
+            return;
+        }
+    }
+    panic!("no crossings in {TRIES} tries");
+}
+
 /// Under `nohup` the program must continue when the terminal hangs up.
 #[test]
 fn nohup_is_heeded() {

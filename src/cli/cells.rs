@@ -1,0 +1,121 @@
+//! Tables whose cells are numbers, counts or words: as comma-separated values, as JSON, as text in columns.
+//!
+//! In: cells. Out: text. Never here: where they come from.
+
+use serde_json::{Map, Value};
+
+use super::decimal::shortest;
+use super::output::Form;
+use crate::num::short;
+use crate::printable;
+
+/// How a table is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(super) enum TableFormat {
+    /// For reading: short numbers in columns.
+    Text,
+    /// Comma-separated values, every digit; what is not a row stands in lines that begin with `#`.
+    Csv,
+    /// One JSON object.
+    Json,
+}
+
+impl TableFormat {
+    /// The form of its output.
+    pub(super) fn form(self) -> Form {
+        match self {
+            TableFormat::Text | TableFormat::Csv => Form::Text,
+            TableFormat::Json => Form::Json,
+        }
+    }
+}
+
+/// One cell.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Cell {
+    /// A place in an order.
+    Count(u64),
+    /// A number; what is not finite is left empty.
+    Number(f64),
+    /// A word.
+    Word(String),
+}
+
+impl Cell {
+    /// The cell in comma-separated values.
+    pub(super) fn plain(&self) -> String {
+        match self {
+            Cell::Count(n) => n.to_string(),
+            Cell::Number(x) => shortest(*x).unwrap_or_default(),
+            Cell::Word(word) => word.clone(),
+        }
+    }
+
+    /// The cell for reading.
+    fn brief(&self) -> String {
+        match self {
+            Cell::Number(x) if x.is_finite() => short(*x),
+            Cell::Number(_) => "–".to_owned(),
+            other => other.plain(),
+        }
+    }
+
+    /// The cell in JSON.
+    pub(super) fn value(&self) -> Value {
+        match self {
+            Cell::Count(n) => Value::from(*n),
+            Cell::Number(x) => Value::from(*x),
+            Cell::Word(word) => Value::from(word.clone()),
+        }
+    }
+}
+
+/// Lines of comma-separated values.
+pub(super) fn csv<'a>(rows: impl IntoIterator<Item = &'a [Cell]>) -> String {
+    rows.into_iter().map(|row| record(row.iter().map(Cell::plain))).collect()
+}
+
+/// One line of comma-separated values, quoted where that is needed.
+pub(super) fn record(fields: impl IntoIterator<Item = String>) -> String {
+    let fields = fields.into_iter().map(|field| {
+        let field = printable::line(&field).into_owned();
+        if field.contains([',', '"', '#']) {
+            format!("\"{}\"", field.replace('"', "\"\""))
+        } else {
+            field
+        }
+    });
+    fields.collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// Columns of text, numbers to the right.
+pub(super) fn text(names: &[String], rows: &[Vec<Cell>]) -> String {
+    let brief: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(Cell::brief).collect()).collect();
+    let width = |i: usize| {
+        let cells = brief.iter().filter_map(|row| row.get(i)).chain(names.get(i));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..names.len()).map(width).collect();
+    let line = |cells: &[String]| {
+        let cells = cells.iter().zip(&widths).map(|(cell, &width)| format!("{cell:>width$}"));
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
+    };
+    line(names) + &brief.iter().map(|row| line(row)).collect::<String>()
+}
+
+/// A JSON object with one member a line, and one line for each item of a list of lists or objects.
+pub(super) fn object(members: &Map<String, Value>) -> String {
+    let compound = |value: &Value| value.is_array() || value.is_object();
+    let member = |(key, value): (&String, &Value)| {
+        let key = Value::String(key.clone());
+        match value.as_array() {
+            Some(items) if items.iter().any(compound) => {
+                let lines: Vec<String> = items.iter().map(|item| format!("    {item}")).collect();
+                format!("  {key}: [\n{}\n  ]", lines.join(",\n"))
+            }
+            _ => format!("  {key}: {value}"),
+        }
+    };
+    format!("{{\n{}\n}}\n", members.iter().map(member).collect::<Vec<_>>().join(",\n"))
+}

@@ -1,0 +1,138 @@
+//! What commands on many orbits have in common: threads, the bar of progress, the report before the rows, the end.
+//!
+//! In: a number of orbits, what is done with one. Out: the results in order; text written. Never here: what an orbit is.
+
+use std::io::{IsTerminal, Write, stderr};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Map, Value};
+
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::output::Output;
+use super::report::Header;
+use crate::orbits::in_order;
+use crate::printable;
+
+/// How many orbits are computed at once.
+#[derive(Debug, clap::Args)]
+pub(super) struct Crowd {
+    /// The number of threads, all cores where it is left out; the output is the same.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+impl Crowd {
+    pub(super) fn threads(&self) -> usize {
+        let cores = || thread::available_parallelism().ok();
+        self.threads.or_else(cores).map_or(1, NonZeroUsize::get)
+    }
+}
+
+/// A shorter computation shows no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// A bar on standard error, shown only on a terminal and only if the computation is long.
+pub(super) struct Tally {
+    begun: Instant,
+    done: u64,
+    count: u64,
+    bar: Option<ProgressBar>,
+}
+
+impl Tally {
+    /// A tally of `count` items, of which `done` are there already.
+    pub(super) fn new(done: usize, count: usize) -> Tally {
+        Tally { begun: Instant::now(), done: done as u64, count: count as u64, bar: None }
+    }
+
+    /// One more is done.
+    pub(super) fn add(&mut self) {
+        self.done += 1;
+        if self.bar.is_none() && self.begun.elapsed() > PATIENCE && stderr().is_terminal() {
+            let style = ProgressStyle::with_template("{bar:40} {pos} of {len}  {eta} left");
+            let bar = ProgressBar::new(self.count);
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            self.bar = Some(bar);
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_position(self.done);
+        }
+    }
+}
+
+impl Drop for Tally {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Computes all items; after a signal those that are done before the first that is not.
+pub(super) fn collect<T: Send>(
+    crowd: &Crowd,
+    count: usize,
+    interrupt: &Interrupt,
+    work: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>, CommandError> {
+    interrupt.ends_by_itself(|| {});
+    let mut tally = Tally::new(0, count);
+    let mut results = Vec::new();
+    let take = |_, result| {
+        results.push(result);
+        tally.add();
+        ControlFlow::Continue(())
+    };
+    in_order(crowd.threads(), count, interrupt.cancel(), work, take)
+        .map_err(|why| CommandError::CouldNot(why.to_string()))?;
+    Ok(results)
+}
+
+/// Writes all of a text. A file that is moved into place is waited for after a signal, and so is what a signal left.
+pub(super) fn write(
+    mut out: Output,
+    text: &str,
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
+    if out.is_file() || interrupt.signal().is_some() {
+        interrupt.saves();
+    }
+    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    out.finish()
+}
+
+/// The members of a report that come first: version, title, parameters, method.
+pub(super) fn members(header: &Header) -> Map<String, Value> {
+    let mut members = Map::new();
+    members.insert("phaselab".to_owned(), header.phaselab.into());
+    members.insert("title".to_owned(), header.title.clone().into());
+    members.insert("parameters".to_owned(), header.parameters.clone().into());
+    members.insert("method".to_owned(), header.method.clone().into());
+    members
+}
+
+/// The same as `#` lines before comma-separated values.
+pub(super) fn lead(header: &Header) -> String {
+    let one_line = |text: &str| {
+        printable::line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
+    };
+    let fields = |fields: &Map<String, Value>| {
+        let fields = fields.iter().map(|(key, value)| match value {
+            Value::String(text) => format!("{key}={text}"),
+            other => format!("{key}={other}"),
+        });
+        fields.collect::<Vec<_>>().join(" ")
+    };
+    format!(
+        "# phaselab {}: {}\n# parameters: {}\n# method: {}\n",
+        header.phaselab,
+        one_line(&header.title),
+        fields(&header.parameters),
+        fields(&header.method)
+    )
+}

@@ -1,0 +1,128 @@
+//! The options of every command that computes motions: the system, its parameters and initial values, the method.
+//!
+//! In: options. Out: a model with the start they describe, then the compiled system and its method. Never here: what a
+//! command computes with them.
+
+use std::ffi::OsString;
+use std::sync::Arc;
+
+use super::assignment::{self, Assignment, number};
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::report::Header;
+use super::run::{header, misplaced, refuse_twins, settings};
+use super::{open, stderr};
+use crate::diagnostic::Document;
+use crate::experiment::{Derived, choose_method};
+use crate::integrate::{Method, Settings};
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::orbits::Start;
+use crate::system::System;
+
+/// A system, its start and its method.
+#[derive(Debug, clap::Args)]
+pub(super) struct MotionOptions {
+    /// A preset's name, or a file.
+    #[arg(value_name = "PRESET|FILE")]
+    pub(super) name: OsString,
+    /// Sets a parameter.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    set: Vec<Assignment>,
+    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    init: Vec<Assignment>,
+    /// The integrator, a name out of `phaselab methods`.
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
+    /// The step of an integrator of fixed step.
+    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
+    step: Option<f64>,
+    /// The relative tolerance of an integrator that chooses its steps.
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    tolerance: Option<f64>,
+}
+
+/// A model as the options set it, before anything is derived from it.
+#[derive(Clone)]
+pub(super) struct Reading {
+    pub(super) document: Document,
+    pub(super) model: Model,
+    pub(super) start: Start,
+    settings: Settings,
+}
+
+/// A compiled system with its start and its method.
+pub(super) struct Laid {
+    pub(super) model: Arc<Model>,
+    pub(super) equations: Arc<Equations>,
+    pub(super) system: System,
+    pub(super) start: Start,
+    pub(super) method: &'static Method,
+    pub(super) settings: Settings,
+}
+
+impl MotionOptions {
+    /// Reads the system and its start.
+    pub(super) fn read(&self) -> Result<Reading, CommandError> {
+        let document = open::find(&self.name)?;
+        let mut model = open::read(&document)?;
+        let parameters = assignment::parameters(&model, &self.set)?;
+        model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+        let overrides = assignment::initial(&model, &parameters, &self.init)?;
+        model.run.start = assignment::start(&model, &parameters, &self.init)?;
+        assignment::begin_at(&mut model, &overrides);
+        let settings = settings(self.step, self.tolerance, &model)?;
+        if self.method.is_none()
+            && let Some(mistake) = open::unknown_method(&model)
+        {
+            return Err(open::refuse(&document, &[mistake]));
+        }
+        let start = Start { time: model.run.start, parameters, overrides };
+        Ok(Reading { document, model, start, settings })
+    }
+
+    /// Derives and compiles a model, with further columns, each `EXPR` or `NAME=EXPR`, of the option `called`.
+    pub(super) fn compile(
+        &self,
+        reading: Reading,
+        columns: &[String],
+        called: &str,
+        interrupt: &Interrupt,
+    ) -> Result<Laid, CommandError> {
+        let Reading { document, model, start, settings } = reading;
+        let mut derived = open::derive(&document, model)?;
+        let Derived { model, equations } = &mut derived;
+        equations.pool.set_cancel(interrupt.cancel().clone());
+        let columns: Vec<_> = columns
+            .iter()
+            .map(|text| assignment::column(model, &mut equations.pool, text, called))
+            .collect::<Result<_, _>>()?;
+        let system = derived
+            .compile(&columns)
+            .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+        let Derived { model, equations } = derived;
+        refuse_twins(&system)?;
+        for name in system.redundant() {
+            stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
+        }
+        let of_file = self.method.is_none() && (self.step, self.tolerance) == (None, None);
+        if of_file && let Some(mistake) = open::unfit_method(&model, &system) {
+            return Err(open::refuse(&document, &[mistake]));
+        }
+        let name = self.method.as_deref().unwrap_or(&model.run.method);
+        let method =
+            choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
+        misplaced(self.step, self.tolerance, method)?;
+        (method.make)(&system, &settings).map_err(|why| CommandError::WrongUse(why.to_string()))?;
+        let (model, equations) = (Arc::new(model), Arc::new(equations));
+        Ok(Laid { model, equations, system, start, method, settings })
+    }
+}
+
+impl Laid {
+    /// The title, parameters, method and columns of a report.
+    pub(super) fn header(&self) -> Header {
+        header(&self.model, &self.system, &self.start.parameters, self.method, self.settings)
+    }
+}

@@ -1,0 +1,362 @@
+//! `phaselab section`: where orbits cross a surface of section.
+
+use std::path::PathBuf;
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::{self, number};
+use super::cells::{self, Cell, TableFormat};
+use super::crowd::{self, Crowd};
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::motion_options::{Laid, MotionOptions};
+use super::output::Output;
+use super::starts::Starts;
+use super::stderr;
+use crate::diagnostic::{Diagnostic, report};
+use crate::expr::Expr;
+use crate::model::{Allowed, Direction, Model, Scope};
+use crate::orbits::{
+    Crossings, EnergyShell, OrbitStatus, Root, SectionPlan, Start, add_section, crossings,
+};
+use crate::printable;
+use crate::system::InitialOverride;
+
+/// The crossings of orbits with a surface of section.
+///
+/// One row a crossing: the orbit, the number of the crossing, the time, and the columns of `run`.
+/// Crossings are located on the dense output of the method, their times as exact as the method's
+/// own; a start on the surface is no crossing. A periodic function of the time makes a
+/// stroboscopic section.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab section henon-heiles --on x --count 200 --columns y,p_y > section.csv
+  phaselab section henon-heiles --on x --orbits starts.csv --energy 1/8 --solve p_x
+  phaselab section duffing --on 'sin(w*t)' --count 5000 --columns \"x,x'\" -o attractor.csv
+  phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --until 1000 --format json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    motion: MotionOptions,
+    /// The expression that vanishes on the surface.
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    on: String,
+    /// Which crossings count.
+    #[arg(long, value_enum, default_value_t = Sense::Rising)]
+    direction: Sense,
+    /// The number of crossings after which an orbit ends; 100 where there is no --until either.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST))]
+    count: Option<u64>,
+    /// The time at which an orbit ends.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+    /// The columns after the time: names of columns, or expressions.
+    #[arg(long, value_name = "A,B,…", allow_hyphen_values = true)]
+    columns: Option<String>,
+    /// One orbit a row; the columns of the table set parameters or initial values.
+    #[arg(long, value_name = "TABLE.csv")]
+    orbits: Option<PathBuf>,
+    /// Completes each start to this energy, by the number of --solve.
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number)]
+    #[arg(requires = "solve")]
+    energy: Option<f64>,
+    /// The velocity or momentum that completes a start: its positive root, or with `-` its negative one.
+    #[arg(long, value_name = "NAME|-NAME", allow_hyphen_values = true, requires = "energy")]
+    solve: Option<String>,
+    #[command(flatten)]
+    crowd: Crowd,
+    /// How the crossings are written.
+    #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
+    format: TableFormat,
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The crossings of an orbit where nothing says how many.
+const COUNT: u64 = 100;
+
+/// The most crossings of an orbit.
+const MOST: u64 = 100_000_000;
+
+/// The steps without a crossing after which an orbit without an end in time is given up.
+const IDLE: u64 = 1_000_000;
+
+/// A direction of crossing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+enum Sense {
+    /// From below zero.
+    Rising,
+    /// From above zero.
+    Falling,
+    /// Both.
+    Either,
+}
+
+impl Sense {
+    fn direction(self) -> Direction {
+        match self {
+            Sense::Rising => Direction::Rising,
+            Sense::Falling => Direction::Falling,
+            Sense::Either => Direction::Either,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Sense::Rising => "rising",
+            Sense::Falling => "falling",
+            Sense::Either => "either",
+        }
+    }
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let mut reading = arguments.motion.read()?;
+    let on = surface(&mut reading.model, &arguments.on, "--on")?;
+    let event = add_section(&mut reading.model, on, arguments.direction.direction());
+    let wanted = arguments.columns.as_deref().map(split);
+    let extra =
+        wanted.as_ref().map_or_else(Vec::new, |wanted| unknown_columns(&reading.model, wanted));
+    let laid = arguments.motion.compile(reading, &extra, "--columns", interrupt)?;
+    let starts = match &arguments.orbits {
+        Some(path) => Starts::read(path)?.starts(&laid.model, &laid.start)?,
+        None => vec![laid.start.clone()],
+    };
+    let shell = shell(arguments, &laid.model)?;
+    let first = starts.iter().map(|start| start.time).fold(f64::INFINITY, f64::min);
+    if let Some(until) = arguments.until.filter(|&until| until < first) {
+        let [until, first] = [until, first].map(printable::number);
+        let message = format!("the motion begins at {first}; --until {until} is before it");
+        return Err(CommandError::WrongUse(message));
+    }
+    let count = arguments.count.or(arguments.until.is_none().then_some(COUNT));
+    let plan = SectionPlan { event, count, until: arguments.until, idle: IDLE };
+    let shown = shown_columns(&laid, wanted.as_deref())?;
+    let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
+
+    let one = |i: usize| {
+        let mut start: Start = starts[i].clone();
+        if let Some(shell) = &shell
+            && let Err(why) = shell.complete(&laid.system, &mut start)
+        {
+            return Crossings::refused(why);
+        }
+        crossings(&laid.system, laid.method, laid.settings, &start, &plan)
+    };
+    let orbits = crowd::collect(&arguments.crowd, starts.len(), interrupt, one)?;
+    let section = Section { laid: &laid, arguments, orbits: &orbits, shown: &shown };
+    crowd::write(out, &section.written(), interrupt)?;
+    section.ending(interrupt)
+}
+
+/// The expression of a surface, as the option `called` gives it, read into the pool of a model.
+pub(super) fn surface(
+    model: &mut Model,
+    written: &str,
+    called: &str,
+) -> Result<Expr, CommandError> {
+    let mut pool = model.pool.clone();
+    let mut scope = Scope::new(model, Allowed::Event, "a section");
+    let read = scope.read(&mut pool, written);
+    let Some(e) = read else {
+        let mistakes = scope.mistakes.into_iter().map(|mistake| {
+            let place = mistake.span.start..mistake.span.end;
+            Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
+        });
+        let mistakes: Vec<Diagnostic> = mistakes.collect();
+        stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
+        let written = printable::quoted(written);
+        let message = format!("{called}: `{written}` is no expression of this system");
+        return Err(CommandError::WrongUse(message));
+    };
+    if pool.symbols_of(e).is_empty() {
+        let written = printable::quoted(written);
+        let message = format!("{called}: `{written}` is a constant, which is never crossed");
+        return Err(CommandError::WrongUse(message));
+    }
+    model.pool = pool;
+    Ok(e)
+}
+
+/// The shell that completes the starts.
+fn shell(arguments: &Arguments, model: &Model) -> Result<Option<EnergyShell>, CommandError> {
+    let (Some(energy), Some(solve)) = (arguments.energy, &arguments.solve) else { return Ok(None) };
+    let (name, root) = match solve.strip_prefix('-') {
+        Some(name) => (name, Root::Negative),
+        None => (solve.as_str(), Root::Positive),
+    };
+    let by = assignment::place(model, name, 0.0)?;
+    if matches!(by, InitialOverride::Position(..)) && !model.is_poisson() {
+        let message = format!(
+            "--solve {}: a velocity or a momentum completes a start",
+            printable::quoted(name)
+        );
+        return Err(CommandError::WrongUse(message));
+    }
+    Ok(Some(EnergyShell { energy, by, root }))
+}
+
+/// The parts between commas that stand in no parentheses.
+fn split(list: &str) -> Vec<String> {
+    let (mut parts, mut depth) = (vec![String::new()], 0i32);
+    for character in list.chars() {
+        match character {
+            ',' if depth == 0 => parts.push(String::new()),
+            other => {
+                depth += i32::from(other == '(') - i32::from(other == ')');
+                if let Some(part) = parts.last_mut() {
+                    part.push(other);
+                }
+            }
+        }
+    }
+    parts.iter().map(|part| part.trim().to_owned()).filter(|part| !part.is_empty()).collect()
+}
+
+/// Those of the requested columns that are not columns of a run by themselves.
+fn unknown_columns(model: &Model, wanted: &[String]) -> Vec<String> {
+    let known = |name: &str| {
+        let coordinate = |name: &str| model.coordinate(name).is_some();
+        let rate = name.strip_suffix('\'').or(name.strip_prefix("p_"));
+        name == "t"
+            || name == "energy"
+            || coordinate(name)
+            || rate.is_some_and(|name| coordinate(name) && !model.is_poisson())
+            || name.strip_prefix("lambda_").is_some()
+            || model.observables.iter().any(|o| o.name == name)
+            || matches!(&model.mechanics, crate::model::Mechanics::Poisson { casimirs, .. }
+                if casimirs.iter().any(|c| c.0 == name))
+    };
+    let mut extra: Vec<String> = Vec::new();
+    for name in wanted {
+        if !known(name) && !extra.contains(name) {
+            extra.push(name.clone());
+        }
+    }
+    extra
+}
+
+/// A column by its name, and its place in a row of crossings.
+type Shown = (String, usize);
+
+/// The columns that are written.
+fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<Shown>, CommandError> {
+    let names = laid.header().columns;
+    let Some(wanted) = wanted else { return Ok(names.into_iter().zip(0..).collect()) };
+    let mut shown: Vec<Shown> = vec![("t".to_owned(), 0)];
+    for name in wanted.iter().filter(|name| *name != "t") {
+        let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
+        let Some(place) = names.iter().position(|n| n == called) else {
+            let message = format!(
+                "--columns: there is no column `{}`; there are {}",
+                printable::quoted(called),
+                names.join(", ")
+            );
+            return Err(CommandError::WrongUse(message));
+        };
+        shown.push((called.to_owned(), place));
+    }
+    Ok(shown)
+}
+
+/// All orbits, ready to be written.
+struct Section<'a> {
+    laid: &'a Laid,
+    arguments: &'a Arguments,
+    orbits: &'a [Crossings],
+    shown: &'a [Shown],
+}
+
+impl Section<'_> {
+    fn written(&self) -> String {
+        let columns: Vec<String> = ["orbit".to_owned(), "n".to_owned()]
+            .into_iter()
+            .chain(self.shown.iter().map(|(name, _)| name.clone()))
+            .collect();
+        let rows = self.rows();
+        match self.arguments.format {
+            TableFormat::Json => cells::object(&self.members(&columns, &rows)),
+            TableFormat::Csv => {
+                let on = format!("# section: {} {}\n", self.on(), self.arguments.direction.word());
+                let names = cells::record(columns);
+                let rows = cells::csv(rows.iter().map(Vec::as_slice));
+                crowd::lead(&self.laid.header()) + &on + &names + &rows + &self.remarks("# ")
+            }
+            TableFormat::Text => cells::text(&columns, &rows) + &self.remarks(""),
+        }
+    }
+
+    fn on(&self) -> String {
+        printable::line(&self.arguments.on).into_owned()
+    }
+
+    fn rows(&self) -> Vec<Vec<Cell>> {
+        let mut rows = Vec::new();
+        for (orbit, crossings) in (1..).zip(self.orbits) {
+            for (n, row) in (1..).zip(&crossings.rows) {
+                let numbers = self.shown.iter().map(|&(_, place)| Cell::Number(row[place]));
+                rows.push(
+                    [Cell::Count(orbit), Cell::Count(n)].into_iter().chain(numbers).collect(),
+                );
+            }
+        }
+        rows
+    }
+
+    fn members(&self, columns: &[String], rows: &[Vec<Cell>]) -> Map<String, Value> {
+        let mut members = crowd::members(&self.laid.header());
+        members.insert("on".to_owned(), self.arguments.on.clone().into());
+        members.insert("direction".to_owned(), self.arguments.direction.word().into());
+        members.insert("columns".to_owned(), json!(columns));
+        let rows = rows.iter().map(|row| row.iter().map(Cell::value).collect::<Value>());
+        members.insert("rows".to_owned(), rows.collect());
+        let orbits = (1u64..).zip(self.orbits).map(|(orbit, crossings)| {
+            json!({
+                "orbit": orbit,
+                "status": crossings.status.word(),
+                "message": crossings.message,
+                "crossings": crossings.rows.len(),
+            })
+        });
+        members.insert("orbits".to_owned(), orbits.collect());
+        members
+    }
+
+    /// A line for each orbit that did not end as it should.
+    fn remarks(&self, lead: &str) -> String {
+        let other = |(_, orbit): &(u64, &Crossings)| orbit.status != OrbitStatus::Completed;
+        let line = |(i, orbit): (u64, &Crossings)| {
+            let message = orbit.message.as_deref().unwrap_or_default();
+            let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+            format!("{lead}orbit {i}: {}: {}\n", orbit.status.word(), printable::line(&message))
+        };
+        (1u64..).zip(self.orbits).filter(other).map(line).collect()
+    }
+
+    /// The exit code: a failure where no orbit could be followed as it should.
+    fn ending(&self, interrupt: &Interrupt) -> Result<(), CommandError> {
+        if let Some(signal) = interrupt.signal() {
+            return Err(CommandError::Signal(signal));
+        }
+        let failed = |orbit: &&Crossings| {
+            matches!(orbit.status, OrbitStatus::Faulted | OrbitStatus::Refused)
+        };
+        let all = self.orbits.iter().filter(failed).collect::<Vec<_>>();
+        let Some(first) = all.first() else { return Ok(()) };
+        let why = first.message.clone().unwrap_or_default();
+        let message = match (all.len(), self.orbits.len()) {
+            (1, 1) => why,
+            (failed, orbits) => {
+                format!(
+                    "{failed} of {orbits} orbits could not be followed to the end; the first: {why}"
+                )
+            }
+        };
+        if all.len() == self.orbits.len() {
+            return Err(CommandError::CouldNot(message));
+        }
+        stderr::tell(&message);
+        Ok(())
+    }
+}

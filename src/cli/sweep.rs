@@ -1,0 +1,313 @@
+//! `phaselab sweep`: one run a row of a table or a grid.
+
+mod identity;
+mod journal;
+mod merge;
+mod table;
+
+use std::io::Write;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use serde_json::{Value, json};
+
+use super::assignment::number;
+use super::cells::{self, Cell, TableFormat};
+use super::crowd::{self, Crowd, Tally};
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::motion_options::MotionOptions;
+use super::output::{Form, Output};
+use super::starts::{Axis, Starts};
+use super::stderr;
+use crate::orbits::in_order;
+use crate::printable;
+
+use identity::{Identity, Shard};
+use journal::Journal;
+use table::{MeasureName, Row, Table};
+
+/// One run per row of a table or point of a grid, in parallel.
+///
+/// Each column of the table, or axis of the grid, sets a parameter or an initial value. One row
+/// comes out for each: what was set, the status, the columns of `run` at the end, the drift of the
+/// energy, the measures. The bytes are the same whatever the number of threads. With -o the rows
+/// are kept in a journal beside the file until all are there, and --resume goes on after any end.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab sweep pendulum --grid theta=0.1:3:30 --until 30 --measure period > periods.csv
+  phaselab sweep duffing --grid gamma=0:0.5:11 --grid x=-1:1:3 --until 100 -o duffing.csv
+  phaselab sweep henon-heiles --over starts.csv --measure 'escape=x^2+y^2-4' --resume -o escape.csv
+  phaselab sweep planet --over starts.csv --shard 3/16 --resume -o planet-3.csv
+  phaselab sweep --merge planet-*.csv -o planet.csv")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    motion: Option<MotionOptions>,
+    /// One run a row; the columns of the table set parameters or initial values.
+    #[arg(long, value_name = "TABLE.csv", conflicts_with = "grid")]
+    over: Option<PathBuf>,
+    /// An axis of a grid, evenly spaced; repeatable, the last varies fastest.
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    grid: Vec<Axis>,
+    /// When a run ends; where it is left out, the file says, or 10 after the start.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+    /// One more column: period, period=EXPR, escape=EXPR, crossings=EXPR.
+    #[arg(long, value_name = "NAME[=EXPR]", allow_hyphen_values = true)]
+    measure: Vec<MeasureName>,
+    /// Every Nth row only, from the Ith on, for machines side by side.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Goes on with the sweep that -o names, where an earlier one was ended or killed.
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// Puts all shards of one sweep together.
+    #[arg(long, value_name = "SHARD", num_args = 1..)]
+    #[arg(conflicts_with_all = ["name", "over", "grid", "measure", "shard", "resume", "until"])]
+    merge: Vec<PathBuf>,
+    #[command(flatten)]
+    crowd: Crowd,
+    /// How the rows are written.
+    #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
+    format: TableFormat,
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let wrong = |message: &str| Err(CommandError::WrongUse(message.to_owned()));
+    if !arguments.merge.is_empty() {
+        if arguments.format != TableFormat::Csv {
+            return wrong("--merge: shards are put together as comma-separated values");
+        }
+        return merge::perform(&arguments.merge, arguments.output.as_deref());
+    }
+    let Some(motion) = &arguments.motion else {
+        return wrong("a sweep is of a preset or a file, or --merge puts shards together");
+    };
+    if arguments.format != TableFormat::Csv && (arguments.shard.is_some() || arguments.resume) {
+        return wrong("--shard and --resume write comma-separated values, --format csv");
+    }
+    let starts = match &arguments.over {
+        Some(path) => Starts::read(path)?,
+        None if arguments.grid.is_empty() => {
+            return wrong(
+                "what to sweep over is a table, --over TABLE.csv, or a grid, --grid NAME=FROM:TO:COUNT",
+            );
+        }
+        None => Starts::grid(&arguments.grid)?,
+    };
+    let table = Table::new(motion, &starts, arguments.until, &arguments.measure, interrupt)?;
+    let sweep = Sweep {
+        identity: Identity::of(&table, arguments.shard),
+        places: arguments.shard.map_or(0..table.count(), |s| 0..s.count(table.count())),
+        table,
+        arguments,
+        interrupt,
+    };
+    interrupt.ends_by_itself(|| {});
+    match (arguments.format, &arguments.output) {
+        (TableFormat::Csv, Some(path)) if journal::is_regular(path) => sweep.into_file(path),
+        (TableFormat::Csv, path) if !arguments.resume => sweep.into_stream(path.as_deref()),
+        (TableFormat::Csv, _) => {
+            wrong("--resume: -o names no regular file, which could be gone on with")
+        }
+        _ => sweep.whole(),
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Shard, String> {
+        let form = "write it as I/N, the Ith of N, from 1/N to N/N";
+        let (index, of) = text.split_once('/').ok_or(form)?;
+        let parse = |part: &str| part.trim().parse::<usize>().map_err(|_| form.to_owned());
+        let (index, of) = (parse(index)?, parse(of)?);
+        if index == 0 || index > of {
+            return Err(form.to_owned());
+        }
+        Ok(Shard { index, of })
+    }
+}
+
+/// A sweep that is about to be computed.
+struct Sweep<'a> {
+    identity: Identity,
+    /// The places in this shard, from 0.
+    places: std::ops::Range<usize>,
+    table: Table,
+    arguments: &'a Arguments,
+    interrupt: &'a Interrupt,
+}
+
+/// How many rows were not completed, and the first of them.
+#[derive(Default)]
+struct Failures {
+    count: usize,
+    first: Option<String>,
+}
+
+impl Failures {
+    fn note(&mut self, index: usize, row: &Row) {
+        if let Some(message) = &row.message {
+            self.count += 1;
+            self.first.get_or_insert_with(|| format!("row {}, {message}", index + 1));
+        }
+    }
+
+    fn tell(&self) {
+        if let Some(first) = &self.first {
+            let count = self.count;
+            let rows = if count == 1 { "row was" } else { "rows were" };
+            let first = first.split_whitespace().collect::<Vec<_>>().join(" ");
+            stderr::tell(&format!("{count} {rows} not completed; the first: {first}"));
+        }
+    }
+}
+
+impl Sweep<'_> {
+    /// The row of the table at a place of this shard.
+    fn index(&self, place: usize) -> usize {
+        self.arguments.shard.map_or(place, |shard| shard.row(place))
+    }
+
+    /// The lines before the rows.
+    fn head(&self) -> String {
+        crowd::lead(&self.table.header())
+            + &format!("{}\n", self.identity.line())
+            + &cells::record(self.table.columns())
+    }
+
+    fn pool_failed(why: impl ToString) -> CommandError {
+        CommandError::CouldNot(why.to_string())
+    }
+
+    /// Ends with the signal, if one came.
+    fn ended(&self) -> Result<(), CommandError> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
+    }
+
+    /// Writes each row as soon as all before it are written.
+    fn into_stream(self, path: Option<&Path>) -> Result<(), CommandError> {
+        let mut out = Output::open(path, Form::Text)?;
+        let (mut failures, mut failed) = (Failures::default(), None);
+        let mut tally = Tally::new(0, self.places.len());
+        let head = out.write_all(self.head().as_bytes());
+        head.map_err(|error| out.failed(&error))?;
+        let mut written = 0;
+        let take = |place, row: Option<Row>| {
+            let Some(row) = row else { return ControlFlow::Break(()) };
+            failures.note(self.index(place), &row);
+            let line = cells::record(row.plain());
+            if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
+                failed = Some(out.failed(&error));
+                return ControlFlow::Break(());
+            }
+            written += 1;
+            tally.add();
+            ControlFlow::Continue(())
+        };
+        let work = |place| self.table.row(self.index(place));
+        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
+        in_order(threads, self.places.len(), cancel, work, take).map_err(Self::pool_failed)?;
+        drop(tally);
+        if let Some(failed) = failed {
+            return Err(failed);
+        }
+        if self.interrupt.signal().is_some() {
+            let line = format!("# stopped: {written} of {} rows\n", self.places.len());
+            out.write_all(line.as_bytes()).map_err(|error| out.failed(&error))?;
+        }
+        out.finish()?;
+        failures.tell();
+        self.ended()
+    }
+
+    /// Keeps rows in a journal, and writes the file when all are there.
+    fn into_file(self, path: &Path) -> Result<(), CommandError> {
+        let resume = self.arguments.resume;
+        if resume && journal::is_complete(path, &self.identity)? {
+            journal::discard(path);
+            stderr::tell(&format!("{} is complete", printable::path(path)));
+            return Ok(());
+        }
+        let (journal, mut lines) = Journal::open(path, &self.identity, self.places.len(), resume)?;
+        let missing: Vec<usize> = self.places.clone().filter(|&p| lines[p].is_none()).collect();
+        let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
+        let (mut failures, mut failed) = (Failures::default(), None);
+        // a row is in the journal before anything waits for those before it
+        let work = |i: usize| {
+            let place = missing[i];
+            let row = self.table.row(self.index(place))?;
+            let line = cells::record(row.plain());
+            let noted = journal.note(place, &line);
+            Some((row, line, noted))
+        };
+        let take = |i: usize, done: Option<(Row, String, std::io::Result<()>)>| {
+            let Some((row, line, noted)) = done else { return ControlFlow::Break(()) };
+            if let Err(error) = noted {
+                failed = Some(CommandError::writing(&journal.name(), &error));
+                return ControlFlow::Break(());
+            }
+            failures.note(self.index(missing[i]), &row);
+            lines[missing[i]] = Some(line);
+            tally.add();
+            ControlFlow::Continue(())
+        };
+        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
+        in_order(threads, missing.len(), cancel, work, take).map_err(Self::pool_failed)?;
+        drop(tally);
+        if let Some(failed) = failed {
+            return Err(failed);
+        }
+        if self.interrupt.signal().is_some() {
+            stderr::tell(&format!("the rows so far are in {}; --resume goes on", journal.name()));
+            return self.ended();
+        }
+        let out = Output::open(Some(path), Form::Text)?;
+        let rows: String = lines.into_iter().flatten().collect();
+        crowd::write(out, &(self.head() + &rows), self.interrupt)?;
+        journal.remove();
+        failures.tell();
+        Ok(())
+    }
+
+    /// Writes all rows at once, as JSON or for reading.
+    fn whole(self) -> Result<(), CommandError> {
+        let out = Output::open(self.arguments.output.as_deref(), self.arguments.format.form())?;
+        let work = |place| self.table.row(self.index(place));
+        let crowd = &self.arguments.crowd;
+        let rows = crowd::collect(crowd, self.places.len(), self.interrupt, work)?;
+        let rows: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
+        let mut failures = Failures::default();
+        rows.iter().enumerate().for_each(|(i, row)| failures.note(i, row));
+        let cells: Vec<Vec<Cell>> = rows.iter().map(|row| row.cells.clone()).collect();
+        let columns = self.table.columns();
+        let text = match self.arguments.format {
+            TableFormat::Json => {
+                let mut members = crowd::members(&self.table.header());
+                members.insert("columns".to_owned(), columns.into());
+                let messages = (1..).zip(&rows).filter_map(|(n, row): (u64, &Row)| {
+                    let message = row.message.as_ref()?;
+                    Some(json!({ "row": n, "message": message }))
+                });
+                let messages: Value = messages.collect();
+                let rows = cells.iter().map(|row| row.iter().map(Cell::value).collect::<Value>());
+                members.insert("rows".to_owned(), rows.collect());
+                members.insert("messages".to_owned(), messages);
+                let status =
+                    if self.interrupt.signal().is_some() { "stopped" } else { "completed" };
+                members.insert("status".to_owned(), status.into());
+                cells::object(&members)
+            }
+            _ => cells::text(&columns, &cells),
+        };
+        crowd::write(out, &text, self.interrupt)?;
+        failures.tell();
+        self.ended()
+    }
+}

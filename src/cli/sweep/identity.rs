@@ -1,0 +1,106 @@
+//! Which sweep a file belongs to: a digest of everything that its rows depend on.
+//!
+//! In: a table. Out: one `#` line, the same for all shards but for their number. Never here: rows.
+
+use super::table::Table;
+
+/// One part of a sweep: every Nth row, from the Ith on, counted from 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Shard {
+    pub(super) index: usize,
+    pub(super) of: usize,
+}
+
+impl Shard {
+    /// The row of the table at a place of the shard, both from 0.
+    pub(super) fn row(self, place: usize) -> usize {
+        self.index - 1 + place * self.of
+    }
+
+    /// How many of so many rows it has.
+    pub(super) fn count(self, rows: usize) -> usize {
+        (rows + self.of - self.index) / self.of
+    }
+}
+
+/// The identity of a sweep, or of a shard of one.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Identity {
+    /// The version of the program and a digest.
+    pub(super) digest: String,
+    /// The rows of the whole sweep.
+    pub(super) rows: usize,
+    /// The shard.
+    pub(super) shard: Option<Shard>,
+}
+
+/// What begins the line.
+const LEAD: &str = "# sweep: ";
+
+impl Identity {
+    pub(super) fn of(table: &Table, shard: Option<Shard>) -> Identity {
+        let digest = format!("{:016x}", digest(&table.everything()));
+        Identity { digest, rows: table.count(), shard }
+    }
+
+    /// The line in a file.
+    pub(super) fn line(&self) -> String {
+        let Identity { digest, rows, shard } = self;
+        let shard = shard.map_or(String::new(), |s| format!(" shard={}/{}", s.index, s.of));
+        format!("{LEAD}digest={digest} rows={rows}{shard}")
+    }
+
+    /// Reads a line of a file.
+    pub(super) fn read(line: &str) -> Option<Identity> {
+        let mut fields = line.strip_prefix(LEAD)?.split(' ');
+        let digest = fields.next()?.strip_prefix("digest=")?.to_owned();
+        let rows = fields.next()?.strip_prefix("rows=")?.parse().ok()?;
+        let shard = match fields.next() {
+            Some(field) => Some(field.strip_prefix("shard=")?.parse().ok()?),
+            None => None,
+        };
+        Some(Identity { digest, rows, shard })
+    }
+}
+
+/// The hash of Fowler, Noll and Vo, FNV-1a with 64 bits: it tells accidents apart, not forgeries.
+fn digest(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The values of the authors' own test vectors.
+    #[test]
+    fn the_digest_is_that_of_its_authors() {
+        assert_eq!(digest(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(digest(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(digest(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+
+    #[test]
+    fn shards_have_each_row_once() {
+        for rows in [0, 1, 7, 12] {
+            for of in 1..6 {
+                let shards = (1..=of).map(|index| Shard { index, of });
+                let mut all: Vec<usize> =
+                    shards.flat_map(|s| (0..s.count(rows)).map(move |p| s.row(p))).collect();
+                all.sort_unstable();
+                assert_eq!(all, (0..rows).collect::<Vec<_>>(), "{rows} in {of}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_reads_back() {
+        for shard in [None, Some(Shard { index: 3, of: 8 })] {
+            let identity = Identity { digest: "0123456789abcdef".to_owned(), rows: 9, shard };
+            assert_eq!(Identity::read(&identity.line()), Some(identity));
+        }
+        assert_eq!(Identity::read("# sweep: digest=1 rows=x"), None);
+        assert_eq!(Identity::read("x,y"), None);
+    }
+}

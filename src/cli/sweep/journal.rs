@@ -1,0 +1,121 @@
+//! The rows of an unfinished sweep, kept on the disk as they are computed.
+//!
+//! In: rows in any order. Out: a file beside the one to be written, which survives a kill at any moment: a line counts
+//! once its end is there. Never here: how a row is computed.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use rustix::fs::{FlockOperation, flock};
+
+use super::identity::Identity;
+use crate::cli::failure::CommandError;
+use crate::printable;
+
+/// A journal that is being written.
+pub(super) struct Journal {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+/// The journal of an output file.
+fn path_of(output: &Path) -> PathBuf {
+    let mut name = output.file_name().unwrap_or_default().to_owned();
+    name.push(".journal");
+    output.with_file_name(name)
+}
+
+/// Whether an output is, or will be, a regular file.
+pub(super) fn is_regular(path: &Path) -> bool {
+    fs::metadata(path).map_or(true, |about| about.is_file())
+}
+
+/// Whether an output is the complete file of this sweep; one of another sweep is refused.
+pub(super) fn is_complete(path: &Path, identity: &Identity) -> Result<bool, CommandError> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(CommandError::reading(path, &error)),
+    };
+    let mut lines = text.lines().take_while(|line| line.starts_with('#'));
+    if lines.find_map(Identity::read).as_ref() == Some(identity) {
+        return Ok(true);
+    }
+    let path = printable::path(path);
+    let message = format!("{path} is not of this sweep: --resume leaves it as it is");
+    Err(CommandError::WrongUse(message))
+}
+
+/// Removes the journal of a complete file, left by a kill between the two.
+pub(super) fn discard(output: &Path) {
+    let _ = fs::remove_file(path_of(output));
+}
+
+impl Journal {
+    /// Begins a journal, or goes on with one. Returns with it the line of each place that is known.
+    pub(super) fn open(
+        output: &Path,
+        identity: &Identity,
+        places: usize,
+        resume: bool,
+    ) -> Result<(Journal, Vec<Option<String>>), CommandError> {
+        let path = path_of(output);
+        let name = printable::path(&path);
+        let failed = |error: io::Error| CommandError::writing(&name, &error);
+        let mut file =
+            OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
+        if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
+            let message = format!("{name} is being written by another phaselab");
+            return Err(CommandError::WrongUse(message));
+        }
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(failed)?;
+        // a line without its end was being written when the program was killed
+        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let text = String::from_utf8_lossy(&bytes[..whole]);
+        let mut lines = vec![None; places];
+        let mut written = text.split_inclusive('\n');
+        if let Some(first) = written.next() {
+            if Identity::read(first.trim_end()).as_ref() != Some(identity) {
+                let message = format!(
+                    "{name} is the journal of another sweep; remove it, or write to another file"
+                );
+                return Err(CommandError::WrongUse(message));
+            }
+            if !resume {
+                let message = format!("{name} has an unfinished sweep; --resume goes on with it");
+                return Err(CommandError::WrongUse(message));
+            }
+        }
+        for line in written {
+            let Some((place, row)) = line.split_once(' ') else { continue };
+            if let Some(known) = place.parse().ok().and_then(|place: usize| lines.get_mut(place)) {
+                *known = Some(row.to_owned());
+            }
+        }
+        file.set_len(whole as u64).map_err(failed)?;
+        if whole == 0 {
+            let line = format!("{}\n", identity.line());
+            file.write_all(line.as_bytes()).map_err(failed)?;
+        }
+        Ok((Journal { path, file: Mutex::new(file) }, lines))
+    }
+
+    /// Notes the line of a place.
+    pub(super) fn note(&self, place: usize, line: &str) -> io::Result<()> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(format!("{place} {line}").as_bytes())
+    }
+
+    /// Its name in messages.
+    pub(super) fn name(&self) -> String {
+        printable::path(&self.path)
+    }
+
+    /// Removes it, once the file is written. What cannot be removed is told apart by its sweep.
+    pub(super) fn remove(self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}

@@ -1,0 +1,254 @@
+//! The table of a sweep: what is set in each row, and the row that comes out.
+//!
+//! In: starts, measures. Out: for each start a row of cells. Never here: threads, files.
+
+use std::str::FromStr;
+
+use super::super::assignment;
+use super::super::cells::Cell;
+use super::super::failure::CommandError;
+use super::super::interrupt::Interrupt;
+use super::super::motion_options::{Laid, MotionOptions, Reading};
+use super::super::report::Header;
+use super::super::section::surface;
+use super::super::starts::Starts;
+use crate::diagnostic::nearest;
+use crate::model::Direction;
+use crate::orbits::{
+    MEASURES, Measure, MeasuredOrbit, OrbitStatus, RunPlan, Start, Zeros, add_section,
+    measure_named,
+};
+use crate::printable;
+use crate::system::{InitialOverride, System};
+
+/// How long a run is where nothing says so.
+const LENGTH: f64 = 10.0;
+
+/// A measure as it is asked for, `NAME` or `NAME=EXPR`.
+#[derive(Clone)]
+pub(super) struct MeasureName {
+    written: String,
+    measure: &'static Measure,
+    expression: Option<String>,
+}
+
+impl std::fmt::Debug for MeasureName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+impl FromStr for MeasureName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<MeasureName, String> {
+        let (name, expression) = match text.split_once('=') {
+            Some((name, expression)) => (name.trim(), Some(expression.trim().to_owned())),
+            None => (text.trim(), None),
+        };
+        let Some(measure) = measure_named(name) else {
+            let names = MEASURES.iter().map(|measure| measure.name);
+            return Err(match nearest(name, names.clone()) {
+                Some(near) => format!("there is no such measure; did you mean `{near}`?"),
+                None => format!("the measures are {}", names.collect::<Vec<_>>().join(", ")),
+            });
+        };
+        if measure.of == Zeros::Given && expression.is_none() {
+            return Err(format!("write it as {name}=EXPR: it is {}", measure.about));
+        }
+        Ok(MeasureName { written: text.trim().to_owned(), measure, expression })
+    }
+}
+
+/// A measure with the system that it is taken on.
+struct Taken {
+    name: MeasureName,
+    system: System,
+    event: String,
+}
+
+/// What a column of the table sets.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Set {
+    Parameter(usize),
+    Initial(InitialOverride),
+    Time,
+}
+
+/// All rows of a sweep.
+pub(super) struct Table {
+    laid: Laid,
+    plan: RunPlan,
+    names: Vec<String>,
+    set: Vec<Set>,
+    starts: Vec<Start>,
+    until: Option<f64>,
+    measures: Vec<Taken>,
+    /// The text of the file.
+    text: String,
+}
+
+/// One row that came out.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Row {
+    pub(super) cells: Vec<Cell>,
+    /// Why the run was not completed.
+    pub(super) message: Option<String>,
+}
+
+impl Row {
+    /// Its cells as comma-separated values have them.
+    pub(super) fn plain(&self) -> impl Iterator<Item = String> {
+        self.cells.iter().map(Cell::plain)
+    }
+}
+
+impl Table {
+    pub(super) fn new(
+        motion: &MotionOptions,
+        starts: &Starts,
+        until: Option<f64>,
+        measures: &[MeasureName],
+        interrupt: &Interrupt,
+    ) -> Result<Table, CommandError> {
+        let reading = motion.read()?;
+        let text = reading.document.text.clone();
+        let base = reading.start.clone();
+        let all = starts.starts(&reading.model, &base)?;
+        let set = |name: &String| -> Result<Set, CommandError> {
+            Ok(match reading.model.parameter(name) {
+                Some(index) => Set::Parameter(index),
+                None if name == "t" => Set::Time,
+                None => Set::Initial(assignment::place(&reading.model, name, 0.0)?),
+            })
+        };
+        let set = starts.names.iter().map(set).collect::<Result<Vec<Set>, _>>()?;
+        let taken = |name: &MeasureName| taken(motion, reading.clone(), name, interrupt);
+        let measures = measures.iter().map(taken).collect::<Result<Vec<Taken>, _>>()?;
+        let laid = motion.compile(reading, &[], "--observe", interrupt)?;
+        let until = until.or(laid.model.run.until);
+        if let Some((row, start)) =
+            all.iter().enumerate().find(|(_, s)| until.is_some_and(|until| until < s.time))
+        {
+            let start = printable::number(start.time);
+            let message = format!("row {} begins at {start}, after the end, --until", row + 1);
+            return Err(CommandError::WrongUse(message));
+        }
+        let plan = RunPlan {
+            model: laid.model.clone(),
+            equations: laid.equations.clone(),
+            system: laid.system.clone(),
+            method: laid.method.name.to_owned(),
+            settings: laid.settings,
+        };
+        let names = starts.names.clone();
+        Ok(Table { laid, plan, names, set, starts: all, until, measures, text })
+    }
+
+    /// The number of rows.
+    pub(super) fn count(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The report before the rows.
+    pub(super) fn header(&self) -> Header {
+        self.laid.header()
+    }
+
+    /// The names of the columns.
+    pub(super) fn columns(&self) -> Vec<String> {
+        let set = self.names.iter().cloned();
+        let end = self.header().columns;
+        let measures = self.measures.iter().map(|taken| taken.name.written.clone());
+        let words = ["status".to_owned()];
+        let drift = ["energy_drift".to_owned()];
+        set.chain(words).chain(end).chain(drift).chain(measures).collect()
+    }
+
+    /// Everything that the rows depend on.
+    pub(super) fn everything(&self) -> Vec<u8> {
+        let header = self.header();
+        let parts = [
+            header.phaselab.to_owned(),
+            self.text.clone(),
+            format!("{:?} {:?}", header.parameters, header.method),
+            format!("{:?}", self.columns()),
+            format!("{:?}", self.until),
+            format!("{:?}", self.starts),
+        ];
+        parts.join("\0").into_bytes()
+    }
+
+    /// Computes a row; `None` if it was cancelled.
+    pub(super) fn row(&self, index: usize) -> Option<Row> {
+        let start = &self.starts[index];
+        let end = self.until.unwrap_or(start.time + LENGTH);
+        let outcome = self.plan.run(start, end)?;
+        let mut cells: Vec<Cell> =
+            self.set.iter().map(|&set| Cell::Number(value(set, start))).collect();
+        cells.push(Cell::Word(outcome.status.word().to_owned()));
+        cells.push(Cell::Number(outcome.time));
+        cells.extend(outcome.values.iter().map(|&x| Cell::Number(x)));
+        cells.push(Cell::Number(outcome.energy_drift));
+        for taken in &self.measures {
+            let orbit = MeasuredOrbit {
+                system: &taken.system,
+                event: &taken.event,
+                method: self.laid.method,
+                settings: self.laid.settings,
+                start,
+                end,
+            };
+            let measured = if outcome.status == OrbitStatus::Refused {
+                f64::NAN
+            } else {
+                (taken.name.measure.measure)(&orbit)?
+            };
+            cells.push(Cell::Number(measured));
+        }
+        let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
+        Some(Row { cells, message: outcome.message.filter(|_| failed) })
+    }
+}
+
+/// The number that a column has set; NaN where its cell is empty.
+fn value(set: Set, start: &Start) -> f64 {
+    let wanted = match set {
+        Set::Parameter(index) => return start.parameters[index],
+        Set::Time => return start.time,
+        Set::Initial(wanted) => wanted,
+    };
+    let found = start.overrides.iter().find_map(|&given| match (given, wanted) {
+        (InitialOverride::Position(i, x), InitialOverride::Position(j, _))
+        | (InitialOverride::Velocity(i, x), InitialOverride::Velocity(j, _))
+        | (InitialOverride::Momentum(i, x), InitialOverride::Momentum(j, _)) => {
+            (i == j).then_some(x)
+        }
+        _ => None,
+    });
+    found.unwrap_or(f64::NAN)
+}
+
+/// Compiles a system with the zeros of a measure.
+fn taken(
+    motion: &MotionOptions,
+    mut reading: Reading,
+    name: &MeasureName,
+    interrupt: &Interrupt,
+) -> Result<Taken, CommandError> {
+    let written = match (&name.expression, name.measure.of) {
+        (Some(expression), _) => expression.clone(),
+        (None, _) if reading.model.is_poisson() => {
+            let message = format!(
+                "--measure {0}: variables of brackets have no velocities; write {0}=EXPR",
+                name.measure.name
+            );
+            return Err(CommandError::WrongUse(message));
+        }
+        (None, _) => format!("-{}'", reading.model.coordinates[0].name),
+    };
+    let zeros = surface(&mut reading.model, &written, "--measure")?;
+    let event = add_section(&mut reading.model, zeros, Direction::Rising);
+    let laid = motion.compile(reading, &[], "--observe", interrupt)?;
+    Ok(Taken { name: name.clone(), system: laid.system, event })
+}

@@ -1,0 +1,247 @@
+//! Action, period and frequency of one coordinate: J = ∮ p dq, T = dJ/dE, ν = dE/dJ.
+//!
+//! In: a coordinate with its [`EffectivePotential`], an energy. Out: one row for each region. The period is the time of the
+//! return, located on the motion, so that no integrand is singular where the coordinate turns. With one degree of freedom
+//! the action is ∮ p dq = ∫ L dt + E T, carried along the same motion (V. I. Arnold, Mathematical Methods of Classical
+//! Mechanics, §50); else, and on separatrices, whose motion takes for ever, it is the integral of p over q with
+//! q = c + r sin θ, whose integrand is analytic and periodic, by the trapezoidal rule. Never here: names, files.
+
+use std::f64::consts::PI;
+
+use super::section::{SectionPlan, crossings};
+use super::{Crossings, EffectivePotential, NotOnShell, OrbitStatus, Region, Root, Start};
+use crate::integrate::{Method, Settings};
+use crate::num::{math, short};
+use crate::system::System;
+
+/// The kind of a motion of one coordinate.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RegionKind {
+    /// To and fro between two turning points.
+    Libration,
+    /// Round and round.
+    Rotation,
+    /// It goes away and does not return.
+    Unbounded,
+}
+
+impl RegionKind {
+    /// The word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            RegionKind::Libration => "libration",
+            RegionKind::Rotation => "rotation",
+            RegionKind::Unbounded => "unbounded",
+        }
+    }
+}
+
+/// One region at one energy.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ActionRow {
+    /// The energy.
+    pub energy: f64,
+    /// The kind of motion.
+    pub kind: RegionKind,
+    /// Where the coordinate turns, from left to right.
+    pub turning_points: Vec<f64>,
+    /// ∮ p dq; NaN where the motion is unbounded.
+    pub action: f64,
+    /// The time of a return, or of a turn.
+    pub period: f64,
+}
+
+/// The system compiled with the two events that a return is located by.
+pub struct ActionSystems<'a> {
+    /// With q̇ as a section, and `action` as the last column.
+    pub turning: &'a System,
+    /// The section's name.
+    pub turns: &'a str,
+    /// For a periodic coordinate, with sin(π q/P) as a section, and `action` as the last column.
+    pub rotating: Option<(&'a System, &'a str)>,
+    /// The column of the coordinate in a row of crossings.
+    pub column: usize,
+    /// The method.
+    pub method: &'static Method,
+    /// Its settings.
+    pub settings: Settings,
+}
+
+/// Why there is no action.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum NoAction {
+    /// The coordinate does not return.
+    #[error(
+        "the coordinate turned at {} and not at {}: its motion is not one of its own, the system does not separate in it",
+        short(*.found),
+        short(*.expected)
+    )]
+    NotSeparable {
+        /// Where it turned.
+        found: f64,
+        /// Where it would if the other coordinates did not act on it.
+        expected: f64,
+    },
+    /// The motion came to no return.
+    #[error("{0}")]
+    NoReturn(String),
+    /// A start could not be completed.
+    #[error(transparent)]
+    NotOnShell(#[from] NotOnShell),
+}
+
+/// Turning points agree to this part of the width of the region.
+const RETURNS: f64 = 1e-7;
+
+/// The steps after which a return is given up.
+const PATIENCE: u64 = 1_000_000;
+
+/// The least and the greatest number of places in a quadrature, the relative change that ends it, and that which may be
+/// rounding.
+const FEWEST: usize = 32;
+const MOST: usize = 4096;
+const CONVERGED: f64 = 1e-14;
+const ROUNDING: f64 = 1e-11;
+
+/// The row of a region.
+///
+/// # Errors
+/// Returns an error if the motion does not return to where it began.
+pub fn action_row(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    region: Region,
+    energy: f64,
+) -> Result<ActionRow, NoAction> {
+    match (region.left, region.right, potential.period()) {
+        (Some(left), Some(right), _) => libration(potential, systems, [left, right], energy),
+        (None, None, Some(period)) => rotation(potential, systems, period, energy),
+        (left, right, _) => Ok(ActionRow {
+            energy,
+            kind: RegionKind::Unbounded,
+            turning_points: left.into_iter().chain(right).collect(),
+            action: f64::NAN,
+            period: f64::INFINITY,
+        }),
+    }
+}
+
+fn libration(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    [left, right]: [f64; 2],
+    energy: f64,
+) -> Result<ActionRow, NoAction> {
+    let region = Region { left: Some(left), right: Some(right) };
+    if potential.is_separatrix(region, energy) {
+        let action = action_between(potential, left, right, energy)?;
+        let turning_points = vec![left, right];
+        let (kind, period) = (RegionKind::Libration, f64::INFINITY);
+        return Ok(ActionRow { energy, kind, turning_points, action, period });
+    }
+    let start = potential.at_rest(left);
+    let found = follow(systems, (systems.turning, systems.turns), &start, 2)?;
+    for (row, expected) in found.iter().zip([right, left]) {
+        let place = row[systems.column];
+        if (place - expected).abs() > RETURNS * (right - left) {
+            return Err(NoAction::NotSeparable { found: place, expected });
+        }
+    }
+    let (period, carried) = end(&found);
+    let one = systems.turning.degrees() == 1;
+    let action = if one {
+        carried + energy * period
+    } else {
+        action_between(potential, left, right, energy)?
+    };
+    let turning_points = vec![left, right];
+    Ok(ActionRow { energy, kind: RegionKind::Libration, turning_points, action, period })
+}
+
+fn rotation(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    period: f64,
+    energy: f64,
+) -> Result<ActionRow, NoAction> {
+    let Some(rotating) = systems.rotating else {
+        return Err(NoAction::NoReturn("the coordinate has no period".to_owned()));
+    };
+    let start = potential.moving(0.0, energy, Root::Positive)?;
+    let found = follow(systems, rotating, &start, 1)?;
+    let (time, carried) = end(&found);
+    let one = rotating.0.degrees() == 1;
+    let action = if one {
+        carried + energy * time
+    } else {
+        // a periodic integrand: the trapezoidal rule; both directions share the width
+        0.5 * converged(|n| {
+            let step = period / n as f64;
+            (0..n).try_fold(0.0, |sum, i| {
+                Ok(sum + step * potential.width((i as f64 + 0.5) * step, energy)?)
+            })
+        })?
+    };
+    let turning_points = Vec::new();
+    Ok(ActionRow { energy, kind: RegionKind::Rotation, turning_points, action, period: time })
+}
+
+/// The first crossings after a start.
+fn follow(
+    systems: &ActionSystems<'_>,
+    (system, event): (&System, &str),
+    start: &Start,
+    count: u64,
+) -> Result<Vec<Vec<f64>>, NoAction> {
+    let plan =
+        SectionPlan { event: event.to_owned(), count: Some(count), until: None, idle: PATIENCE };
+    let Crossings { rows, status, message } =
+        crossings(system, systems.method, systems.settings, start, &plan);
+    if status == OrbitStatus::Completed {
+        return Ok(rows);
+    }
+    let why = message.unwrap_or_default();
+    Err(NoAction::NoReturn(format!("the coordinate did not return: {why}")))
+}
+
+/// The time and the carried action at the last crossing, from the start of the motion at time zero.
+fn end(found: &[Vec<f64>]) -> (f64, f64) {
+    let last = found.last().map_or(&[][..], |row| row);
+    (last.first().copied().unwrap_or(f64::NAN), last.last().copied().unwrap_or(f64::NAN))
+}
+
+/// The area of the curve of an energy between two places, ∮ p dq, where the curve closes at both.
+///
+/// # Errors
+/// Returns an error if there is no state in between.
+pub fn action_between(
+    potential: &mut EffectivePotential<'_>,
+    left: f64,
+    right: f64,
+    energy: f64,
+) -> Result<f64, NotOnShell> {
+    let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+    converged(|n| {
+        let step = PI / n as f64;
+        (0..n).try_fold(0.0, |sum, i| {
+            let angle = -0.5 * PI + (i as f64 + 0.5) * step;
+            let place = middle + half * math::sin(angle);
+            Ok(sum + step * half * math::cos(angle) * potential.width(place, energy)?)
+        })
+    })
+}
+
+/// A sum with ever more places, until it no longer changes, or only by rounding, which does not shrink.
+fn converged(mut sum: impl FnMut(usize) -> Result<f64, NotOnShell>) -> Result<f64, NotOnShell> {
+    let (mut last, mut before) = (sum(FEWEST)?, f64::INFINITY);
+    let mut n = 2 * FEWEST;
+    while n <= MOST {
+        let next = sum(n)?;
+        let change = (next - last).abs() / next.abs();
+        if change <= CONVERGED || (change <= ROUNDING && change >= 0.5 * before) {
+            return Ok(next);
+        }
+        (last, before, n) = (next, change, 2 * n);
+    }
+    Ok(last)
+}

@@ -1,0 +1,353 @@
+//! One coordinate of a system that conserves its energy, with the other coordinates as they are at the start: the least
+//! energy at each place, where the motion of the coordinate turns, and the tops that separate its kinds of motion.
+//!
+//! In: a system, a start, a coordinate. Out: regions and tops at an energy. Never here: times, actions.
+
+use super::{EnergyShell, NotOnShell, Root, Start};
+use crate::num::math;
+use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
+
+/// The number of places looked at first.
+const PLACES: usize = 4001;
+
+/// How far they reach on each side: sinh of this, in units of the distance of the start from zero (1 if it is at zero).
+const REACH: f64 = 12.0;
+
+/// Energies that differ by less than this part are the same to rounding.
+const NOISE: f64 = 1e-11;
+
+/// A top that is higher by this factor than what is around it is a pole.
+const POLE: f64 = 1e12;
+
+/// Halvings of an interval, and sections by the golden ratio.
+const HALVINGS: usize = 200;
+const SECTIONS: usize = 90;
+
+/// One coordinate as a system of its own.
+pub struct EffectivePotential<'a> {
+    system: &'a System,
+    base: Start,
+    coordinate: usize,
+    observer: Observer,
+    values: Vec<f64>,
+    /// The places looked at, from left to right, within the walls around the start.
+    nodes: Vec<[f64; 2]>,
+    /// Where the potential is greatest within a well's sides.
+    tops: Vec<[f64; 2]>,
+    period: Option<f64>,
+}
+
+/// An interval in which a coordinate may move.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Region {
+    /// Where it turns on the left; `None` where it does not.
+    pub left: Option<f64>,
+    /// Where it turns on the right.
+    pub right: Option<f64>,
+}
+
+impl<'a> EffectivePotential<'a> {
+    /// Surveys a coordinate.
+    ///
+    /// # Errors
+    /// Returns an error if there is no state at the start.
+    pub fn survey(
+        system: &'a System,
+        start: &Start,
+        coordinate: usize,
+    ) -> Result<EffectivePotential<'a>, MotionError> {
+        let mut observer = system.observer(&start.parameters);
+        let mut values = vec![0.0; system.columns()];
+        observer.observe_columns(&start.state(system)?, &mut values)?;
+        let mut base = start.clone();
+        // the other coordinates keep their places and momenta, of which those of cyclic ones are constant
+        for i in (0..system.degrees()).filter(|&i| i != coordinate) {
+            let momentum = values[column(system, ChannelKind::Momentum(i))];
+            base.replace(InitialOverride::Momentum(i, momentum));
+        }
+        let place = column(system, ChannelKind::Position(coordinate));
+        let period = system.period(place, &start.parameters);
+        let at = values[place];
+        let (nodes, tops) = (Vec::new(), Vec::new());
+        let mut potential =
+            EffectivePotential { system, base, coordinate, observer, values, nodes, tops, period };
+        potential.look_around(at);
+        Ok(potential)
+    }
+
+    /// The period of the coordinate.
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// The start with the coordinate at rest at a place.
+    pub fn at_rest(&mut self, place: f64) -> Start {
+        let mut start = self.base.clone();
+        start.replace(InitialOverride::Position(self.coordinate, place));
+        if self.system.form() == Form::Momentum {
+            // in most systems rest is where the momentum vanishes, and no velocity has to be solved for
+            start.replace(InitialOverride::Momentum(self.coordinate, 0.0));
+            let velocity = self.observed(&start, ChannelKind::Velocity(self.coordinate));
+            if velocity.is_ok_and(|velocity| velocity == 0.0) {
+                return start;
+            }
+        }
+        start.replace(InitialOverride::Velocity(self.coordinate, 0.0));
+        start
+    }
+
+    /// The energy with the coordinate at rest; infinite where there is none.
+    pub fn at(&mut self, place: f64) -> f64 {
+        let start = self.at_rest(place);
+        let energy = self.observed(&start, ChannelKind::Energy);
+        energy.ok().filter(|energy| !energy.is_nan()).unwrap_or(f64::INFINITY)
+    }
+
+    fn observed(&mut self, start: &Start, kind: ChannelKind) -> Result<f64, MotionError> {
+        let state = start.state(self.system)?;
+        self.observer.observe_columns(&state, &mut self.values)?;
+        Ok(self.values[column(self.system, kind)])
+    }
+
+    /// The start that moves through a place with this energy, to the right or to the left.
+    ///
+    /// # Errors
+    /// Returns an error if the energy forbids the place.
+    pub fn moving(&mut self, place: f64, energy: f64, root: Root) -> Result<Start, NotOnShell> {
+        let mut start = self.base.clone();
+        start.replace(InitialOverride::Position(self.coordinate, place));
+        let by = match self.system.form() {
+            Form::Momentum => InitialOverride::Momentum(self.coordinate, 0.0),
+            Form::Velocity | Form::Variables => InitialOverride::Velocity(self.coordinate, 0.0),
+        };
+        EnergyShell { energy, by, root }.complete_by(
+            self.system,
+            &mut self.observer,
+            &mut start,
+        )?;
+        Ok(start)
+    }
+
+    /// p to the right less p to the left at a place, zero where the energy forbids it by rounding.
+    pub(super) fn width(&mut self, place: f64, energy: f64) -> Result<f64, NotOnShell> {
+        let momentum = |own: &mut Self, root| match own.moving(place, energy, root) {
+            Ok(start) => Ok(Some(own.observed(&start, ChannelKind::Momentum(own.coordinate))?)),
+            Err(NotOnShell::Forbidden { .. } | NotOnShell::NotFound { .. }) => Ok(None),
+            Err(why) => Err(why),
+        };
+        let right = momentum(self, Root::Positive)?;
+        let left = momentum(self, Root::Negative)?;
+        Ok(right.zip(left).map_or(0.0, |(right, left)| right - left))
+    }
+
+    fn look_around(&mut self, at: f64) {
+        let places: Vec<f64> = match self.period {
+            Some(period) => {
+                let even = |i: usize| at + period * (i as f64 / (PLACES - 1) as f64 - 0.5);
+                let places: Vec<f64> = (0..PLACES).map(even).collect();
+                // the period begins at its top, so that no well is cut in two
+                let values: Vec<f64> = places.iter().map(|&q| self.at(q)).collect();
+                let top = (0..PLACES).max_by(|&i, &j| values[i].total_cmp(&values[j]));
+                let step = period / (PLACES - 1) as f64;
+                let top = places[top.unwrap_or(0)];
+                let top = self.extremum(top - step, top + step, -1.0);
+                let top = if top > at { top - period } else { top };
+                (0..PLACES).map(|i| top + period * i as f64 / (PLACES - 1) as f64).collect()
+            }
+            None => {
+                let unit = if at == 0.0 { 1.0 } else { at.abs() };
+                let u = |i: usize| REACH * (2.0 * i as f64 / (PLACES - 1) as f64 - 1.0);
+                (0..PLACES).map(|i| at + unit * math::sinh(u(i))).collect()
+            }
+        };
+        let mut nodes: Vec<[f64; 2]> = places.into_iter().map(|q| [q, self.at(q)]).collect();
+        let (mut extrema, mut walls) = (Vec::new(), Vec::new());
+        for [low, middle, high] in turns(&nodes) {
+            let sign = if middle > 0.0 { -1.0 } else { 1.0 };
+            let place = self.extremum(low, high, sign);
+            let energy = self.at(place);
+            let around = self.at(low).abs().min(self.at(high).abs()) + self.at(at).abs();
+            if sign < 0.0 && energy > POLE * (around + f64::MIN_POSITIVE) {
+                walls.push(place);
+                continue;
+            }
+            // zero to rounding
+            let energy = if energy.abs() <= f64::EPSILON * around { 0.0 } else { energy };
+            extrema.push([place, energy]);
+            if sign < 0.0 {
+                self.tops.push([place, energy]);
+            }
+        }
+        if self.period.is_some()
+            && let Some(&top) = nodes.first()
+        {
+            self.tops.push(top);
+        }
+        nodes.extend(extrema);
+        nodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        walls.extend(nodes.iter().filter(|node| node[1] == f64::INFINITY).map(|node| node[0]));
+        let left = walls.iter().copied().filter(|&w| w < at).fold(f64::NEG_INFINITY, f64::max);
+        let right = walls.iter().copied().filter(|&w| w > at).fold(f64::INFINITY, f64::min);
+        let inside = |place: f64| (left..=right).contains(&place);
+        nodes.retain(|node| inside(node[0]));
+        self.tops.retain(|top| inside(top[0]));
+        self.nodes = nodes;
+    }
+
+    /// The place of the least value of `sign` times the potential, by the golden ratio.
+    fn extremum(&mut self, mut low: f64, mut high: f64, sign: f64) -> f64 {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        let (mut at_a, mut at_b) = (sign * self.at(a), sign * self.at(b));
+        for _ in 0..SECTIONS {
+            if at_a < at_b {
+                (high, b, at_b) = (b, a, at_a);
+                a = high - GOLDEN * (high - low);
+                at_a = sign * self.at(a);
+            } else {
+                (low, a, at_a) = (a, b, at_b);
+                b = low + GOLDEN * (high - low);
+                at_b = sign * self.at(b);
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// All regions that an energy allows, from left to right; those of a rotation have no ends.
+    pub fn regions(&mut self, energy: f64) -> Vec<Region> {
+        let nodes = self.nodes.clone();
+        let mut regions = Vec::new();
+        let mut open: Option<Option<f64>> = None;
+        let mut last: Option<[f64; 2]> = None;
+        for node in nodes {
+            let allowed = node[1] < energy;
+            match (open, allowed) {
+                (None, true) => {
+                    open = Some(last.map(|[q, _]| self.crossing(node[0], q, energy)));
+                }
+                (Some(left), false) => {
+                    let inside = last.map_or(node[0], |[q, _]| q);
+                    let right = Some(self.crossing(inside, node[0], energy));
+                    regions.push(Region { left, right });
+                    open = None;
+                }
+                _ => {}
+            }
+            last = Some(node);
+        }
+        if let Some(left) = open {
+            regions.push(Region { left, right: None });
+        }
+        // of a period both ends are the top, and what is open at one is open at the other
+        if self.period.is_some() {
+            let whole = regions.len() == 1 && regions[0] == Region { left: None, right: None };
+            if !whole {
+                regions.retain(|region| region.left.is_some() && region.right.is_some());
+            }
+        }
+        regions
+    }
+
+    /// The lobes of the separatrix through a top: the regions at its energy that end there.
+    pub fn lobes(&mut self, top: [f64; 2]) -> Vec<Region> {
+        let [place, energy] = top;
+        let noise = NOISE * (energy.abs() + self.depth());
+        let mut lobes = Vec::new();
+        let nodes = self.nodes.clone();
+        let beside = nodes.iter().position(|node| node[0] >= place).unwrap_or(0);
+        let walks: [Vec<[f64; 2]>; 2] = [
+            nodes[..beside].iter().rev().copied().collect(),
+            nodes[beside..].iter().filter(|node| node[0] > place).copied().collect(),
+        ];
+        for (side, walk) in walks.iter().enumerate() {
+            let mut last = place;
+            let (mut inside, mut end) = (false, None);
+            for &[q, value] in walk {
+                if value < energy - noise {
+                    inside = true;
+                } else if inside {
+                    let same = (value - energy).abs() <= noise;
+                    end = Some(if same { q } else { self.crossing(last, q, energy) });
+                    break;
+                }
+                last = q;
+            }
+            if inside {
+                lobes.push(match side {
+                    0 => Region { left: end, right: Some(place) },
+                    _ => Region { left: Some(place), right: end },
+                });
+            }
+        }
+        lobes
+    }
+
+    /// Whether an energy is that of a separatrix that ends a region, whose motion there takes for ever.
+    pub fn is_separatrix(&self, region: Region, energy: f64) -> bool {
+        let noise = NOISE * (energy.abs() + self.depth());
+        let width = region.left.zip(region.right).map_or(f64::INFINITY, |(l, r)| r - l);
+        let ends = |top: &[f64; 2]| {
+            let turns = self.period.map_or(vec![0.0], |period| vec![0.0, period]);
+            let near =
+                |end: f64| turns.iter().any(|turn| (top[0] + turn - end).abs() < 1e-4 * width);
+            (top[1] - energy).abs() <= noise
+                && region.left.into_iter().chain(region.right).any(near)
+        };
+        self.tops.iter().any(ends)
+    }
+
+    /// The tops within the walls, from left to right; those of a period once.
+    pub fn tops(&self) -> Vec<[f64; 2]> {
+        let mut tops = self.tops.clone();
+        tops.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        tops
+    }
+
+    /// The depth of the deepest well below the highest node that is finite, at most below zero: a scale of the energy.
+    fn depth(&self) -> f64 {
+        self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min).abs()
+    }
+
+    /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.
+    fn crossing(&mut self, mut inside: f64, mut outside: f64, energy: f64) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            if self.at(middle) < energy { inside = middle } else { outside = middle }
+        }
+        inside
+    }
+}
+
+/// The column of a channel.
+fn column(system: &System, kind: ChannelKind) -> usize {
+    system.channels().iter().position(|channel| channel.kind == kind).unwrap_or(0)
+}
+
+/// The extrema of a sampled function beyond rounding: the places on both sides, with +1 for a maximum, −1 for a minimum.
+fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
+    // values that are the same to rounding are one node, from the first of them to the last
+    let mut runs: Vec<[f64; 3]> = Vec::new();
+    for &[place, value] in nodes.iter().filter(|node| node[1].is_finite()) {
+        match runs.last_mut() {
+            Some([_, last, level]) if (value - *level).abs() <= NOISE * level.abs() => {
+                *last = place
+            }
+            _ => runs.push([place, place, value]),
+        }
+    }
+    let turn = |three: &[[f64; 3]]| {
+        let [before, here, after] = [three[0][2], three[1][2], three[2][2]];
+        let kind = if here > before && here > after {
+            1.0
+        } else if here < before && here < after {
+            -1.0
+        } else {
+            return None;
+        };
+        Some([three[0][1], kind, three[2][0]])
+    };
+    runs.windows(3).filter_map(turn).collect()
+}

@@ -1,0 +1,106 @@
+//! What can be measured on an orbit beside its end: one row of a table for each measure.
+//!
+//! In: an orbit from its start to an end in time, and an expression where the measure takes one. Out: a number; NaN where
+//! the orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
+//! the equations of motion, it does with the [`System`] that it is handed. Never here: tables, names of columns.
+
+use super::section::{OrbitStatus, SectionPlan, crossings};
+use super::{Crossings, Start};
+use crate::integrate::{Method, Settings};
+use crate::system::System;
+
+/// A measure of an orbit.
+pub struct Measure {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it is, in a sentence.
+    pub about: &'static str,
+    /// The expression whose zeros it looks at.
+    pub of: Zeros,
+    /// Measures an orbit; `None` if it was cancelled.
+    pub measure: fn(&MeasuredOrbit<'_>) -> Option<f64>,
+}
+
+/// The expression whose rising zeros a measure looks at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Zeros {
+    /// One that the user gives.
+    Given,
+    /// The first velocity with its sign changed, so that the zeros are maxima of the first coordinate, unless the user
+    /// gives another.
+    Maxima,
+}
+
+/// An orbit to be measured.
+pub struct MeasuredOrbit<'a> {
+    /// The system, with the measure's zeros as an event.
+    pub system: &'a System,
+    /// The event's name.
+    pub event: &'a str,
+    /// The method.
+    pub method: &'static Method,
+    /// Its settings.
+    pub settings: Settings,
+    /// Where the orbit begins.
+    pub start: &'a Start,
+    /// The time at which it ends.
+    pub end: f64,
+}
+
+impl MeasuredOrbit<'_> {
+    /// The zeros on the orbit, at most `count`, up to its end or to a fault; `None` if it was cancelled.
+    fn zeros(&self, count: Option<u64>) -> Option<Crossings> {
+        let plan = SectionPlan {
+            event: self.event.to_owned(),
+            count,
+            until: Some(self.end),
+            idle: u64::MAX,
+        };
+        let found = crossings(self.system, self.method, self.settings, self.start, &plan);
+        (!self.system.cancel().is_cancelled()).then_some(found)
+    }
+}
+
+/// All measures.
+pub const MEASURES: &[Measure] = &[PERIOD, ESCAPE, CROSSINGS];
+
+/// The measure of a name.
+pub fn measure_named(name: &str) -> Option<&'static Measure> {
+    MEASURES.iter().find(|measure| measure.name == name)
+}
+
+const PERIOD: Measure = Measure {
+    name: "period",
+    about: "the mean time between maxima of the first coordinate, or with =EXPR between upward zeros of an expression; empty where there are fewer than two",
+    of: Zeros::Maxima,
+    measure: |orbit| {
+        let found = orbit.zeros(None)?;
+        Some(match (found.rows.first(), found.rows.last()) {
+            (Some(first), Some(last)) if found.rows.len() > 1 => {
+                (last[0] - first[0]) / (found.rows.len() - 1) as f64
+            }
+            _ => f64::NAN,
+        })
+    },
+};
+
+const ESCAPE: Measure = Measure {
+    name: "escape",
+    about: "the first time at which EXPR of escape=EXPR rises through zero; empty where it does not",
+    of: Zeros::Given,
+    measure: |orbit| {
+        let found = orbit.zeros(Some(1))?;
+        Some(found.rows.first().map_or(f64::NAN, |row| row[0]))
+    },
+};
+
+const CROSSINGS: Measure = Measure {
+    name: "crossings",
+    about: "how often EXPR of crossings=EXPR rises through zero",
+    of: Zeros::Given,
+    measure: |orbit| {
+        let found = orbit.zeros(None)?;
+        let begun = found.status != OrbitStatus::Refused;
+        Some(if begun { found.rows.len() as f64 } else { f64::NAN })
+    },
+};

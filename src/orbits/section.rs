@@ -1,0 +1,206 @@
+//! Where an orbit crosses a surface of section, or the instants of a stroboscope.
+//!
+//! In: a start, an expression that vanishes on the surface. Out: the values of all columns at each crossing. The
+//! crossings are those of an event without effect on the motion (H. Poincaré, Les méthodes nouvelles, vol. III, ch.
+//! XXVII), located on the dense output of the method: the state there is as exact as the method's own, and no step is
+//! different from what it is without the section. A start on the surface is no crossing. Never here: many orbits, files.
+
+use super::Start;
+use crate::cancel::Cancel;
+use crate::expr::Expr;
+use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
+use crate::model::{Action, Direction, Event, Model};
+use crate::num::short;
+use crate::system::{MotionError, Observer, System};
+
+/// The event of a section in a compiled system, and when an orbit ends.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SectionPlan {
+    /// The event's name, from [`add_section`].
+    pub event: String,
+    /// The number of crossings after which an orbit ends.
+    pub count: Option<u64>,
+    /// The time at which it ends.
+    pub until: Option<f64>,
+    /// An orbit without an end in time ends after so many steps without a crossing.
+    pub idle: u64,
+}
+
+/// How an orbit ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OrbitStatus {
+    /// All that was asked for is there.
+    Completed,
+    /// An event of the system or the user ended it, or it crosses no more.
+    Stopped,
+    /// The motion could not continue.
+    Faulted,
+    /// It could not begin.
+    Refused,
+}
+
+impl OrbitStatus {
+    /// The word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            OrbitStatus::Completed => "completed",
+            OrbitStatus::Stopped => "stopped",
+            OrbitStatus::Faulted => "faulted",
+            OrbitStatus::Refused => "refused",
+        }
+    }
+}
+
+/// The crossings of one orbit.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Crossings {
+    /// For each crossing the time, then the value of every column of the system.
+    pub rows: Vec<Vec<f64>>,
+    /// How the orbit ended.
+    pub status: OrbitStatus,
+    /// Why it ended, if that needs a sentence.
+    pub message: Option<String>,
+}
+
+impl Crossings {
+    /// An orbit that could not begin.
+    pub fn refused(why: impl ToString) -> Crossings {
+        let message = Some(why.to_string());
+        Crossings { rows: Vec::new(), status: OrbitStatus::Refused, message }
+    }
+}
+
+/// Adds the event of a section to a model before its equations are derived, and returns the event's name, which no
+/// other event or impulse has.
+pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> String {
+    let mut name = "section".to_owned();
+    let taken = |name: &str| {
+        model.events.iter().any(|event| event.name == name)
+            || model.impulses.iter().any(|impulse| impulse.name == name)
+    };
+    while taken(&name) {
+        name.push('\'');
+    }
+    model.events.push(Event {
+        name: name.clone(),
+        when,
+        direction,
+        action: Action::Mark,
+        place: 0..0,
+    });
+    name
+}
+
+/// The steps between two looks at the token.
+const STEPS_PER_LOOK: u64 = 64;
+
+/// Where no end is given, the time is first looked ahead so far, and then by so many of the steps taken: the greatest
+/// ratio of a step to the one before.
+const FIRST_LOOK: f64 = 1.0;
+const GROWTH: f64 = 8.0;
+
+/// Follows an orbit from one crossing to the next.
+pub fn crossings(
+    system: &System,
+    method: &'static Method,
+    settings: Settings,
+    start: &Start,
+    plan: &SectionPlan,
+) -> Crossings {
+    let made = Propagator::new(system, method, settings, &start.parameters);
+    let mut motion = match made {
+        Ok(motion) => motion,
+        Err(why) => return Crossings::refused(why),
+    };
+    let begun = start.state(system).and_then(|state| motion.begin(&state, &start.parameters));
+    if let Err(why) = begun {
+        return Crossings::refused(motion.explained(why));
+    }
+    let observer = motion.system().observer(&start.parameters);
+    let values = vec![0.0; system.columns()];
+    let mut orbit = Orbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
+    let (status, message) = orbit.follow(system.cancel());
+    Crossings { rows: orbit.rows, status, message }
+}
+
+struct Orbit<'a> {
+    motion: Propagator,
+    observer: Observer,
+    values: Vec<f64>,
+    holdings: u64,
+    plan: &'a SectionPlan,
+    start: &'a Start,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Orbit<'_> {
+    fn follow(&mut self, cancel: &Cancel) -> (OrbitStatus, Option<String>) {
+        let stopped = || (OrbitStatus::Stopped, Some("stopped by a signal".to_owned()));
+        let mut target = self.plan.until.unwrap_or(self.start.time + FIRST_LOOK);
+        // where there is no end in time, no step ends early at one
+        let mut limit = self.plan.until.unwrap_or(target + FIRST_LOOK);
+        let mut last = self.motion.steps();
+        loop {
+            if self.plan.count.is_some_and(|count| self.rows.len() as u64 >= count) {
+                return (OrbitStatus::Completed, None);
+            }
+            match self.motion.reach(target, limit, &mut STEPS_PER_LOOK.clone()) {
+                // a step that a signal has cancelled is not a fault of the motion
+                Err(_) if cancel.is_cancelled() => return stopped(),
+                Err(fault) => return (OrbitStatus::Faulted, Some(fault.to_string())),
+                Ok(Reached::There) if self.plan.until.is_some() => {
+                    return (OrbitStatus::Completed, None);
+                }
+                Ok(Reached::There) => {
+                    let ahead = (GROWTH * self.motion.step_size().abs()).max(FIRST_LOOK);
+                    target += ahead;
+                    limit = target + ahead;
+                }
+                Ok(Reached::Underway) => {}
+                Ok(Reached::Happened(occurrence)) => {
+                    if occurrence.name == self.plan.event {
+                        last = self.motion.steps();
+                        if let Err(fault) = self.record(occurrence.time) {
+                            return (OrbitStatus::Faulted, Some(fault.to_string()));
+                        }
+                    } else if occurrence.kind == OccurrenceKind::Stop {
+                        return (
+                            OrbitStatus::Stopped,
+                            Some(ended(&occurrence.name, occurrence.time)),
+                        );
+                    }
+                }
+                Ok(Reached::Ended) => return (OrbitStatus::Stopped, None),
+            }
+            if cancel.is_cancelled() {
+                return stopped();
+            }
+            if self.plan.until.is_none() && self.motion.steps() - last > self.plan.idle {
+                return (OrbitStatus::Stopped, Some(self.crosses_no_more()));
+            }
+        }
+    }
+
+    fn record(&mut self, time: f64) -> Result<(), MotionError> {
+        // constraints are released by events, and enforced in turn where some are redundant
+        if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
+            self.holdings = self.motion.holdings();
+            self.observer = self.motion.system().observer(&self.start.parameters);
+        }
+        self.observer.observe_columns(self.motion.state(), &mut self.values)?;
+        self.rows.push([&[time], &self.values[..]].concat());
+        Ok(())
+    }
+
+    fn crosses_no_more(&self) -> String {
+        let time = short(self.motion.computed().time);
+        format!(
+            "no crossing in {} steps, up to t = {time}; without an end in time it is not followed longer",
+            self.plan.idle
+        )
+    }
+}
+
+fn ended(name: &str, time: f64) -> String {
+    format!("`{name}` ended the motion at t = {}", short(time))
+}

@@ -1,0 +1,173 @@
+//! `actions`: closed forms, separatrices, regions from left to right, and refusals.
+
+use std::f64::consts::{PI, SQRT_2};
+
+use serde_json::Value;
+
+use super::{phaselab, with_file};
+
+/// A particle on a line in a potential.
+fn line(potential: &str, initial: &str) -> String {
+    format!(
+        "title = \"A line\"\n[coordinates]\nx = {{ initial = {initial}, momentum = 0.1 }}\n\
+         [hamiltonian]\nH = \"1/2*p_x^2 + {potential}\"\n"
+    )
+}
+
+fn actions(file: &str, arguments: &[&str]) -> Value {
+    let all = [&["actions", "system.toml", "--format=json"], arguments].concat();
+    with_file(file, &all).json()
+}
+
+#[track_caller]
+fn near(found: &Value, expected: f64, within: f64) {
+    let found = found.as_f64().expect("a number");
+    assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");
+}
+
+/// Quartic, Morse, tan² and isochrone: actions and periods in closed form (the first by the beta function).
+#[test]
+fn actions_of_closed_form() {
+    let cases = [
+        ("1/4*x^4", "1", 6.9921534781123195, 0.75 * 6.9921534781123195),
+        ("(1 - exp(-x))^2", "0.5", 2.0 * PI * SQRT_2 * (1.0 - 0.5f64.sqrt()), 2.0 * PI),
+        ("tan(x)^2", "1", 2.0 * PI * SQRT_2 * (SQRT_2 - 1.0), PI),
+        // a kink: J = (8/3) √2 E^{3/2}, T = dJ/dE
+        ("abs(x)", "1", 8.0 / 3.0 * SQRT_2, 4.0 * SQRT_2),
+    ];
+    for (potential, energy, action, period) in cases {
+        let object = actions(&line(potential, "0"), &[&format!("--energy={energy}")]);
+        let rows = object["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), 1, "{potential}: {rows:?}");
+        assert_eq!(rows[0]["kind"], "libration");
+        near(&rows[0]["action"], action, 2e-14);
+        near(&rows[0]["period"], period, 2e-14);
+        near(&rows[0]["frequency"], 1.0 / period, 2e-15);
+        assert_eq!(object["separatrices"], serde_json::json!([]), "{potential}");
+    }
+}
+
+#[test]
+fn the_radial_action_of_the_isochrone() {
+    let file = r#"
+        title = "Isochrone"
+        [coordinates]
+        r = { initial = 1.0, momentum = 0.0 }
+        phi = { initial = 0.3, momentum = 0.5, period = "2*pi" }
+        [hamiltonian]
+        H = "1/2*p_r^2 + p_phi^2/(2*r^2) - 1/(1 + sqrt(1 + r^2))"
+    "#;
+    let object = actions(file, &["--coordinate=r", "--energy=-0.2"]);
+    let row = &object["rows"][0];
+    near(&row["period"], 2.0 * PI / 0.25298221281347035, 1e-13);
+    // M. Hénon, Annales d'Astrophysique 22, 126 (1959), with GM = b = 1
+    let action = 2.0 * PI * (1.0 / f64::sqrt(0.4) - 0.5 * (0.5 + f64::sqrt(4.25)));
+    near(&row["action"], action, 1e-13);
+}
+
+#[test]
+fn a_double_well_has_both_its_wells_and_its_lobes() {
+    let file = line("1/4*x^4 - 1/2*x^2", "1");
+    let object = actions(&file, &["--energy=-0.125,0.5,0"]);
+    let rows = object["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 5);
+    for (row, side) in rows[..2].iter().zip([-1.0, 1.0]) {
+        near(&row["action"], 0.58793325565416153, 1e-14);
+        near(&row["period"], 5.0378540936193069, 1e-13);
+        let mut points =
+            [f64::sqrt(1.0 - 0.5f64.sqrt()) * side, f64::sqrt(1.0 + 0.5f64.sqrt()) * side];
+        points.sort_by(f64::total_cmp);
+        near(&row["turning_points"][0], points[0], 1e-14);
+        near(&row["turning_points"][1], points[1], 1e-14);
+    }
+    // above the hill ν = dE/dJ, by differences of the action itself
+    let beside = actions(&file, &["--energy=0.4999,0.5001"]);
+    let action = |i: usize| beside["rows"][i]["action"].as_f64().unwrap();
+    near(&rows[2]["frequency"], 0.0002 / (action(1) - action(0)), 1e-8);
+    // on the separatrix the motion takes for ever, and its area is that of the lobes
+    for row in &rows[3..] {
+        near(&row["action"], 4.0 / 3.0, 1e-12);
+        assert_eq!((&row["period"], &row["frequency"]), (&Value::Null, &serde_json::json!(0.0)));
+    }
+    let separatrices = object["separatrices"].as_array().unwrap();
+    assert_eq!(separatrices.len(), 1);
+    assert_eq!(separatrices[0]["energy"], 0.0);
+    near(&separatrices[0]["actions"][0], 4.0 / 3.0, 1e-12);
+    near(&separatrices[0]["actions"][1], 4.0 / 3.0, 1e-12);
+}
+
+/// The pendulum's separatrix has the area 16 m l² √(g/l): J tends to it from below, and to half of it per turn from above.
+#[test]
+fn the_pendulum_librates_and_rotates_on_both_sides_of_its_separatrix() {
+    let with = |energy: &str| {
+        let energy = format!("--energy={energy}");
+        phaselab(&["actions", "pendulum", "--set=g=1", &energy, "--format=json"]).json()
+    };
+    let object = with("0.99999999,1.00000001,0");
+    let rows = object["rows"].as_array().unwrap();
+    let kinds: Vec<&Value> = rows.iter().map(|row| &row["kind"]).collect();
+    assert_eq!(kinds, ["libration", "rotation", "libration"]);
+    near(&rows[0]["action"], 16.0, 5e-7);
+    near(&rows[1]["action"], 8.0, 2.5e-7);
+    assert_eq!(rows[1]["turning_points"], serde_json::json!([]));
+    // 90°: T = 4 K(1/2); J = 16 (E(k) − (1 − k²) K(k)), k² = 1/2
+    let (k, e) = (1.854074677301372, 1.350643881047675);
+    near(&rows[2]["period"], 4.0 * k, 1e-13);
+    near(&rows[2]["action"], 16.0 * (e - 0.5 * k), 1e-13);
+    near(&rows[2]["turning_points"][0], -PI / 2.0, 1e-14);
+    near(&object["separatrices"][0]["energy"], 1.0, 1e-15);
+    near(&object["separatrices"][0]["actions"][0], 16.0, 1e-12);
+    assert_eq!(object["separatrices"].as_array().unwrap().len(), 1);
+    // a rotation of energy 3: p² = 2(3 + cos θ), J = 2π ⟨p⟩ by the trapezoidal rule, T = ∮ dθ/p
+    let row = &with("3")["rows"][0];
+    let p = |i: i32| f64::sqrt(2.0 * (3.0 + (2.0 * PI * f64::from(i) / 64.0).cos()));
+    let mean = |f: &dyn Fn(i32) -> f64| (0..64).map(f).sum::<f64>() * 2.0 * PI / 64.0;
+    near(&row["action"], mean(&p), 1e-13);
+    near(&row["period"], mean(&|i| 1.0 / p(i)), 1e-13);
+}
+
+/// The start of J. Sussman and J. Wisdom's pendulum: θ = 0, p = 4.9006733894348145, with β = 9.8.
+#[test]
+fn without_energies_it_is_the_region_of_the_start() {
+    let arguments = ["--set=g=9.8", "--init=theta=0", "--init=p_theta=4.9006733894348145"];
+    let object =
+        phaselab(&[&["actions", "pendulum", "--format=json"], &arguments[..]].concat()).json();
+    let rows = object["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 1);
+    near(&rows[0]["energy"], 2.20829983495726, 1e-13);
+    near(&rows[0]["action"], 26.5963714139872, 2e-12);
+    near(&rows[0]["period"], 2.0 * PI / 2.5043962735932013, 1e-14);
+    near(&rows[0]["turning_points"][1], 1.79808495569394, 1e-13);
+    // of the two wells that of the start alone
+    let object = actions(&line("1/4*x^4 - 1/2*x^2", "-1"), &[]);
+    let rows = object["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 1);
+    assert!(rows[0]["turning_points"][1].as_f64().unwrap() < 0.0);
+}
+
+/// Above its dissociation a Morse oscillator goes away.
+#[test]
+fn an_unbounded_motion_has_no_action() {
+    let object = actions(&line("(1 - exp(-x))^2", "0"), &["--energy=1.5"]);
+    let row = &object["rows"][0];
+    assert_eq!(row["kind"], "unbounded");
+    assert_eq!((&row["action"], &row["frequency"]), (&Value::Null, &serde_json::json!(0.0)));
+    near(&row["turning_points"][0], -f64::ln(1.0 + 1.5f64.sqrt()), 1e-14);
+}
+
+#[test]
+fn what_has_no_action_is_refused() {
+    let refused = |arguments: &[&str], code: i32, said: &[&str]| {
+        phaselab(&[&["actions"], arguments].concat()).fails(code, said);
+    };
+    refused(&["henon-heiles"], 2, &["--coordinate", "x, y"]);
+    refused(&["henon-heiles", "--coordinate=z"], 2, &["there is no coordinate `z`"]);
+    refused(&["henon-heiles", "--coordinate=x"], 1, &["does not separate"]);
+    refused(&["duffing"], 1, &["not conserved"]);
+    refused(&["kicked-rotor"], 1, &["not conserved"]);
+    refused(&["free-rigid-body"], 2, &["brackets"]);
+    refused(&["pendulum-rod"], 2, &["constraints"]);
+    let below = phaselab(&["actions", "pendulum", "--energy=-100"]);
+    assert_eq!(below.code, 1);
+    assert!(below.stderr.contains("moves nowhere"), "{}", below.stderr);
+}

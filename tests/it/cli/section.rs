@@ -1,0 +1,313 @@
+//! `section`: crossings held against published numbers, closed forms and maps.
+
+use std::f64::consts::PI;
+use std::fs;
+
+use serde_json::Value;
+
+use super::{Done, done, phaselab, program, with_file};
+
+fn rows(object: &Value) -> Vec<Vec<f64>> {
+    let rows = object["rows"].as_array().expect("rows");
+    let row = |row: &Value| row.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    rows.iter().map(row).collect()
+}
+
+fn section(arguments: &[&str]) -> Value {
+    phaselab(&[&["section"], arguments, &["--format", "json"]].concat()).json()
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, within: f64) {
+    assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");
+}
+
+/// An oscillator of frequency 1: x = cos t.
+const OSCILLATOR: &str = r#"
+title = "An oscillator"
+[coordinates]
+x = { initial = 1, velocity = 0 }
+[lagrangian]
+L = "1/2*x'^2 - 1/2*x^2"
+"#;
+
+/// The orbit of heyoka's `benchmark/hh_event.cpp`; its crossings by an independent computation to 25 digits, the times to
+/// ten decimals. Two numbers are those in which dop853 and gauss6 agree with the series: the last decimal of the first time,
+/// and p_y at the fourth crossing, of which the copy at hand has two digits exchanged.
+#[test]
+fn henon_heiles_crosses_where_it_is_published() {
+    let start = [
+        "henon-heiles",
+        "--init=x=0",
+        "--init=y=0.2587703282931232",
+        "--init=p_x=-0.2525875586263492",
+        "--init=p_y=-0.2178423952983717",
+    ];
+    let object = section(&[&start[..], &["--on=x", "--count=5", "--columns=y,p_y,x"]].concat());
+    assert_eq!(object["columns"], serde_json::json!(["orbit", "n", "t", "y", "p_y", "x"]));
+    let expected = [
+        (4.2208334830, 0.126063796715011, 0.344001698094365),
+        (10.5520085600, 0.00948993822844439, 0.392028949872656),
+        (15.8874899138, -0.358780784397489, -0.0161503495520201),
+        (21.2579376527, 0.0201433007994863, -0.3908907598185586),
+        (27.6113482743, 0.126278392444484, -0.342674986483674),
+    ];
+    let rows = rows(&object);
+    assert_eq!(rows.len(), expected.len());
+    for (n, (row, (t, y, p_y))) in (1..).zip(rows.iter().zip(expected)) {
+        assert_eq!(row[..2], [1.0, f64::from(n)]);
+        near(row[2], t, 6e-11);
+        near(row[3], y, 2e-13);
+        near(row[4], p_y, 2e-13);
+        near(row[5], 0.0, 1e-15);
+    }
+}
+
+/// Halfway between the kicks the rotor's section is the standard map of Chirikov, iterated here.
+#[test]
+fn the_kicked_rotor_is_the_standard_map() {
+    let object = section(&[
+        "kicked-rotor",
+        "--on=sin(2*pi*t/T - pi)",
+        "--until=30",
+        "--columns=theta,p_theta",
+    ]);
+    let rows = rows(&object);
+    assert_eq!(rows.len(), 30);
+    let (mut theta, mut p) = (0.5, 2.6);
+    theta += 0.5 * p;
+    for (n, row) in rows.iter().enumerate() {
+        near(row[2], n as f64 + 0.5, 1e-14 * (n as f64 + 1.0));
+        near(row[3], theta, 1e-9);
+        near(row[4], p, 1e-9);
+        p += 0.971635406 * (theta + 0.5 * p).sin();
+        theta += 0.5 * (row[4] + p);
+    }
+}
+
+/// At the time of a kick the section sees the state before it.
+#[test]
+fn a_stroboscope_at_the_kicks_sees_the_momentum_before_them() {
+    let object =
+        section(&["kicked-rotor", "--on=sin(2*pi*t/T)", "--count=3", "--columns=theta,p_theta"]);
+    let rows = rows(&object);
+    near(rows[0][2], 1.0, 1e-15);
+    near(rows[0][3], 3.1, 1e-14);
+    near(rows[0][4], 2.6, 0.0);
+    near(rows[1][4], 2.6 + 0.971635406 * 3.1f64.sin(), 1e-14);
+}
+
+/// Duffing's oscillator without hill, hardening or drive is a damped oscillator, x = e^{−δt/2}(cos Ωt + δ/2Ω sin Ωt).
+#[test]
+fn a_stroboscopic_section_of_a_damped_oscillator() {
+    let duffing = ["duffing", "--set=a=-1", "--set=b=0", "--set=gamma=0", "--set=w=0.7"];
+    let on = ["--on=sin(w*t)", "--count=8", "--columns=x,x'"];
+    let rows = rows(&section(&[&duffing[..], &on].concat()));
+    let (delta, w) = (0.25, 0.7);
+    let omega = f64::sqrt(1.0 - delta * delta / 4.0);
+    for (n, row) in (1..).zip(&rows) {
+        let t = f64::from(n) * 2.0 * PI / w;
+        near(row[2], t, 1e-14 * t);
+        let (sin, cos) = (omega * t).sin_cos();
+        let decay = (-delta * t / 2.0).exp();
+        near(row[3], decay * (cos + delta / (2.0 * omega) * sin), 1e-14);
+        near(row[4], -decay * sin / omega, 1e-14);
+    }
+    assert_eq!(rows.len(), 8);
+}
+
+/// With its drive the section has the states of a run at the same times.
+#[test]
+fn a_section_has_the_states_of_the_run() {
+    let section = section(&["duffing", "--on=sin(w*t)", "--count=5"]);
+    let rows = rows(&section);
+    let at: Vec<String> = (1..=5).map(|n| format!("{:?}", 2.0 * PI * f64::from(n))).collect();
+    let run = phaselab(&["run", "duffing", "--at", &at.join(","), "--format=json"]).json();
+    for (row, beside) in rows.iter().zip(run["rows"].as_array().unwrap()) {
+        for (x, y) in row[2..].iter().zip(beside.as_array().unwrap()) {
+            near(*x, y.as_f64().unwrap(), 1e-12);
+        }
+    }
+    assert_eq!(section["columns"].as_array().unwrap()[2..], run["columns"].as_array().unwrap()[..]);
+}
+
+#[test]
+fn each_direction_has_its_crossings_and_a_start_on_the_section_none() {
+    let with = |init: &str, direction: &str| -> Vec<f64> {
+        let arguments = ["section", "system.toml", "--on=x", "--until=20", "--format=json"];
+        let others = ["--direction", direction, "--init", init];
+        let object = with_file(OSCILLATOR, &[&arguments[..], &others].concat()).json();
+        assert_eq!(object["direction"], direction);
+        rows(&object).iter().map(|row| row[2]).collect()
+    };
+    let check = |found: Vec<f64>, expected: &[f64]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        found.iter().zip(expected).for_each(|(&t, &n)| near(t, n * PI / 2.0, 1e-14 * n));
+    };
+    check(with("x=1", "rising"), &[3.0, 7.0, 11.0]);
+    check(with("x=1", "falling"), &[1.0, 5.0, 9.0]);
+    check(with("x=1", "either"), &[1.0, 3.0, 5.0, 7.0, 9.0, 11.0]);
+    // from x = 0 with x' = 0 + … the sine, whose zero at t = 0 is the start
+    let sine = with_file(
+        OSCILLATOR,
+        &["section", "system.toml", "--on=x", "--until=13", "--init=x=0", "--init=x'=1"],
+    );
+    let text = sine.success();
+    let times: Vec<&str> = text.lines().filter(|line| line.starts_with("1,")).collect();
+    assert_eq!(times.len(), 2, "{text}");
+    near(times[0].split(',').nth(2).unwrap().parse().unwrap(), 2.0 * PI, 1e-14);
+}
+
+/// Just above its separatrix the pendulum passes its top so slowly that sin θ there has few digits: by symmetry the
+/// crossings are equally far apart, and each is one.
+#[test]
+fn a_slow_passage_is_one_crossing() {
+    let object = section(&[
+        "pendulum",
+        "--set=g=1",
+        "--init=theta=0",
+        "--energy=1.00000001",
+        "--solve=theta'",
+        "--on=sin(theta)",
+        "--direction=either",
+        "--until=60",
+        "--columns=theta",
+    ]);
+    let rows = rows(&object);
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    for (n, row) in (1..).zip(&rows) {
+        // T/2 = k K(k), k² = 2/(1 + E)
+        near(row[2], 10.943208310322342 * f64::from(n), 1e-7);
+        near(row[3], PI * f64::from(n), 1e-14 * f64::from(n));
+    }
+}
+
+const STARTS: &str = "y,p_y\n0,0\n0.1,0.2\n-0.25,0\n0.3,-0.1\n0.9,0\n0.2,0.3\n";
+
+fn with_starts(table: &str, arguments: &[&str]) -> Done {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("starts.csv"), table).unwrap();
+    let first = ["section", "henon-heiles", "--orbits", "starts.csv", "--on=x"];
+    done(program(home.path()).args([&first[..], arguments].concat()))
+}
+
+#[test]
+fn starts_are_completed_to_the_energy_shell_and_forbidden_ones_refused() {
+    for (solve, sign) in [("p_x", 1.0), ("-p_x", -1.0)] {
+        let solve = format!("--solve={solve}");
+        let arguments =
+            ["--energy=1/8", solve.as_str(), "--count=4", "--format=json", "--columns=energy,p_x"];
+        let found = with_starts(STARTS, &arguments);
+        assert_eq!(found.code, 0, "{}", found.stderr);
+        assert!(found.stderr.contains("1 of 6 orbits"), "{}", found.stderr);
+        let object: Value = serde_json::from_str(&found.stdout).unwrap();
+        for row in rows(&object) {
+            near(row[3], 0.125, 1e-15);
+            assert!(row[4] > 0.0, "upwards through x = 0");
+        }
+        let orbits = object["orbits"].as_array().unwrap();
+        assert_eq!(orbits.len(), 6);
+        for (i, orbit) in orbits.iter().enumerate() {
+            let refused = i == 4;
+            assert_eq!(orbit["status"], if refused { "refused" } else { "completed" });
+            assert_eq!(orbit["crossings"], if refused { 0 } else { 4 });
+        }
+        // V(0, 0.9) = 0.81/2 − 0.729/3
+        let why = orbits[4]["message"].as_str().unwrap();
+        assert!(
+            why.contains("outside the region") && why.ends_with("at least 0.162 there"),
+            "{why}"
+        );
+        // the first crossing of the star that leaves the origin along x is half a turn away, or a whole one
+        let first = rows(&object)[0][2];
+        assert!(if sign > 0.0 { first > 5.0 } else { first < 5.0 }, "{first}");
+    }
+    let all = with_starts("y\n0.9\n0.8\n", &["--energy=0.1", "--solve=p_x"]);
+    assert_eq!(all.code, 1);
+    assert!(all.stderr.contains("outside the region"), "{}", all.stderr);
+}
+
+/// In a rotating frame H = p²/2 − w p + x²/2: both roots of p are positive, w ± √(w² + 2E − x²).
+#[test]
+fn a_linear_term_has_both_its_roots_and_a_relativistic_particle_its_own() {
+    let rotating = r#"
+        title = "Rotating"
+        [coordinates]
+        x = { initial = 0.5, momentum = 0 }
+        [parameters]
+        w = 2
+        [hamiltonian]
+        H = "1/2*p_x^2 - w*p_x + 1/2*x^2"
+    "#;
+    let relativistic = r#"
+        title = "Relativistic"
+        [coordinates]
+        x = { initial = 0.5, momentum = 0 }
+        [hamiltonian]
+        H = "sqrt(1 + p_x^2) + 1/2*x^2"
+    "#;
+    let root = f64::sqrt(4.0 - 2.0 - 0.25);
+    let p = f64::sqrt(1.375 * 1.375 - 1.0);
+    for (file, energy, solve, expected) in [
+        (rotating, "-1", "p_x", 2.0 + root),
+        (rotating, "-1", "-p_x", 2.0 - root),
+        (relativistic, "1.5", "p_x", p),
+        (relativistic, "1.5", "-p_x", -p),
+    ] {
+        let (energy, solve) = (format!("--energy={energy}"), format!("--solve={solve}"));
+        // the surface is reached at once, at a state that is nearly the start
+        let arguments = ["section", "system.toml", "--on=t - 1e-9", "--count=1", "--format=json"];
+        let all = [&arguments[..], &["--columns=p_x,energy", &energy, &solve]].concat();
+        let rows = rows(&with_file(file, &all).json());
+        near(rows[0][3], expected, 2e-9);
+        near(rows[0][4], energy[9..].parse().unwrap(), 4e-16);
+    }
+}
+
+#[test]
+fn the_bytes_are_the_same_whatever_the_number_of_threads() {
+    let with = |threads: &str| {
+        with_starts(STARTS, &["--energy=1/8", "--solve=p_x", "--count=10", "--threads", threads])
+    };
+    let one = with("1");
+    assert!(one.stdout.lines().count() > 50);
+    for threads in ["2", "7"] {
+        assert_eq!(with(threads).stdout, one.stdout, "{threads} threads");
+    }
+}
+
+/// Above the energy 1/6 a star escapes to infinity in a finite time; the others are not disturbed.
+#[test]
+fn a_fault_of_one_orbit_does_not_end_the_others() {
+    let table = "y,p_y\n0.1,0\n1.2,0.5\n0.2,0\n";
+    let found = with_starts(table, &["--init=p_x=0.1", "--until=40", "--format=json"]);
+    assert_eq!(found.code, 0, "{}", found.stderr);
+    let object: Value = serde_json::from_str(&found.stdout).unwrap();
+    let statuses: Vec<&Value> =
+        object["orbits"].as_array().unwrap().iter().map(|orbit| &orbit["status"]).collect();
+    assert_eq!(statuses, ["completed", "faulted", "completed"]);
+    assert!(object["orbits"][1]["message"].as_str().is_some_and(|why| !why.is_empty()));
+    assert!(object["orbits"][2]["crossings"].as_u64().unwrap() > 3);
+}
+
+#[test]
+fn what_is_not_right_is_refused_with_a_sentence() {
+    let refused = |arguments: &[&str], said: &[&str]| {
+        phaselab(&[&["section", "henon-heiles"], arguments].concat()).fails(2, said);
+    };
+    refused(&["--on=zeta"], &["zeta", "--on"]);
+    refused(&["--on=3"], &["a constant"]);
+    refused(&["--on=x", "--columns=foo"], &["foo", "--columns"]);
+    refused(&["--on=x", "--until=-1"], &["begins at 0"]);
+    refused(&["--on=x", "--energy=1"], &["--solve"]);
+    refused(&["--on=x", "--energy=1", "--solve=y"], &["a velocity or a momentum"]);
+    refused(&["--on=x", "--energy=1", "--solve=p_z"], &["p_z", "p_x"]);
+    refused(&["--on=x", "--count=0"], &["0"]);
+    refused(&["--on=x", "--orbits=none.csv"], &["none.csv"]);
+    let bad = |table: &str, said: &[&str]| with_starts(table, &[]).fails(2, said);
+    bad("y,z\n0,1\n", &["row 1", "z"]);
+    bad("y\n0,1\n", &["line 2 has 2 cells"]);
+    bad("y,y\n0,1\n", &["two columns `y`"]);
+    bad("y\n", &["no rows"]);
+    bad("y\nx+\n", &["row 1"]);
+}

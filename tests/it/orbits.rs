@@ -1,0 +1,3 @@
+//! Many orbits: the order of results, and what ends them.
+
+mod pool;
