@@ -29,7 +29,7 @@ mod yoshida;
 mod zeno;
 
 pub use clock::spacing;
-pub use method::{Method, MethodError, Preserves, Settings, StepperResult, Stepping};
+pub use method::{ACCURACIES, Method, MethodError, Preserves, Settings, StepperResult, Stepping};
 pub use methods::{METHODS, method_named};
 pub use propagator::{Occurrence, OccurrenceKind, Propagator, Reached};
 pub use roots::first_crossing;

@@ -5,6 +5,7 @@ use std::str::FromStr;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, report};
 use crate::expr::{Expr, Pool};
+use crate::integrate::ACCURACIES;
 use crate::mechanics::{Valuation, body_constants};
 use crate::model::{Allowed, Channel, Model, Scope};
 use crate::num::Number;
@@ -48,6 +49,14 @@ impl Assignment {
 
 /// The greatest length of an error message that quotes an invalid value.
 const LONGEST_REASON: usize = 300;
+
+/// Reads a tolerance: a number, or the name of an accuracy.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    match ACCURACIES.iter().find(|(name, ..)| *name == text) {
+        Some(&(_, tolerance)) => Ok(tolerance),
+        None => number(text).map_err(|why| format!("{why}; `fast` and `exact` are names of two")),
+    }
+}
 
 /// Reads a number on the command line, which may be written as in a file: `3*pi/4`.
 pub(super) fn number(text: &str) -> Result<f64, String> {

@@ -6,7 +6,7 @@
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, number, tolerance};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::report::Header;
@@ -38,8 +38,9 @@ pub(super) struct MotionOptions {
     /// The step of an integrator of fixed step.
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
     step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps.
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
+    /// `exact` (1e-18, as by default: errors at the last digit shown).
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
     tolerance: Option<f64>,
 }
 

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, number, tolerance};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
@@ -67,8 +67,9 @@ pub(super) struct Arguments {
     /// The step of an integrator of fixed step.
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
     step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps.
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
+    /// `exact` (1e-18, as by default: errors at the last digit shown).
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
     tolerance: Option<f64>,
     /// One more column: an expression, under a name of its own or as it is written.
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true)]

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde_json::{Map, Value};
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, number, tolerance};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
@@ -41,8 +41,9 @@ pub(super) struct StudyArguments {
     /// The step of an integrator of fixed step.
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
     step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps.
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = number)]
+    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
+    /// `exact` (1e-18, as by default: errors at the last digit shown).
+    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
     tolerance: Option<f64>,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]

@@ -32,6 +32,10 @@ pub struct Method {
 /// A stepper, or why there is none.
 pub type StepperResult = Result<Box<dyn Stepper>, MethodError>;
 
+/// The two accuracies of the default method that have a name, and their tolerances: series in plain
+/// `f64`, and with the lowest orders in double-double.
+pub const ACCURACIES: [(&str, f64); 2] = [("fast", 1e-15), ("exact", 1e-18)];
+
 /// How a method chooses its steps.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Stepping {

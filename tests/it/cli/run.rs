@@ -544,3 +544,14 @@ fn a_step_beyond_what_is_stable_is_reported() {
     assert_eq!(done.code, 0);
     assert!(!done.stderr.contains("not stable"), "{}", done.stderr);
 }
+
+#[test]
+fn an_accuracy_may_be_asked_for_by_name() {
+    let rows = |tolerance: &str| csv(&run(&["--until", "3", "--tolerance", tolerance]).success());
+    assert_eq!(rows("fast"), rows("1e-15"));
+    assert_eq!(rows("exact"), rows("1e-18"));
+    assert_ne!(rows("fast"), rows("exact"), "they are two");
+    let refused = run(&["--tolerance", "quick"]);
+    assert_eq!(refused.code, 2);
+    assert!(refused.stderr.contains("`fast` and `exact`"), "{}", refused.stderr);
+}
