@@ -241,7 +241,7 @@ impl Pool {
             // what is marked meanwhile in this word lies below what is taken from it
             let mut below = u64::MAX;
             while marked[word] & below != 0 {
-                let bit = 63 - (marked[word] & below).leading_zeros();
+                let bit = (marked[word] & below).ilog2();
                 below = (1 << bit) - 1;
                 let e = Expr((word * 64) as u32 + bit);
                 if stop(e) {
