@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
-use super::decimal::shortest;
+use super::decimal::push_shortest;
 use super::report::{Closing, Header, Status};
 use crate::printable;
 
@@ -28,6 +28,8 @@ pub(super) struct Rows<W> {
     format: Format,
     out: W,
     written: u64,
+    /// The row being written.
+    line: String,
 }
 
 impl<W: Write> Rows<W> {
@@ -45,17 +47,21 @@ impl<W: Write> Rows<W> {
                 out.write_all(b"\n")?;
             }
         }
-        Ok(Rows { format, out, written: 0 })
+        Ok(Rows { format, out, written: 0, line: String::new() })
     }
 
     /// Writes a row, with one number per column.
     pub(super) fn row(&mut self, row: &[f64]) -> io::Result<()> {
         match self.format {
             Format::Csv => {
-                let cells: Vec<String> =
-                    row.iter().map(|&x| shortest(x).unwrap_or_default()).collect();
-                self.out.write_all(cells.join(",").as_bytes())?;
-                self.out.write_all(b"\n")?;
+                self.line.clear();
+                for &x in row {
+                    push_shortest(&mut self.line, x);
+                    self.line.push(',');
+                }
+                self.line.pop();
+                self.line.push('\n');
+                self.out.write_all(self.line.as_bytes())?;
             }
             Format::Json => {
                 let lead = if self.written == 0 { "\n    " } else { ",\n    " };

@@ -42,6 +42,10 @@ pub struct Experiment {
     pub(super) ended: Option<String>,
     /// Whether the motion was resumed from a checkpoint.
     pub(super) taken_up: bool,
+    /// The rows recorded since the last frame.
+    rows: u64,
+    /// How many times farther apart rows are at an unlimited speed than a smooth curve needs; a power of two.
+    sparseness: f64,
 }
 
 /// How far an advance came.
@@ -85,6 +89,8 @@ impl Experiment {
             reported_names: Vec::new(),
             ended: None,
             taken_up: false,
+            rows: 0,
+            sparseness: 1.0,
             setup,
         };
         experiment.restart();
@@ -197,6 +203,18 @@ impl Experiment {
             short(found.time),
             short(found.limit)
         ))
+    }
+
+    /// A frame has shown what was recorded. At an unlimited speed the next rows are so far apart that a frame receives
+    /// no more of them than it can show.
+    pub fn shown(&mut self) {
+        let rows = std::mem::take(&mut self.rows);
+        self.sparseness = match rows {
+            _ if self.setup.speed.is_finite() => 1.0,
+            0..FEWEST_ROWS => (self.sparseness / 2.0).max(1.0),
+            FEWEST_ROWS..MOST_ROWS => self.sparseness,
+            _ => (self.sparseness * 2.0).min(SPARSEST),
+        };
     }
 
     /// Takes a snapshot of the current state.
@@ -338,6 +356,7 @@ impl Experiment {
 
     /// Records the current values as the row that is due.
     pub(super) fn record(&mut self) {
+        self.rows += 1;
         self.recorder.record(self.motion.time(), self.motion.values());
         self.recorder.set_spacing(self.spacing());
         let dense = self.recorder.spacing() <= self.motion.step_size().abs();
@@ -347,12 +366,13 @@ impl Experiment {
     /// The time to the next row. It is short enough for a smooth curve, as estimated from the method's step, but not
     /// shorter than the setup's spacing, and not so long that the trail lags behind at the current speed.
     fn spacing(&self) -> f64 {
-        let least = self.setup.spacing;
+        let sparseness = if self.setup.speed.is_finite() { 1.0 } else { self.sparseness };
+        let least = self.setup.spacing * sparseness;
         let per_step = match self.motion.method().stepping {
             Stepping::Adaptive => ROWS_PER_LONG_STEP,
             Stepping::Fixed => 1.0,
         };
-        let smooth = self.motion.step_size().abs() / per_step;
+        let smooth = self.motion.step_size().abs() / per_step * sparseness;
         let most = least.max(self.setup.speed * LONGEST_LAG);
         if smooth <= least {
             return least;
@@ -397,6 +417,14 @@ const GROWTH: f64 = 8.0;
 
 /// A step of a high-order method covers about a sixth of an oscillation.
 const ROWS_PER_LONG_STEP: f64 = 32.0;
+
+/// The number of rows in a frame, at an unlimited speed, beyond which they are recorded farther apart, and below which
+/// closer together: a quarter of the rows that are kept in full, and an eighth of that.
+const MOST_ROWS: u64 = 2048;
+const FEWEST_ROWS: u64 = MOST_ROWS / 8;
+
+/// The greatest sparseness of rows.
+const SPARSEST: f64 = 65_536.0;
 
 /// The longest time between two rows, in seconds of wall time: one frame.
 const LONGEST_LAG: f64 = 1.0 / 60.0;

@@ -15,7 +15,7 @@ use super::residual::Residual;
 use super::{Gauge, Reference};
 use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, Valuation, casimir_rate};
+use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
 use invariant_monitor::{InvariantMonitor, LEDGER, Subject};
@@ -45,7 +45,7 @@ impl Gauges {
     /// Creates the gauges for what `equations` finds conserved in `model`. If the energy is not conserved, they
     /// include the energy with its law of change, and the energy ledger, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
-        let equations = &Arc::new(with_energy_opened(equations));
+        let equations = &with_energy_opened(equations);
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
         let mut monitors = Vec::new();
         let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
@@ -286,14 +286,18 @@ fn contradict(gauges: &mut [Gauge]) {
 
 /// The equations with the energy expanded in the conserved quantities. The error of an invariant is that of the
 /// energy's terms in it, which may nearly cancel.
-fn with_energy_opened(equations: &Equations) -> Equations {
-    let mut equations = equations.clone();
+fn with_energy_opened(equations: &Arc<Equations>) -> Arc<Equations> {
+    let has_energy = |c: &Conserved| equations.pool.depends(c.expression, equations.symbols.energy);
+    if !equations.conserved.iter().any(has_energy) {
+        return Arc::clone(equations);
+    }
+    let mut equations = Equations::clone(equations);
     let energy = HashMap::from([(equations.symbols.energy, equations.energy)]);
     for i in 0..equations.conserved.len() {
         let e = equations.conserved[i].expression;
         equations.conserved[i].expression = equations.pool.substitute(e, &energy);
     }
-    equations
+    Arc::new(equations)
 }
 
 /// The Casimirs that forces change: the index, the name, the expression and its rate of change.

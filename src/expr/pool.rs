@@ -2,8 +2,11 @@
 //! smaller than handles of the whole, so passes over an expression visit the handles in order and
 //! need no recursion.
 
-use rustc_hash::FxHashMap;
+use std::hash::BuildHasher;
 use std::sync::Arc;
+
+use hashbrown::HashTable;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::measure::{DISTINCT, Measure, SymbolSet};
 use super::memo::Memo;
@@ -21,7 +24,8 @@ pub const NODE_LIMIT: usize = 1_000_000;
 pub struct Pool {
     nodes: Vec<Arc<Node>>,
     measures: Vec<Measure>,
-    index: FxHashMap<Arc<Node>, Expr>,
+    /// The handles, found by the hashes of their nodes.
+    index: HashTable<Expr>,
     symbols: Vec<SymbolInfo>,
     names: FxHashMap<String, Symbol>,
     size: usize,
@@ -44,7 +48,7 @@ impl Pool {
         let mut pool = Pool {
             nodes: Vec::new(),
             measures: Vec::new(),
-            index: FxHashMap::default(),
+            index: HashTable::new(),
             symbols: Vec::new(),
             names: FxHashMap::default(),
             size: 0,
@@ -237,7 +241,7 @@ impl Pool {
             // what is marked meanwhile in this word lies below what is taken from it
             let mut below = u64::MAX;
             while marked[word] & below != 0 {
-                let bit = 63 - (marked[word] & below).leading_zeros();
+                let bit = (marked[word] & below).ilog2();
                 below = (1 << bit) - 1;
                 let e = Expr((word * 64) as u32 + bit);
                 if stop(e) {
@@ -294,7 +298,9 @@ impl Pool {
     /// Stores a canonical node, or finds the existing one. Only the constructors call this.
     pub(super) fn intern(&mut self, node: Node) -> Expr {
         let stopped = self.is_stopped();
-        if let Some(&e) = self.index.get(&node).filter(|_| !stopped) {
+        let hash = FxBuildHasher.hash_one(&node);
+        let known = self.index.find(hash, |&e| *self.nodes[e.index()] == node);
+        if let Some(&e) = known.filter(|_| !stopped) {
             return e;
         }
         if self.full || self.size > NODE_LIMIT || stopped {
@@ -306,9 +312,9 @@ impl Pool {
         node.for_each_part(|_| parts += 1);
         self.size += 1 + parts / 4;
         self.measures.push(Measure::of(&node, &self.measures));
-        let node = Arc::new(node);
-        self.nodes.push(Arc::clone(&node));
-        self.index.insert(node, e);
+        self.nodes.push(Arc::new(node));
+        let nodes = &self.nodes;
+        self.index.insert_unique(hash, e, |&e| FxBuildHasher.hash_one(&*nodes[e.index()]));
         e
     }
 }

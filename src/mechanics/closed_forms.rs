@@ -145,11 +145,12 @@ impl Equations {
         }
         self.pending.transform = false;
         let (coordinates, law) = (self.coordinates.clone(), self.law);
+        let momenta = self.momenta.clone();
         match self.flow.clone() {
             Flow::Lagrange { mass, .. } => {
                 let found = self.worth_eliminating(&mass).and_then(|()| {
                     self.within_bounds(|pool| {
-                        legendre::lagrangian_to_hamiltonian(pool, &coordinates, law)
+                        legendre::lagrangian_to_hamiltonian(pool, &coordinates, law, momenta, mass)
                     })
                 });
                 (self.hamiltonian, self.velocities) = match found {

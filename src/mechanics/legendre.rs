@@ -14,7 +14,7 @@ use crate::num::Number;
 /// A transform and, if they are short enough, the old variables in terms of the new.
 type Transformed = (Expr, Result<Vec<Expr>, NoClosedForm>);
 
-/// H(q, p, t) and q̇(q, p, t) from L(q, q̇, t).
+/// H(q, p, t) and q̇(q, p, t) from L(q, q̇, t), its momenta ∂L/∂q̇ and its mass matrix.
 ///
 /// For L = ½ q̇·M q̇ + b·q̇ + L₀: q̇ = M⁻¹(p − b) and H = ½ (p − b)·q̇ − L₀.
 ///
@@ -25,11 +25,13 @@ pub fn lagrangian_to_hamiltonian(
     pool: &mut Pool,
     coordinates: &[CoordinateSymbols],
     lagrangian: Expr,
+    momenta: Vec<Expr>,
+    mass: Vec<Vec<Expr>>,
 ) -> Result<Transformed, NoClosedForm> {
     let from: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
     let to: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
     let names = ("L", "velocities", "the mass matrix");
-    transform(pool, &from, &to, lagrangian, names)
+    transform(pool, &from, &to, lagrangian, (momenta, mass), names)
         .or_else(|why| root::transform(pool, &from, &to, lagrangian).ok_or(why))
 }
 
@@ -46,26 +48,27 @@ pub fn hamiltonian_to_lagrangian(
     let from: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
     let to: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
     let names = ("H", "momenta", "∂²H/∂p²");
-    transform(pool, &from, &to, hamiltonian, names)
-        .or_else(|why| root::transform(pool, &from, &to, hamiltonian).ok_or(why))
-        .map(|(l, _)| l)
-}
-
-/// The transform of `f` from the variables `from` to their conjugates `to`, and `from` in terms
-/// of `to`.
-fn transform(
-    pool: &mut Pool,
-    from: &[Symbol],
-    to: &[Symbol],
-    f: Expr,
-    (name, variables, matrix): (&str, &str, &str),
-) -> Result<Transformed, NoClosedForm> {
-    let slopes: Vec<Expr> = from.iter().map(|&s| tidy_derivative(pool, f, s)).collect();
+    let slopes: Vec<Expr> = from.iter().map(|&s| tidy_derivative(pool, hamiltonian, s)).collect();
     let mut hessian = Vec::new();
     for &slope in &slopes {
         let row: Vec<Expr> = from.iter().map(|&s| tidy_derivative(pool, slope, s)).collect();
         hessian.push(row);
     }
+    transform(pool, &from, &to, hamiltonian, (slopes, hessian), names)
+        .or_else(|why| root::transform(pool, &from, &to, hamiltonian).ok_or(why))
+        .map(|(l, _)| l)
+}
+
+/// The transform of `f`, with its first and second derivatives, from the variables `from` to their
+/// conjugates `to`, and `from` in terms of `to`.
+fn transform(
+    pool: &mut Pool,
+    from: &[Symbol],
+    to: &[Symbol],
+    f: Expr,
+    (slopes, mut hessian): (Vec<Expr>, Vec<Vec<Expr>>),
+    (name, variables, matrix): (&str, &str, &str),
+) -> Result<Transformed, NoClosedForm> {
     for row in &mut hessian {
         for entry in row.iter_mut() {
             *entry = constant_in(pool, *entry, from).ok_or_else(|| {

@@ -10,6 +10,7 @@
 
 mod elementary;
 
+use std::io::Write as _;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `high + low`, with `low` at most half a unit in the last place of `high`. It is accurate for
@@ -78,14 +79,7 @@ impl DoubleDouble {
         if (x.fract() == 0.0 && x.abs() < 9e15) || !x.is_finite() {
             return DoubleDouble::from(x);
         }
-        let text = format!("{x:e}");
-        let parts = text.split_once('e').and_then(|(mantissa, exponent)| {
-            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-            let digits: i64 = format!("{whole}{fraction}").parse().ok()?;
-            let exponent: i32 = exponent.parse().ok()?;
-            Some((digits, exponent - fraction.len() as i32))
-        });
-        match parts {
+        match decimal(x) {
             Some((digits, exponent)) if exponent.abs() < 250 => {
                 let (mantissa, power) =
                     (DoubleDouble::integer(digits), power_of_ten(exponent.abs()));
@@ -124,8 +118,57 @@ impl DoubleDouble {
     }
 }
 
+/// The digits and the exponent of the shortest decimal that reads back to `x`, which has a
+/// fractional part.
+fn decimal(x: f64) -> Option<(i64, i32)> {
+    // Of few digits: no other integer is as close to x · 10ᵏ as the rounding of that product and
+    // half a unit in the last place of x, which are below 3/16 together, and the quotient of two
+    // exact numbers is rounded as a literal is.
+    for (k, power) in (1..).zip(&POWERS[1..16]) {
+        let digits = (x * power).round();
+        if digits.abs() >= FEW {
+            break;
+        }
+        if digits / power == x {
+            return Some((digits as i64, -k));
+        }
+    }
+    let mut text = [0_u8; 32];
+    let mut rest = &mut text[..];
+    write!(rest, "{x:e}").ok()?;
+    let left = rest.len();
+    let length = text.len() - left;
+    let (mut digits, mut behind_point, mut fraction) = (0_i64, 0, false);
+    let mut bytes = text[..length].iter();
+    for byte in bytes.by_ref() {
+        match byte {
+            b'-' => {}
+            b'.' => fraction = true,
+            b'e' => break,
+            digit => {
+                digits = 10 * digits + i64::from(digit - b'0');
+                behind_point += i32::from(fraction);
+            }
+        }
+    }
+    let exponent: i32 = std::str::from_utf8(bytes.as_slice()).ok()?.parse().ok()?;
+    Some((if x < 0.0 { -digits } else { digits }, exponent - behind_point))
+}
+
+/// An integer below this times a power of ten is rounded by less than 1/16.
+const FEW: f64 = (1_u64 << 50) as f64;
+
+/// The powers of ten that an `f64` holds exactly.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
 /// A power of ten, accurate to the last digits.
 fn power_of_ten(n: i32) -> DoubleDouble {
+    if let Some(&exact) = POWERS.get(n as usize) {
+        return DoubleDouble::from(exact);
+    }
     let (mut result, mut base, mut n) = (DoubleDouble::ONE, DoubleDouble::from(10.0), n);
     while n > 0 {
         if n & 1 == 1 {

@@ -24,6 +24,8 @@ pub trait Runnable: Send {
     fn status(&self) -> Status;
     /// Takes a snapshot of the current state.
     fn snapshot(&self) -> Snapshot;
+    /// A frame's worth of time has passed since this was called last.
+    fn shown(&mut self) {}
 }
 
 impl Runnable for Experiment {
@@ -57,5 +59,9 @@ impl Runnable for Experiment {
 
     fn snapshot(&self) -> Snapshot {
         Experiment::snapshot(self)
+    }
+
+    fn shown(&mut self) {
+        Experiment::shown(self);
     }
 }

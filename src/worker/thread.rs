@@ -75,6 +75,7 @@ impl WorkerLoop<'_> {
         if since >= BETWEEN_SNAPSHOTS || matches!(progress, Some(Progress::Stuck | Progress::Ended))
         {
             self.publish();
+            self.guarded(|subject| subject.shown());
         } else if progress == Some(Progress::Arrived) {
             return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));
         }

@@ -119,6 +119,49 @@ fn angles_are_right_in_every_quadrant() {
     }
 }
 
+/// The decimal of the shortest literal, by text.
+fn by_text(x: f64) -> DoubleDouble {
+    let text = format!("{x:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap();
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: i64 = format!("{whole}{fraction}").parse().unwrap();
+    let exponent = exponent.parse::<i32>().unwrap() - fraction.len() as i32;
+    let mut power = DoubleDouble::ONE;
+    let (mut base, mut left) = (DoubleDouble::from(10.0), exponent.abs());
+    while left > 0 {
+        if left & 1 == 1 {
+            power = power * base;
+        }
+        base = base * base;
+        left >>= 1;
+    }
+    let digits = DoubleDouble::integer(digits);
+    if exponent < 0 { digits / power } else { digits * power }
+}
+
+#[test]
+fn the_digits_of_a_number_are_found_without_its_text() {
+    let check = |x: f64| {
+        let (found, expected) = (DoubleDouble::written(x), by_text(x));
+        let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
+        assert_eq!(bits(found), bits(expected), "{x:e}");
+    };
+    // decimals of one to seventeen digits, their neighbours, and numbers of all sizes
+    let mut seed = 1_u64;
+    for k in 0..20_000 {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let digits = (seed >> 11) % 10_u64.pow(1 + (k % 17) as u32);
+        let x = digits as f64 / 10_f64.powi((seed % 22) as i32);
+        for x in [x, x.next_up(), x.next_down(), -x, f64::from_bits(seed)] {
+            // an integer stands for itself
+            if x.fract() != 0.0 && x.is_finite() && (1e-200..1e200).contains(&x.abs()) {
+                check(x);
+            }
+        }
+    }
+    (1..3000).for_each(|k| check(f64::from(k).mul_add(0.001, 0.0005)));
+}
+
 #[test]
 fn what_is_written_is_meant() {
     // 0.1 = 0.1000000000000000055511151231257827… − 5.551115123125783e-18

@@ -79,6 +79,40 @@ fn a_curve_is_smooth_at_every_speed() {
 }
 
 #[test]
+fn flat_out_a_frame_gets_no_more_rows_than_it_can_show() {
+    for method in ["taylor", "yoshida4"] {
+        let mut system = shipped("henon-heiles");
+        system.execute(Command::Method(method.to_owned()));
+        system.execute(Command::Speed(f64::INFINITY));
+        let mut rows = Vec::new();
+        let mut drifts = Vec::new();
+        for _ in 0..12 {
+            // all steps that a frame has time for: rows count among them
+            let begin = system.time();
+            for _ in 0..8 {
+                assert_eq!(system.advance(f64::INFINITY, 1000), Progress::Underway);
+            }
+            let trail = system.snapshot().trail;
+            rows.push(trail.rows().filter(|row| row[0] > begin).count());
+            drifts.push(system.snapshot().gauges[0].drift);
+            system.shown();
+        }
+        assert!(rows[0] > 3000, "{method}: {rows:?}");
+        assert!(rows[8..].iter().all(|rows| (100..4200).contains(rows)), "{method}: {rows:?}");
+        // what is conserved is looked at all the same
+        assert!(drifts.iter().all(|drift| drift.abs() < 1e-3), "{method}: {drifts:?}");
+        // at a finite speed the curve is smooth again
+        system.execute(Command::Speed(1.0));
+        let begin = system.time();
+        run(&mut system, begin + 20.0);
+        let times: Vec<f64> = system.snapshot().trail.rows().map(|row| row[0]).collect();
+        let late = times.windows(2).filter(|pair| pair[0] > begin + 1.0);
+        let widest = late.map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(widest < 0.12, "{method}: {widest}");
+    }
+}
+
+#[test]
 fn a_motion_of_another_time_scale_is_recorded_alike() {
     // a period of a year in seconds, and of a femtosecond
     for (k, period) in [("4e-14", 31_415_926.5), ("4e31", 1e-15)] {
