@@ -243,6 +243,9 @@ fn a_file_with_mistakes_is_shown_with_its_mistakes() {
     lab.shows("mistakes");
     lab.shows("L = \"y\"");
     lab.shows("^");
+    // the first q closes the report
+    lab.press("q");
+    lab.until("it is closed", |lab| !lab.text().contains("has mistakes"));
     quits(lab);
 }
 
