@@ -124,9 +124,10 @@ fn a_departed_invariant_marks_the_picture() {
         for (look, size) in [(rich(), (80, 24)), (rich(), (120, 40)), (plain.clone(), (80, 24))] {
             let rows = rows(&screen(&app, &look, size));
             let name = if look.glyphs.is_ascii() { "energy" } else { "E" };
-            let word = match look.glyphs.is_ascii() {
-                true => word.to_owned(),
-                false => word.replace("e-4", "×10⁻⁴").replace("e-5", "×10⁻⁵"),
+            let word = if look.glyphs.is_ascii() {
+                word.to_owned()
+            } else {
+                word.replace("e-4", "×10⁻⁴").replace("e-5", "×10⁻⁵")
             };
             let mark = format!("! {name} {word}");
             assert!(rows.iter().any(|row| row.contains(&mark)), "{size:?}: {}", rows.join("\n"));
