@@ -132,6 +132,6 @@ fn main() {
     for name in ["pendulum", "heavy-top", "double-pendulum", "chain-pendulum", "henon-heiles"] {
         let (anew, kept) = times(name);
         let ratio = anew.as_secs_f64() / kept.as_secs_f64();
-        println!("{name:16} {:>10.1?} {:>10.1?} {ratio:6.1}", anew, kept);
+        println!("{name:16} {anew:>10.1?} {kept:>10.1?} {ratio:6.1}");
     }
 }

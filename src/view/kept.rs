@@ -23,8 +23,8 @@ type Row = Vec<(String, Style)>;
 #[derive(Debug, Default)]
 pub(super) struct Kept {
     look: Option<Look>,
-    trails: Vec<Used<TrailKey, Drawn>>,
-    levels: Vec<Used<LevelsKey, Raster>>,
+    trails: Vec<Held<TrailKey, Drawn>>,
+    levels: Vec<Held<LevelsKey, Raster>>,
     law: Option<(LawKey, Vec<Row>)>,
 }
 
@@ -38,7 +38,7 @@ struct Look {
 
 /// Something kept, and whether the present frame needed it.
 #[derive(Debug)]
-struct Used<Key, Value> {
+struct Held<Key, Value> {
     key: Key,
     value: Value,
     used: bool,
@@ -117,10 +117,10 @@ impl Kept {
         let found = self.trails.iter().position(|kept| kept.key == key);
         let index = found.unwrap_or_else(|| {
             let value = Drawn::empty(&key, glyphs);
-            self.trails.push(Used { key, value, used: true });
+            self.trails.push(Held { key, value, used: true });
             self.trails.len() - 1
         });
-        let Used { key, value, used } = &mut self.trails[index];
+        let Held { key, value, used } = &mut self.trails[index];
         *used = true;
         let new = value.continuation(rows).unwrap_or_else(|| {
             *value = Drawn::empty(key, glyphs);
@@ -142,14 +142,14 @@ impl Kept {
         (frame, level): (&Frame, u8),
         draw: impl FnOnce() -> Raster,
     ) -> &Raster {
-        let same = |kept: &Used<LevelsKey, Raster>| {
+        let same = |kept: &Held<LevelsKey, Raster>| {
             Arc::ptr_eq(&kept.key.landscape, landscape)
                 && kept.key.frame == *frame
                 && kept.key.level == level
         };
         let index = self.levels.iter().position(same).unwrap_or_else(|| {
             let key = LevelsKey { landscape: Arc::clone(landscape), frame: *frame, level };
-            self.levels.push(Used { key, value: draw(), used: true });
+            self.levels.push(Held { key, value: draw(), used: true });
             self.levels.len() - 1
         });
         self.levels[index].used = true;
@@ -193,15 +193,13 @@ impl Drawn {
         if oldest[0] < *began || oldest[0] == *began && !same(oldest, &self.first) {
             return None;
         }
-        let mut count = 0;
-        for row in rows.rows().rev() {
+        for (count, row) in rows.rows().rev().enumerate() {
             if same(row, &self.last) {
                 return Some(count);
             }
             if row[0] < self.last[0] {
                 return None;
             }
-            count += 1;
         }
         None
     }

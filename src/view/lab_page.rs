@@ -33,7 +33,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
                 let here = |other: &usize| *other == index || !shown.contains(other);
                 let last = shown.last() == Some(&index);
                 let sharing: Vec<usize> =
-                    (0..lab.plots.len()).filter(here).take_while(|_| last).collect();
+                    (0..lab.plots.len()).filter(here).take_while(|_| last && !lab.zoomed).collect();
                 plot(canvas, place, lab, (index, &sharing));
             }
             Slot::Pane(pane) => {

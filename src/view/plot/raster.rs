@@ -232,8 +232,10 @@ impl Raster {
         let size = self.size();
         let [left, top] = frame.dot([x - radius, y + radius], size);
         let [right, bottom] = frame.dot([x + radius, y - radius], size);
-        let (middle, half) =
-            ([(left + right) / 2.0, (top + bottom) / 2.0], [right - left, bottom - top]);
+        let (middle, half) = (
+            [f64::midpoint(left, right), f64::midpoint(top, bottom)],
+            [right - left, bottom - top],
+        );
         if ![left, top, right, bottom].iter().all(|v| v.is_finite()) || half.contains(&0.0) {
             return;
         }

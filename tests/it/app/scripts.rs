@@ -76,7 +76,7 @@ fn scripts_in_the_lab() {
         ("z Esc", "lab parameter 0", ""),
         ("Esc", "lab parameter 0", ""),
         ("Esc Esc", "picker pendulum", ""),
-        ("Esc Space Esc", "lab parameter 0", "Pause"),
+        ("Esc Space Esc", "lab parameter 0", ""),
         ("Esc Esc Enter", "lab parameter 0", "Reset, Play"),
         ("? q", "lab parameter 0", ""),
         ("m q", "lab parameter 0", ""),

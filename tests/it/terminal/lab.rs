@@ -144,7 +144,7 @@ fn the_mouse_is_used_until_it_is_left_to_the_terminal() {
     plain.press("\x1b[<0;0;0M\x1b[<0;10;10M\x1b[<32;11;10M\x1b[<0;11;10m\x1b[<64;99999;1M");
     plain.press("M");
     plain.until("the mouse is left alone", |lab| !reported(lab));
-    plain.shows("mouse");
+    plain.shows("Mouse off");
     quits(plain);
 
     let mut without = lab(&["pendulum", "--mouse=false"]).start();
@@ -243,6 +243,9 @@ fn a_file_with_mistakes_is_shown_with_its_mistakes() {
     lab.shows("mistakes");
     lab.shows("L = \"y\"");
     lab.shows("^");
+    // the first q closes the report
+    lab.press("q");
+    lab.until("it is closed", |lab| !lab.text().contains("has mistakes"));
     quits(lab);
 }
 

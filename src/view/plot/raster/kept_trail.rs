@@ -163,7 +163,7 @@ mod tests {
         };
         let mut at = [0.0, 0.0];
         let step = |i: usize, at: &mut [f64; 2], random: &mut dyn FnMut() -> f64| {
-            let reach = if i % 37 == 0 { 3.0 } else { 0.2 };
+            let reach = if i.is_multiple_of(37) { 3.0 } else { 0.2 };
             *at = [at[0] + reach * random(), at[1] * 0.98 + reach * random()];
             if i % 101 == 50 { [f64::NAN, 0.0] } else { *at }
         };
