@@ -8,6 +8,7 @@ mod doctor;
 mod exit;
 mod help;
 mod hostile;
+mod invariants;
 mod list;
 mod manual;
 mod record;
