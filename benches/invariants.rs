@@ -24,9 +24,11 @@ const THREE_BODIES: &str = "title = \"Three bodies\"\n[coordinates]\n\
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group("invariants");
     group.sample_size(10);
-    for (name, text, degree) in
-        [("kepler", KEPLER, 2), ("henon-heiles", HENON_HEILES, 6), ("three bodies", THREE_BODIES, 2)]
-    {
+    for (name, text, degree) in [
+        ("kepler", KEPLER, 2),
+        ("henon-heiles", HENON_HEILES, 6),
+        ("three bodies", THREE_BODIES, 2),
+    ] {
         let model = read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
         let equations = mechanics::derive(&model).expect("derivable");
         group.bench_function(name, |b| {
