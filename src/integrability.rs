@@ -16,6 +16,8 @@ mod level;
 mod noether;
 mod scope;
 mod search;
+mod separation;
+mod transformations;
 mod verdict;
 
 pub use evaluator::Unsupported;
@@ -23,4 +25,5 @@ pub use known::Known;
 pub use law::is_hamiltonian;
 pub use noether::{Symmetries, Symmetry, symmetries};
 pub use search::{Constant, Invariants, Limits, Proof, SIZE_LIMIT, Searched, invariants};
+pub use separation::separates;
 pub use verdict::{Relations, relations};

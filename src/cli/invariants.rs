@@ -16,7 +16,9 @@ use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::experiment::Derived;
-use crate::integrability::{Invariants, Limits, Relations, invariants, is_hamiltonian, relations};
+use crate::integrability::{
+    Invariants, Limits, Relations, invariants, is_hamiltonian, relations, separates,
+};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::printable;
@@ -110,6 +112,8 @@ struct Answer<'a> {
     invariants: Invariants,
     relations: Relations,
     hamiltonian: bool,
+    /// Whether Hamilton–Jacobi separates in the file's coordinates.
+    separates: Option<bool>,
     jacobi: bool,
     scan: Option<(String, Vec<At>)>,
 }
@@ -132,8 +136,10 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let invariants = arguments.search(model, equations)?;
     let hamiltonian = is_hamiltonian(model, equations);
     let relations = relations(model, equations, &invariants, hamiltonian);
+    let separates = separates(model, equations);
     let jacobi = arguments.jacobi;
-    let answer = Answer { model, equations, invariants, relations, hamiltonian, jacobi, scan };
+    let answer =
+        Answer { model, equations, invariants, relations, hamiltonian, separates, jacobi, scan };
     let text = match arguments.format {
         Format::Text => text::write(&answer, Script::of_locale()),
         Format::Latex => text::latex(&answer),

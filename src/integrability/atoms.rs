@@ -213,7 +213,7 @@ impl Atoms {
                 Node::Product(_, factors) => {
                     let mut all = BTreeMap::from([(0, 0)]);
                     for &(base, n) in factors {
-                        let power = self.power_degrees(&known[&base], n);
+                        let power = power_degrees(&known[&base], n);
                         all = convolved(&all, &power);
                     }
                     all
@@ -237,17 +237,17 @@ impl Atoms {
         }
         known.remove(&e).unwrap_or_default()
     }
+}
 
-    fn power_degrees(&self, base: &BTreeMap<u32, u32>, n: Number) -> BTreeMap<u32, u32> {
-        match n.as_integer() {
-            Some(n @ 0..=12) => {
-                let once = BTreeMap::from([(0, 0)]);
-                (0..n).fold(once, |power, _| convolved(&power, base))
-            }
-            _ => {
-                let Number::Rational(above, _) = n else { return BTreeMap::from([(0, 1)]) };
-                BTreeMap::from([(0, above.unsigned_abs().min(64) as u32)])
-            }
+fn power_degrees(base: &BTreeMap<u32, u32>, n: Number) -> BTreeMap<u32, u32> {
+    match n.as_integer() {
+        Some(n @ 0..=12) => {
+            let once = BTreeMap::from([(0, 0)]);
+            (0..n).fold(once, |power, _| convolved(&power, base))
+        }
+        _ => {
+            let Number::Rational(above, _) = n else { return BTreeMap::from([(0, 1)]) };
+            BTreeMap::from([(0, above.unsigned_abs().min(64) as u32)])
         }
     }
 }

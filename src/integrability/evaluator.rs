@@ -5,8 +5,8 @@
 //! residue, each root the positive one: algebraically they satisfy what the functions satisfy, and nothing else. A
 //! point at which something has no value is refused, and another is drawn.
 //!
-//! It walks the nodes of the pool. The compiled program of `system` has the same operations in the same order, so
-//! that this could become a third evaluation of it; nothing outside this file knows which it is.
+//! It walks the nodes of the pool; it could become a third evaluation of the compiled program of `system`, which has the
+//! same operations. Nothing outside this file knows which it is.
 //! Never here: what the expressions mean.
 
 use rustc_hash::FxHashMap;
@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue};
 
-/// Random residues, reproducible.
+/// Random residues.
 #[derive(Clone, Debug)]
 pub(super) struct Random(u64);
 
@@ -70,7 +70,7 @@ struct Angle {
     quarters: i64,
 }
 
-/// Expressions compiled for evaluation.
+/// Compiled expressions.
 #[derive(Clone, Debug)]
 pub(super) struct Evaluator {
     steps: Vec<Step>,
@@ -78,7 +78,7 @@ pub(super) struct Evaluator {
     /// For each circle, and each unit, whether it is the same at all points.
     circles: Vec<bool>,
     units: Vec<bool>,
-    /// Whether logarithms or arctangents may be related, so that a point is more general than the functions are.
+    /// Whether logarithms or arctangents may be related, so that points are too general.
     pub(super) overgeneral: bool,
 }
 
@@ -87,7 +87,7 @@ pub(super) struct Evaluator {
 pub(super) struct Point {
     pub(super) field: PrimeField,
     values: Vec<Residue>,
-    /// The companion of each value: cos for sin, cosh for sinh, and the reverse.
+    /// cos for sin, cosh for sinh, and the reverse.
     companions: Vec<Residue>,
 }
 
@@ -138,7 +138,11 @@ pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
     let mut all = Vec::new();
     for (c, term) in pool.summands(e) {
         match pool.node(term) {
-            Node::Number(n) => all.push((c * *n, Expr::ONE)),
+            // a constant that is no short fraction is a unit of its own
+            Node::Number(n) => match c * *n {
+                whole @ Number::Rational(..) => all.push((whole, Expr::ONE)),
+                real @ Number::Real(_) => all.push((Number::ONE, pool.number(real))),
+            },
             Node::Product(k, _) => {
                 let k = *k;
                 all.push((c * k, pool.scale(k.recip(), term)));
@@ -354,8 +358,8 @@ impl Evaluator {
 
     /// The value of a symbol, zero if it occurs nowhere.
     pub(super) fn symbol_value(&self, point: &Point, symbol: Symbol) -> Residue {
-        let found = self.steps.iter().position(|s| matches!(s, Step::Symbol(s) if *s == symbol));
-        found.map_or(Residue::ZERO, |i| point.values[i])
+        let is = |step: &Step| matches!(step, Step::Symbol(s) if *s == symbol);
+        self.steps.iter().position(is).map_or(Residue::ZERO, |i| point.values[i])
     }
 
     /// The derivatives of everything along a direction, given by the rate of each symbol.
@@ -404,7 +408,7 @@ impl Evaluator {
         Some(Rates(rates))
     }
 
-    /// The rate of a compiled expression.
+    /// Its rate.
     pub(super) fn rate(&self, rates: &Rates, e: Expr) -> Residue {
         rates.0[self.index[&e]]
     }

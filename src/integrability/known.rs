@@ -84,12 +84,12 @@ pub(super) fn degree(pool: &Pool, e: Expr, symbols: &[Symbol]) -> u32 {
     known[&e]
 }
 
-/// All products of some functions up to a degree, each as a list of their indices; no more than `most`.
+/// Some functions, and all their products up to a degree, each as a list of their indices; no more than `most`.
 pub(super) fn products(degrees: &[u32], up_to: u32, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<(Vec<usize>, u32)> = Vec::new();
     let mut begin = 0;
-    let singles = (0..degrees.len()).filter(|&i| degrees[i] <= up_to);
-    all.extend(singles.map(|i| (vec![i], degrees[i])));
+    // one that is no polynomial may lie in an ansatz of any degree
+    all.extend((0..degrees.len()).map(|i| (vec![i], degrees[i])));
     while begin < all.len() && all.len() < most {
         let end = all.len();
         for k in begin..end {

@@ -27,7 +27,7 @@ pub(super) enum Rule {
 /// A constraint A q̇ + a = 0, with f(q) = 0 where it is holonomic.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
-    pub(super) row: Vec<Expr>,
+    pub(super) slopes: Vec<Expr>,
     rate: Expr,
     bias: Expr,
     position: Option<Expr>,
@@ -43,7 +43,7 @@ pub fn is_hamiltonian(model: &Model, equations: &Equations) -> bool {
 impl Row {
     /// Whether it does not move by itself: A q̇ = 0 without time.
     pub(super) fn is_scleronomic(&self, pool: &Pool, time: Symbol) -> bool {
-        self.rate == Expr::ZERO && !self.row.iter().any(|&a| pool.depends(a, time))
+        self.rate == Expr::ZERO && !self.slopes.iter().any(|&a| pool.depends(a, time))
     }
 }
 
@@ -103,7 +103,7 @@ impl Law {
                     let velocities = symbols.iter().map(|c| c.velocity);
                     let state = positions.iter().copied().chain(velocities).collect();
                     let rows = equations.constraints.iter().map(|c| Row {
-                        row: c.row.clone(),
+                        slopes: c.row.clone(),
                         rate: c.rate,
                         bias: c.bias,
                         position: c.position,
@@ -131,7 +131,7 @@ impl Law {
                 all.extend(mass.concat());
                 all.extend(force);
                 for row in rows {
-                    all.extend(&row.row);
+                    all.extend(&row.slopes);
                     all.extend([row.rate, row.bias]);
                     all.extend(row.position);
                 }
@@ -151,7 +151,7 @@ impl Law {
                 mass.iter_mut().flatten().for_each(&mut put);
                 force.iter_mut().for_each(&mut put);
                 for row in rows {
-                    row.row.iter_mut().for_each(&mut put);
+                    row.slopes.iter_mut().for_each(&mut put);
                     [&mut row.rate, &mut row.bias].into_iter().for_each(&mut put);
                     row.position.iter_mut().for_each(&mut put);
                 }
@@ -247,7 +247,8 @@ impl Law {
                         .sub(field.mul(c1, c1), field.mul(field.mul(field.residue(4), c2), f0));
                     let root = field.root(under, 2)?;
                     // either root may be meant
-                    let root = if field.value(f3) % 2 == 0 { root } else { field.neg(root) };
+                    let root =
+                        if field.value(f3).is_multiple_of(2) { root } else { field.neg(root) };
                     field.mul(field.sub(root, c1), field.inverse(field.add(c2, c2))?)
                 };
                 state.insert(q, value);
@@ -269,7 +270,7 @@ impl Law {
         let augmented: Vec<Vec<Residue>> = rows
             .iter()
             .map(|row| {
-                let all = row.row.iter().chain([&row.rate]);
+                let all = row.slopes.iter().chain([&row.rate]);
                 all.map(|&e| evaluator.value(&point, e)).collect()
             })
             .collect();
@@ -305,8 +306,8 @@ impl Law {
                 let all = n + rows.len();
                 let entry = |i: usize, j: usize| match (i < n, j < n) {
                     (true, true) => value(mass[i][j]),
-                    (true, false) => field.neg(value(rows[j - n].row[i])),
-                    (false, true) => value(rows[i - n].row[j]),
+                    (true, false) => field.neg(value(rows[j - n].slopes[i])),
+                    (false, true) => value(rows[i - n].slopes[j]),
                     (false, false) => Residue::ZERO,
                 };
                 let matrix = (0..all).map(|i| (0..all).map(|j| entry(i, j)).collect()).collect();
@@ -360,7 +361,8 @@ impl Law {
             for row in rows {
                 let value = |e: Expr| evaluator.value(point, e);
                 if row.position.is_some() {
-                    let mut condition: Vec<Residue> = row.row.iter().map(|&a| value(a)).collect();
+                    let mut condition: Vec<Residue> =
+                        row.slopes.iter().map(|&a| value(a)).collect();
                     condition.resize(width, Residue::ZERO);
                     conditions.add(condition);
                 }
@@ -373,13 +375,13 @@ impl Law {
                         continue;
                     };
                     let mut sum = evaluator.rate(&slopes, row.rate);
-                    for (&a, &vel) in row.row.iter().zip(v) {
+                    for (&a, &vel) in row.slopes.iter().zip(v) {
                         let speed = evaluator.symbol_value(point, vel);
                         sum = field.add(sum, field.mul(evaluator.rate(&slopes, a), speed));
                     }
                     condition[k] = sum;
                 }
-                for (k, &a) in row.row.iter().enumerate() {
+                for (k, &a) in row.slopes.iter().enumerate() {
                     condition[self.positions + k] = value(a);
                 }
                 conditions.add(condition);

@@ -16,7 +16,8 @@ use super::echelon::{Echelon, reduced};
 use super::evaluator::{Evaluator, Random, Unsupported};
 use super::formula::cleared;
 use super::law;
-use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
+use super::transformations::{generators_of, products};
+use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
@@ -80,6 +81,7 @@ pub fn symmetries(
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
     let pool = &mut equations.pool;
+    let symbolic = lagrangian;
     let lagrangian = pool.substitute(lagrangian, &values);
     let time = equations.symbols.time;
     let (positions, velocities): (Vec<Symbol>, Vec<Symbol>) =
@@ -88,8 +90,12 @@ pub fn symmetries(
     let vectors = problem.solve(pool, is_over)?;
     let mut found = Vec::new();
     let mut complete = true;
+    // the same changes with the parameters' names, where they are symmetries for all their values
+    let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
-        match problem.exact(pool, &vector) {
+        let by_name = named.as_ref().and_then(|named| named.exact(pool, &vector));
+        let by_name = by_name.filter(|symmetry| symmetry.proved);
+        match by_name.or_else(|| problem.exact(pool, &vector)) {
             Some(symmetry) => found.push(symmetry),
             None => complete = false,
         }
@@ -124,45 +130,8 @@ impl Problem {
         positions: Vec<Symbol>,
         velocities: Vec<Symbol>,
     ) -> Problem {
-        let slopes = (
-            pool.derivative(lagrangian, time),
-            positions.iter().map(|&q| pool.derivative(lagrangian, q)).collect(),
-            velocities.iter().map(|&v| pool.derivative(lagrangian, v)).collect(),
-        );
-        let mut generators = vec![pool.variable(time)];
-        generators.extend(positions.iter().map(|&q| pool.variable(q)));
-        // sines, cosines, exponentials and reciprocals of coordinates that the law contains, and of the time
-        for e in pool.reachable(&[lagrangian]) {
-            let moving = pool.depends_on_any(e, &positions) || pool.depends(e, time);
-            if !moving || pool.depends_on_any(e, &velocities) {
-                continue;
-            }
-            match pool.node(e).clone() {
-                Node::Call(FunctionId::Sin | FunctionId::Cos, u) => {
-                    for function in [FunctionId::Sin, FunctionId::Cos] {
-                        let e = pool.call(function, &u);
-                        if !generators.contains(&e) {
-                            generators.push(e);
-                        }
-                    }
-                }
-                Node::Call(FunctionId::Exp | FunctionId::Ln, _) if !generators.contains(&e) => {
-                    generators.push(e);
-                }
-                _ => {}
-            }
-        }
-        // an oscillation in the time is found where the law is quadratic: q'' = −ω² q
-        for w in frequencies(pool, lagrangian, &positions, &velocities) {
-            let (w, t) = (pool.number(w), pool.variable(time));
-            let angle = pool.mul(w, t);
-            for function in [FunctionId::Sin, FunctionId::Cos] {
-                let e = pool.call(function, &[angle]);
-                if !generators.contains(&e) {
-                    generators.push(e);
-                }
-            }
-        }
+        let slopes = slopes_of(pool, lagrangian, time, &positions, &velocities);
+        let generators = generators_of(pool, lagrangian, time, &positions, &velocities);
         let mut degree = DEGREE;
         let mut monomials = products(pool, &generators, degree);
         while degree > 1 && monomials.len() * (positions.len() + 2) > MOST {
@@ -178,6 +147,20 @@ impl Problem {
             generators,
             monomials,
             field: PrimeField::nth(0),
+        }
+    }
+
+    /// The same problem with another Lagrangian.
+    fn with(&self, pool: &mut Pool, lagrangian: Expr) -> Problem {
+        let slopes = slopes_of(pool, lagrangian, self.time, &self.positions, &self.velocities);
+        Problem {
+            lagrangian,
+            slopes,
+            positions: self.positions.clone(),
+            velocities: self.velocities.clone(),
+            generators: self.generators.clone(),
+            monomials: self.monomials.clone(),
+            ..*self
         }
     }
 
@@ -398,68 +381,17 @@ impl Problem {
     }
 }
 
-/// Once and twice the frequencies of oscillators, L = ½ m q̇² − ½ k q² with k/m the square of a rational, and those of
-/// uniform magnetic fields.
-fn frequencies(
+/// L_t, L_q, L_q̇.
+fn slopes_of(
     pool: &mut Pool,
     lagrangian: Expr,
+    time: Symbol,
     positions: &[Symbol],
     velocities: &[Symbol],
-) -> Vec<Number> {
-    let mut found = Vec::new();
-    for (&q, &v) in positions.iter().zip(velocities) {
-        let second = |pool: &mut Pool, s: Symbol| {
-            let slope = pool.derivative(lagrangian, s);
-            let curvature = pool.derivative(slope, s);
-            let curvature = pool.simplify(curvature);
-            pool.as_number(curvature)
-        };
-        let (Some(m), Some(k)) = (second(pool, v), second(pool, q)) else { continue };
-        let square = -k * m.recip();
-        if let Some(w) = square.exact_power(Number::HALF).filter(|w| !w.is_zero()) {
-            for w in [w, w * Number::integer(2)] {
-                if !found.contains(&w) {
-                    found.push(w);
-                }
-            }
-        }
-        // in a uniform magnetic field: m q̇ turns at (∂²L/∂q̇∂r − ∂²L/∂q∂ṙ)/m
-        for (&r, &u) in positions.iter().zip(velocities).filter(|(r, _)| **r != q) {
-            let momentum = pool.derivative(lagrangian, v);
-            let other = pool.derivative(lagrangian, u);
-            let (a, b) = (pool.derivative(momentum, r), pool.derivative(other, q));
-            let turn = pool.sub(a, b);
-            let turn = pool.simplify(turn);
-            if let Some(b) = pool.as_number(turn).filter(|b| !b.is_zero()) {
-                let w = (b * m.recip()).abs();
-                if !found.contains(&w) {
-                    found.push(w);
-                }
-            }
-        }
-    }
-    found
-}
-
-/// All products of some functions up to a degree, by ascending degree, the first of them 1.
-fn products(pool: &mut Pool, generators: &[Expr], degree: u32) -> Vec<Expr> {
-    let mut all = vec![Expr::ONE];
-    let mut last: Vec<(Expr, usize)> = vec![(Expr::ONE, 0)];
-    for _ in 0..degree {
-        let mut next = Vec::new();
-        for &(e, from) in &last {
-            for (k, &g) in generators.iter().enumerate().skip(from) {
-                next.push((pool.mul(e, g), k));
-            }
-        }
-        all.extend(next.iter().map(|(e, _)| *e));
-        last = next;
-    }
-    let mut unique = Vec::new();
-    for e in all {
-        if !unique.contains(&e) {
-            unique.push(e);
-        }
-    }
-    unique
+) -> (Expr, Vec<Expr>, Vec<Expr>) {
+    (
+        pool.derivative(lagrangian, time),
+        positions.iter().map(|&q| pool.derivative(lagrangian, q)).collect(),
+        velocities.iter().map(|&v| pool.derivative(lagrangian, v)).collect(),
+    )
 }

@@ -68,7 +68,7 @@ impl Scope {
         let kinetic = of_energy.iter().filter(|(k, _)| **k >= 2);
         let kinetic = kinetic.map(|(&k, &n)| (2 * n).div_ceil(k)).max().unwrap_or(0);
         let reversible = self.is_reversible(pool);
-        let all = (0..=degree).filter(|k| !reversible || (degree - k) % 2 == 0);
+        let all = (0..=degree).filter(|k| !reversible || (degree - k).is_multiple_of(2));
         let bound = |k: u32| {
             let missing = degree - k;
             let of_potential = (missing * potential.max(2 * linear)).div_ceil(2);
@@ -113,11 +113,11 @@ pub(super) fn constants_of(pool: &mut Pool, law: &Law, parameters: &[Symbol]) ->
             FunctionId::Exp => vec![(e, u32::MAX)],
             _ => continue,
         };
-        found.into_iter().for_each(|one| {
+        for one in found {
             if !all.contains(&one) {
                 all.push(one);
             }
-        });
+        }
     }
     let inside: Vec<Expr> = all.iter().map(|(e, _)| *e).collect();
     let parameters = parameters.iter().map(|&s| pool.variable(s)).collect::<Vec<_>>();

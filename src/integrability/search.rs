@@ -2,8 +2,7 @@
 //!
 //! In: a model and its equations, limits. Out: [`Invariants`]: what is found, how far it is proved, and word for word
 //! what was searched. Never here: clocks; the caller says when time is over.
-//! Source: J. Hietarinta, *Direct methods for the search of the second invariant*, Physics Reports 147 (1987) 87, for
-//! the polynomial ansatz; the arithmetic modulo a prime is that of modern computer algebra.
+//! Source: J. Hietarinta, *Direct methods for the search of the second invariant*, Physics Reports 147 (1987) 87.
 
 use std::collections::HashMap;
 
@@ -28,6 +27,9 @@ pub const SIZE_LIMIT: usize = 1_500;
 
 /// The degree up to which is searched where none is given.
 const DEGREE: u32 = 6;
+
+/// How many coordinates are tried as the origin of the others in a proof.
+const MOST_ORIGINS: usize = 3;
 
 /// What determines the values of functions of constants.
 const SEED: u64 = 7;
@@ -358,7 +360,8 @@ impl<'a> Search<'a> {
         proved.then_some(expression)
     }
 
-    /// Whether a rate is proved to vanish, as it is or in terms of half the coordinates, which opens half angles.
+    /// Whether a rate is proved to vanish, as it is or in other coordinates: their halves, which opens half angles, or
+    /// their differences. Each is a linear map that can be inverted, so that nothing is lost.
     fn vanishes(&self, pool: &mut Pool, rate: Expr) -> bool {
         if pool.is_zero(rate) == Zero::Proved {
             return true;
@@ -369,8 +372,21 @@ impl<'a> Search<'a> {
             (q, pool.scale(Number::integer(2), e))
         });
         let doubled: HashMap<Symbol, Expr> = doubled.collect();
-        let rate = pool.substitute(rate, &doubled);
-        pool.is_zero(rate) == Zero::Proved
+        let opened = pool.substitute(rate, &doubled);
+        if pool.is_zero(opened) == Zero::Proved {
+            return true;
+        }
+        // where differences of coordinates divide, one of them is the origin of the others
+        positions.iter().take(MOST_ORIGINS).any(|&origin| {
+            let from = pool.variable(origin);
+            let moved = positions.iter().filter(|&&q| q != origin).map(|&q| {
+                let e = pool.variable(q);
+                (q, pool.add(e, from))
+            });
+            let moved: HashMap<Symbol, Expr> = moved.collect();
+            let shifted = pool.substitute(rate, &moved);
+            pool.is_zero(shifted) == Zero::Proved
+        })
     }
 
     /// The proof of a constant for the present values of the parameters.

@@ -73,7 +73,10 @@ pub fn relations(
         .count();
     let freedoms =
         hamiltonian.then(|| (invariants.dimension - casimirs.min(invariants.dimension)) / 2);
-    let verdict = verdict(invariants, freedoms, casimirs, in_involution.len());
+    let mut verdict = verdict(invariants, freedoms, casimirs, in_involution.len());
+    if !model.impulses.is_empty() {
+        verdict.push_str(" (between impulses)");
+    }
     Relations { brackets, in_involution, freedoms, verdict }
 }
 

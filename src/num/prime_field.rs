@@ -178,7 +178,7 @@ impl PrimeField {
             Number::Real(x) if x.is_finite() => {
                 let bits = x.to_bits();
                 let exponent = ((bits >> 52) & 0x7ff) as i64;
-                let fraction = (bits & ((1 << 52) - 1)) as i128;
+                let fraction = i128::from(bits & ((1 << 52) - 1));
                 let (mantissa, exponent) =
                     if exponent == 0 { (fraction, 1) } else { (fraction | 1 << 52, exponent) };
                 let size = self.integer_power(self.residue(2), exponent - 1075)?;

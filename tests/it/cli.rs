@@ -10,6 +10,7 @@ mod dynamics;
 mod exit;
 mod help;
 mod hostile;
+mod invariants;
 mod list;
 mod manual;
 mod record;

@@ -59,6 +59,7 @@ pub(super) fn write(answer: &Answer<'_>) -> String {
         "degrees_of_freedom": relations.freedoms,
         "in_involution": relations.in_involution.iter().map(|&i| &names[i]).collect::<Vec<_>>(),
         "verdict": relations.verdict,
+        "separates": answer.separates,
         "ansatz": ansatz.collect::<Vec<_>>(),
         "ended": invariants.ended,
     });

@@ -39,6 +39,15 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
     let math = |e| script.math(&equations.pool, e);
     let names = answer.names();
     let mut text = format!("{}\n{}\n", model.info.title, script.words(&relations.verdict));
+    match answer.separates {
+        Some(true) => text.push_str(&script.words(
+            "Hamilton–Jacobi separates in these coordinates (Levi-Civita's conditions, proved)\n",
+        )),
+        Some(false) => text.push_str(&script.words(
+            "Hamilton–Jacobi does not separate in these coordinates (Levi-Civita's conditions)\n",
+        )),
+        None => {}
+    }
     if !invariants.known.is_empty() {
         text.push_str("\nknown\n");
         for known in &invariants.known {

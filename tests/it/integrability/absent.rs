@@ -100,3 +100,31 @@ fn functions_of_the_energy_are_not_new() {
     let one = hamiltonian(&["x"], &[], "1/2*p_x^2 + x^4");
     assert!(search(&one, 4).1.found.is_empty());
 }
+
+#[test]
+fn the_energy_is_not_found_again() {
+    // Lotka and Volterra: H has logarithms, and is all there is
+    let model = model(
+        "title = \"test\"\n[variables]\nx = { initial = 1.0 }\ny = { initial = 2.0 }\n[poisson]\n\
+         H = \"x - ln(x) + y - 2*ln(y)\"\nbrackets = [[\"x\", \"y\", \"x*y\"]]\n",
+    );
+    assert!(search(&model, 2).1.found.is_empty());
+}
+
+#[test]
+fn what_separates_where() {
+    use phaselab::integrability::separates;
+    use phaselab::mechanics;
+    let check = |q: [&str; 2], h: &str, expected: bool| {
+        let model = hamiltonian(&q, &[], h);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        assert_eq!(separates(&model, &mut equations), Some(expected), "{h}");
+    };
+    // Kepler: not in Cartesian coordinates, but in polar ones; with a field in parabolic ones
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) - 1/sqrt(x^2 + y^2)", false);
+    check(["r", "phi"], "1/2*(p_r^2 + p_phi^2/r^2) - 1/r", true);
+    let parabolic = "(p_u^2 + p_v^2)/(2*(u^2 + v^2)) - 2/(u^2 + v^2) - 1/10*(u^2 - v^2)";
+    check(["u", "v"], parabolic, true);
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) + x^2*y - 1/3*y^3", false);
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) + x^4 + y^2", true);
+}

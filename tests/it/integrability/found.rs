@@ -118,6 +118,12 @@ fn toda_and_calogero() {
     let toda = format!("{kinetic} + exp(q1 - q2) + exp(q2 - q3)");
     check(&hamiltonian(&q, &[], &toda), 3, 3);
     check(&hamiltonian(&q, &[], &format!("{toda} + exp(q3 - q1)")), 3, 3);
+    // Calogero: the constant of degree 1 + 1 is of the same order as H in the momenta
+    let (_, found) = {
+        let pairs = "g/(q1 - q2)^2 + g/(q1 - q3)^2 + g/(q2 - q3)^2";
+        search(&hamiltonian(&q, &[("g", 1.0)], &format!("{kinetic} + {pairs}")), 2)
+    };
+    assert!(found.independent() >= 3 && found.found.iter().any(|c| c.proof == Proof::Proved));
 }
 
 #[test]

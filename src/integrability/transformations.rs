@@ -1,0 +1,118 @@
+//! What changes of time and coordinates may be made of: the functions in which ξ, η and f are polynomials.
+//!
+//! In: a Lagrangian at the parameters' values. Out: time, coordinates, functions of them that the Lagrangian contains,
+//! and oscillations in the time with the frequencies that it shows. Never here: conditions on them.
+
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use crate::num::Number;
+
+/// The functions in which changes of time and coordinates are polynomials.
+pub(super) fn generators_of(
+    pool: &mut Pool,
+    lagrangian: Expr,
+    time: Symbol,
+    positions: &[Symbol],
+    velocities: &[Symbol],
+) -> Vec<Expr> {
+    let mut generators = vec![pool.variable(time)];
+    generators.extend(positions.iter().map(|&q| pool.variable(q)));
+    // sines, cosines, exponentials and reciprocals of coordinates that the law contains, and of the time
+    for e in pool.reachable(&[lagrangian]) {
+        let moving = pool.depends_on_any(e, positions) || pool.depends(e, time);
+        if !moving || pool.depends_on_any(e, velocities) {
+            continue;
+        }
+        match pool.node(e).clone() {
+            Node::Call(FunctionId::Sin | FunctionId::Cos, u) => {
+                for function in [FunctionId::Sin, FunctionId::Cos] {
+                    let e = pool.call(function, &u);
+                    if !generators.contains(&e) {
+                        generators.push(e);
+                    }
+                }
+            }
+            Node::Call(FunctionId::Exp | FunctionId::Ln, _) if !generators.contains(&e) => {
+                generators.push(e);
+            }
+            _ => {}
+        }
+    }
+    // an oscillation in the time is found where the law is quadratic: q'' = −ω² q
+    for w in frequencies(pool, lagrangian, positions, velocities) {
+        let (w, t) = (pool.number(w), pool.variable(time));
+        let angle = pool.mul(w, t);
+        for function in [FunctionId::Sin, FunctionId::Cos] {
+            let e = pool.call(function, &[angle]);
+            if !generators.contains(&e) {
+                generators.push(e);
+            }
+        }
+    }
+    generators
+}
+
+/// Once and twice the frequencies of oscillators, L = ½ m q̇² − ½ k q² with k/m the square of a rational, and those of
+/// uniform magnetic fields.
+fn frequencies(
+    pool: &mut Pool,
+    lagrangian: Expr,
+    positions: &[Symbol],
+    velocities: &[Symbol],
+) -> Vec<Number> {
+    let mut found = Vec::new();
+    for (&q, &v) in positions.iter().zip(velocities) {
+        let second = |pool: &mut Pool, s: Symbol| {
+            let slope = pool.derivative(lagrangian, s);
+            let curvature = pool.derivative(slope, s);
+            let curvature = pool.simplify(curvature);
+            pool.as_number(curvature)
+        };
+        let (Some(m), Some(k)) = (second(pool, v), second(pool, q)) else { continue };
+        let square = -k * m.recip();
+        if let Some(w) = square.exact_power(Number::HALF).filter(|w| !w.is_zero()) {
+            for w in [w, w * Number::integer(2)] {
+                if !found.contains(&w) {
+                    found.push(w);
+                }
+            }
+        }
+        // in a uniform magnetic field: m q̇ turns at (∂²L/∂q̇∂r − ∂²L/∂q∂ṙ)/m
+        for (&r, &u) in positions.iter().zip(velocities).filter(|(r, _)| **r != q) {
+            let momentum = pool.derivative(lagrangian, v);
+            let other = pool.derivative(lagrangian, u);
+            let (a, b) = (pool.derivative(momentum, r), pool.derivative(other, q));
+            let turn = pool.sub(a, b);
+            let turn = pool.simplify(turn);
+            if let Some(b) = pool.as_number(turn).filter(|b| !b.is_zero()) {
+                let w = (b * m.recip()).abs();
+                if !found.contains(&w) {
+                    found.push(w);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// All products of some functions up to a degree, by ascending degree, the first of them 1.
+pub(super) fn products(pool: &mut Pool, generators: &[Expr], degree: u32) -> Vec<Expr> {
+    let mut all = vec![Expr::ONE];
+    let mut last: Vec<(Expr, usize)> = vec![(Expr::ONE, 0)];
+    for _ in 0..degree {
+        let mut next = Vec::new();
+        for &(e, from) in &last {
+            for (k, &g) in generators.iter().enumerate().skip(from) {
+                next.push((pool.mul(e, g), k));
+            }
+        }
+        all.extend(next.iter().map(|(e, _)| *e));
+        last = next;
+    }
+    let mut unique = Vec::new();
+    for e in all {
+        if !unique.contains(&e) {
+            unique.push(e);
+        }
+    }
+    unique
+}
