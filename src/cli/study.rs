@@ -143,6 +143,7 @@ impl Study {
 }
 
 /// How a computation fails.
+#[expect(clippy::needless_pass_by_value, reason = "it is handed to map_err")]
 pub(super) fn failed(error: DynamicsError) -> CommandError {
     match error {
         DynamicsError::Method(_) => CommandError::WrongUse(error.to_string()),

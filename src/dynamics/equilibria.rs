@@ -188,6 +188,9 @@ impl<'a> Search<'a> {
         let (mut f, mut df) = self.look(&variables)?;
         let mut settled = 0;
         for _ in 0..STEPS {
+            if self.space.system().cancel().is_cancelled() {
+                return None;
+            }
             let size = self.resting.iter().map(|&i| variables[i].abs()).fold(1.0, f64::max);
             if f.amax() <= ZERO * size * df.amax() {
                 settled += 1;

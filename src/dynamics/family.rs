@@ -450,9 +450,9 @@ impl Walk<'_> {
                 let middle = 0.5 * (a + b);
                 let Some((point, _)) = self.onwards(from, middle)? else { break };
                 if (test(&point)? < 0.0) == below {
-                    a = middle
+                    a = middle;
                 } else {
-                    b = middle
+                    b = middle;
                 }
                 last = Some((middle, point));
             }

@@ -76,7 +76,9 @@ impl Program {
                 Op::Constant(_) | Op::Parameter(_) | Op::Time | Op::Input(_) => {}
                 Op::Linear { first, count, .. } => {
                     let terms = &self.terms[first as usize..(first + count) as usize];
-                    terms.iter().for_each(|term| mark(term.register));
+                    for term in terms {
+                        mark(term.register);
+                    }
                 }
                 Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) => {
                     mark(a);
@@ -193,7 +195,7 @@ impl Builder {
                     }
                 }
                 Op::Solve(block) => {
-                    self.solve(&primal.blocks[block as usize], register, &mut delta)
+                    self.solve(&primal.blocks[block as usize], register, &mut delta);
                 }
                 Op::Constant(_) | Op::Parameter(_) | Op::Time | Op::Written => {}
             }

@@ -17,7 +17,7 @@ const BETWEEN: Duration = Duration::from_millis(100);
 const PARTS: f64 = 1000.0;
 
 /// A bar on standard error, shown only on a terminal and only if the run is long.
-pub(in crate::cli) struct Bar {
+pub(crate) struct Bar {
     start: f64,
     length: f64,
     due: Instant,
@@ -26,13 +26,13 @@ pub(in crate::cli) struct Bar {
 }
 
 impl Bar {
-    pub(in crate::cli) fn new(start: f64, end: f64) -> Bar {
+    pub(crate) fn new(start: f64, end: f64) -> Bar {
         let watched = stderr().is_terminal();
         Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
     }
 
     /// Shows the current time of the run.
-    pub(in crate::cli) fn show(&mut self, time: f64) {
+    pub(crate) fn show(&mut self, time: f64) {
         if !self.watched || Instant::now() < self.due {
             return;
         }
