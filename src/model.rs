@@ -11,6 +11,7 @@ mod description;
 mod occurrence;
 mod parameter;
 mod picture;
+mod ramp;
 mod scope;
 mod unit;
 
@@ -22,4 +23,5 @@ pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, Scale};
 pub use picture::{Channel, Point, Shape, View};
+pub use ramp::{Ramp, RampRefused, replace_by_ramps, replaced};
 pub use scope::{Allowed, Scope};

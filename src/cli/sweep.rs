@@ -21,7 +21,7 @@ use super::motion_options::MotionOptions;
 use super::output::{Form, Output};
 use super::starts::{Axis, Starts};
 use super::stderr;
-use crate::orbits::in_order;
+use crate::orbits::{PoolError, in_order};
 use crate::printable;
 
 use identity::{Identity, Shard};
@@ -182,7 +182,7 @@ impl Sweep<'_> {
             + &cells::record(self.table.columns())
     }
 
-    fn pool_failed(why: impl ToString) -> CommandError {
+    fn pool_failed(why: PoolError) -> CommandError {
         CommandError::CouldNot(why.to_string())
     }
 

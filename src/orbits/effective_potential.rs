@@ -333,7 +333,7 @@ fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
     for &[place, value] in nodes.iter().filter(|node| node[1].is_finite()) {
         match runs.last_mut() {
             Some([_, last, level]) if (value - *level).abs() <= NOISE * level.abs() => {
-                *last = place
+                *last = place;
             }
             _ => runs.push([place, place, value]),
         }

@@ -11,6 +11,7 @@ mod help;
 mod hostile;
 mod list;
 mod manual;
+mod ramp;
 mod record;
 mod run;
 mod section;
