@@ -210,7 +210,7 @@ impl<'a> EffectivePotential<'a> {
                 at_b = sign * self.at(b);
             }
         }
-        0.5 * (low + high)
+        f64::midpoint(low, high)
     }
 
     /// All regions that an energy allows, from left to right; those of a rotation have no ends.
@@ -311,7 +311,7 @@ impl<'a> EffectivePotential<'a> {
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.
     fn crossing(&mut self, mut inside: f64, mut outside: f64, energy: f64) -> f64 {
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (inside + outside);
+            let middle = f64::midpoint(inside, outside);
             if middle == inside || middle == outside {
                 break;
             }

@@ -201,7 +201,7 @@ fn bisected(
     mut holds: impl FnMut(f64) -> Result<bool, NotOnShell>,
 ) -> Result<f64, NotOnShell> {
     for _ in 0..HALVINGS {
-        let middle = 0.5 * (inner + outer);
+        let middle = f64::midpoint(inner, outer);
         if middle <= inner || middle >= outer {
             break;
         }
@@ -254,7 +254,7 @@ impl Energies<'_> {
             return None;
         }
         let [low, middle, high] = self.three(-1.0, 0.0, 1.0).ok()?;
-        let (a, b) = (0.5 * (high + low) - middle, 0.5 * (high - low));
+        let (a, b) = (f64::midpoint(high, low) - middle, 0.5 * (high - low));
         for v in [-2.5, 3.0] {
             let found = self.at(v).ok()?;
             let terms = (a * v * v).abs() + (b * v).abs() + middle.abs();
