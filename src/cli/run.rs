@@ -23,7 +23,7 @@ use super::rows::Format;
 use super::{open, stderr};
 use crate::experiment::{Derived, Experiment, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::model::{Model, replace_by_ramps, replaced};
+use crate::model::{Model, replace_by_ramps};
 use crate::printable;
 use crate::system::System;
 
@@ -99,7 +99,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut parameters = assignment::parameters(&model, &arguments.set)?;
     let ramps = ramp::of(&model, &arguments.ramp, &arguments.set)?;
     let start = assignment::start(&model, &parameters, &arguments.init)?;
-    ramps.iter().for_each(|ramp| parameters[ramp.parameter] = ramp.at(start));
+    for ramp in &ramps {
+        parameters[ramp.parameter] = ramp.at(start);
+    }
     // redundant constraints are determined at the start of this run
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
@@ -126,7 +128,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .map(|text| assignment::column(model, &mut equations.pool, text, "--observe"))
         .collect::<Result<_, _>>()?;
     for column in &mut columns {
-        column.expression = replaced(&mut equations.pool, column.expression, &ramped);
+        column.expression = ramped.replace(&mut equations.pool, column.expression);
     }
     let system = derived
         .compile(&columns)

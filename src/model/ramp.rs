@@ -56,16 +56,24 @@ impl Ramp {
     }
 }
 
+/// Parameters as functions of the time.
+#[derive(Clone, Debug, Default)]
+pub struct Ramped(HashMap<Symbol, Expr>);
+
+impl Ramped {
+    /// An expression with these functions in place of the parameters.
+    pub fn replace(&self, pool: &mut Pool, e: Expr) -> Expr {
+        if self.0.is_empty() { e } else { pool.substitute(e, &self.0) }
+    }
+}
+
 /// Replaces parameters by functions of the time. Returns the replacements, which are those of every expression that is
 /// read later, and belong to the model's pool.
 ///
 /// # Errors
 /// Returns an error if a parameter determines something that cannot change with the time.
-pub fn replace_by_ramps(
-    model: &mut Model,
-    ramps: &[Ramp],
-) -> Result<HashMap<Symbol, Expr>, RampRefused> {
-    let mut replacements = HashMap::new();
+pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, RampRefused> {
+    let mut ramped = Ramped::default();
     for ramp in ramps {
         let parameter = &model.parameters[ramp.parameter];
         let (name, symbol) = (parameter.name.clone(), parameter.symbol);
@@ -80,7 +88,7 @@ pub fn replace_by_ramps(
         let mut pool = model.pool.clone();
         let read = Scope::new(model, Allowed::Event, "a ramp").read(&mut pool, &ramp.written());
         model.pool = pool;
-        replacements.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
+        ramped.0.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
     }
     let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
         model;
@@ -107,12 +115,7 @@ pub fn replace_by_ramps(
     all.extend(observables.iter_mut().map(|observable| &mut observable.expression));
     all.extend(definitions.iter_mut().map(|definition| &mut definition.1));
     for e in all {
-        *e = replaced(pool, *e, &replacements);
+        *e = ramped.replace(pool, *e);
     }
-    Ok(replacements)
-}
-
-/// An expression with the replacements.
-pub fn replaced(pool: &mut Pool, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
-    if replacements.is_empty() { e } else { pool.substitute(e, replacements) }
+    Ok(ramped)
 }

@@ -74,7 +74,8 @@ fn change_of_action(duration: f64, kind: &str) -> f64 {
     let change = |phase: &str| {
         let row = end(file, &[&ramp, &at, "--set", phase]);
         let (x, p) = (row[1], row[3]);
-        (0.5 * p * p + 2.0 * x * x) / 2.0 / 0.5 - 1.0
+        // E/ω at the end over E/ω at the start, which are (p²/2 + 2x²)/2 and 1/2
+        0.5 * p * p + 2.0 * x * x - 1.0
     };
     // to first order it is A cos(2 phase + …)
     change("phase=0").hypot(change("phase=pi/4"))
