@@ -11,6 +11,7 @@ mod description;
 mod occurrence;
 mod parameter;
 mod picture;
+mod ramp;
 mod scope;
 mod unit;
 
@@ -25,4 +26,5 @@ pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, Scale};
 pub use picture::{Channel, Point, Shape, View};
+pub use ramp::{Ramp, RampRefused, Ramped, replace_by_ramps};
 pub use scope::{Allowed, Scope};

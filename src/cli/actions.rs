@@ -255,17 +255,12 @@ fn written(
     let shown = |x: f64| {
         if format == TableFormat::Csv { printable::number(x) } else { crate::num::short(x) }
     };
-    let separatrices: String = separatrices
-        .iter()
-        .map(|s| {
-            let actions: Vec<String> = s.actions.iter().map(|&x| shown(x)).collect();
-            format!(
-                "{lead}separatrix at energy {}: actions {}\n",
-                shown(s.energy),
-                actions.join(", ")
-            )
-        })
-        .collect();
+    let line = |s: &Separatrix| {
+        let actions: Vec<String> = s.actions.iter().map(|&x| shown(x)).collect();
+        let (energy, actions) = (shown(s.energy), actions.join(", "));
+        format!("{lead}separatrix at energy {energy}: actions {actions}\n")
+    };
+    let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();
     if format == TableFormat::Csv {
         crowd::lead(&laid.header())
             + &separatrices

@@ -91,13 +91,18 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
     refuse_twice("--set", set)?;
     for assignment in set {
         let name = assignment.name.as_str();
-        let index = model.parameter(name).ok_or_else(|| {
-            let names = model.parameters.iter().map(|p| p.name.as_str());
-            unknown("parameter", name, &names.collect::<Vec<_>>())
-        })?;
+        let index = parameter(model, name)?;
         values[index] = number(&assignment.value).map_err(|why| wrong(assignment, &why))?;
     }
     Ok(values)
+}
+
+/// The parameter of a name.
+pub(super) fn parameter(model: &Model, name: &str) -> Result<usize, CommandError> {
+    model.parameter(name).ok_or_else(|| {
+        let names = model.parameters.iter().map(|p| p.name.as_str());
+        unknown("parameter", name, &names.collect::<Vec<_>>())
+    })
 }
 
 /// Refuses two values for the same name, because one would be lost.

@@ -5,6 +5,7 @@ mod clock;
 mod execution;
 mod invariants;
 pub(super) mod progress;
+mod ramp;
 mod times;
 
 use std::ffi::OsString;
@@ -22,7 +23,7 @@ use super::rows::Format;
 use super::{open, stderr};
 use crate::experiment::{Derived, Experiment, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::model::Model;
+use crate::model::{Model, replace_by_ramps};
 use crate::printable;
 use crate::system::System;
 
@@ -39,6 +40,7 @@ use times::Times;
 Examples:
   phaselab run pendulum --set l=2 --init theta=pi/3 --until 20 --every 0.1
   phaselab run planet --at 0,0.5,1 --observe 'r*cos(theta)' --format json
+  phaselab run pendulum --ramp l=1:2:0:50 --until 60 > lengthened.csv
   phaselab run henon-heiles --method yoshida4 --step 0.05 --until 1000 -o heiles.csv")]
 pub(super) struct Arguments {
     /// A preset's name, or a file.
@@ -50,6 +52,9 @@ pub(super) struct Arguments {
     /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     init: Vec<Assignment>,
+    /// Changes a parameter with the time, smoothly by 10u³ − 15u⁴ + 6u⁵ or evenly; it becomes a column.
+    #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:linear]", allow_hyphen_values = true)]
+    ramp: Vec<ramp::NamedRamp>,
     /// When to end; where it is left out, the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
@@ -92,12 +97,19 @@ const LOOKS: f64 = 1000.0;
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
-    let parameters = assignment::parameters(&model, &arguments.set)?;
+    let mut parameters = assignment::parameters(&model, &arguments.set)?;
+    let ramps = ramp::of(&model, &arguments.ramp, &arguments.set)?;
+    let start = assignment::start(&model, &parameters, &arguments.init)?;
+    for ramp in &ramps {
+        parameters[ramp.parameter] = ramp.at(start);
+    }
     // redundant constraints are determined at the start of this run
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
-    model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
+    model.run.start = start;
     assignment::begin_at(&mut model, &given);
+    let ramped = replace_by_ramps(&mut model, &ramps)
+        .map_err(|why| CommandError::WrongUse(format!("--ramp: {why}")))?;
     let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
     let settings = settings(arguments.step, arguments.tolerance, &model)?;
 
@@ -111,9 +123,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let Derived { model, equations } = &mut derived;
     equations.pool.set_cancel(interrupt.cancel().clone());
     let observed = arguments.observe.iter();
-    let columns: Vec<_> = observed
+    let names = ramps.iter().map(|ramp| &model.parameters[ramp.parameter].name);
+    let mut columns: Vec<_> = observed
+        .chain(names)
         .map(|text| assignment::column(model, &mut equations.pool, text, "--observe"))
         .collect::<Result<_, _>>()?;
+    for column in &mut columns {
+        column.expression = ramped.replace(&mut equations.pool, column.expression);
+    }
     let system = derived
         .compile(&columns)
         .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;

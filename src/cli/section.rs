@@ -140,7 +140,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         if let Some(shell) = &shell
             && let Err(why) = shell.complete(&laid.system, &mut start)
         {
-            return Crossings::refused(why);
+            return Crossings::refused(&why);
         }
         crossings(&laid.system, laid.method, laid.settings, &start, &plan)
     };

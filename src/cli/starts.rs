@@ -124,7 +124,7 @@ impl Starts {
         for axis in axes {
             let points: Vec<String> = axis.points().iter().map(|x| format!("{x:?}")).collect();
             let longer = |row: &Vec<String>| -> Vec<Vec<String>> {
-                points.iter().map(|x| [row.as_slice(), &[x.clone()]].concat()).collect()
+                points.iter().map(|x| [row.as_slice(), std::slice::from_ref(x)].concat()).collect()
             };
             rows = rows.iter().flat_map(longer).collect();
         }

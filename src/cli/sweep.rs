@@ -21,7 +21,7 @@ use super::motion_options::MotionOptions;
 use super::output::{Form, Output};
 use super::starts::{Axis, Starts};
 use super::stderr;
-use crate::orbits::in_order;
+use crate::orbits::{PoolError, in_order};
 use crate::printable;
 
 use identity::{Identity, Shard};
@@ -182,7 +182,7 @@ impl Sweep<'_> {
             + &cells::record(self.table.columns())
     }
 
-    fn pool_failed(why: impl ToString) -> CommandError {
+    fn pool_failed(why: &PoolError) -> CommandError {
         CommandError::CouldNot(why.to_string())
     }
 
@@ -213,7 +213,8 @@ impl Sweep<'_> {
         };
         let work = |place| self.table.row(self.index(place));
         let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
-        in_order(threads, self.places.len(), cancel, work, take).map_err(Self::pool_failed)?;
+        in_order(threads, self.places.len(), cancel, work, take)
+            .map_err(|why| Self::pool_failed(&why))?;
         drop(tally);
         if let Some(failed) = failed {
             return Err(failed);
@@ -259,7 +260,8 @@ impl Sweep<'_> {
             ControlFlow::Continue(())
         };
         let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
-        in_order(threads, missing.len(), cancel, work, take).map_err(Self::pool_failed)?;
+        in_order(threads, missing.len(), cancel, work, take)
+            .map_err(|why| Self::pool_failed(&why))?;
         drop(tally);
         if let Some(failed) = failed {
             return Err(failed);

@@ -220,7 +220,7 @@ pub fn action_between(
     right: f64,
     energy: f64,
 ) -> Result<f64, NotOnShell> {
-    let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+    let (middle, half) = (f64::midpoint(left, right), 0.5 * (right - left));
     converged(|n| {
         let step = PI / n as f64;
         (0..n).try_fold(0.0, |sum, i| {

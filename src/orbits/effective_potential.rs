@@ -210,7 +210,7 @@ impl<'a> EffectivePotential<'a> {
                 at_b = sign * self.at(b);
             }
         }
-        0.5 * (low + high)
+        f64::midpoint(low, high)
     }
 
     /// All regions that an energy allows, from left to right; those of a rotation have no ends.
@@ -311,7 +311,7 @@ impl<'a> EffectivePotential<'a> {
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.
     fn crossing(&mut self, mut inside: f64, mut outside: f64, energy: f64) -> f64 {
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (inside + outside);
+            let middle = f64::midpoint(inside, outside);
             if middle == inside || middle == outside {
                 break;
             }
@@ -333,7 +333,7 @@ fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
     for &[place, value] in nodes.iter().filter(|node| node[1].is_finite()) {
         match runs.last_mut() {
             Some([_, last, level]) if (value - *level).abs() <= NOISE * level.abs() => {
-                *last = place
+                *last = place;
             }
             _ => runs.push([place, place, value]),
         }

@@ -103,7 +103,7 @@ impl EnergyShell {
         let mut energies =
             Energies { system, observer, values: vec![0.0; system.columns()], start, by: self.by };
         let name = energies.name();
-        let rate = match energies.quadratic()? {
+        let rate = match energies.quadratic() {
             Some([a, b, c]) => self.root_of([a, b, c - self.energy], &name)?,
             None => self.bracketed(&mut energies, &name)?,
         };
@@ -201,7 +201,7 @@ fn bisected(
     mut holds: impl FnMut(f64) -> Result<bool, NotOnShell>,
 ) -> Result<f64, NotOnShell> {
     for _ in 0..HALVINGS {
-        let middle = 0.5 * (inner + outer);
+        let middle = f64::midpoint(inner, outer);
         if middle <= inner || middle >= outer {
             break;
         }
@@ -249,21 +249,21 @@ impl Energies<'_> {
     }
 
     /// The coefficients of v², v and 1, if the energy is a quadratic.
-    fn quadratic(&mut self) -> Result<Option<[f64; 3]>, MotionError> {
+    fn quadratic(&mut self) -> Option<[f64; 3]> {
         if matches!(self.by, InitialOverride::Position(..)) {
-            return Ok(None);
+            return None;
         }
-        let Ok([low, middle, high]) = self.three(-1.0, 0.0, 1.0) else { return Ok(None) };
-        let (a, b) = (0.5 * (high + low) - middle, 0.5 * (high - low));
+        let [low, middle, high] = self.three(-1.0, 0.0, 1.0).ok()?;
+        let (a, b) = (f64::midpoint(high, low) - middle, 0.5 * (high - low));
         for v in [-2.5, 3.0] {
-            let Ok(found) = self.at(v) else { return Ok(None) };
+            let found = self.at(v).ok()?;
             let terms = (a * v * v).abs() + (b * v).abs() + middle.abs();
             let missing = (a * v * v + b * v + middle - found).abs();
             if missing.is_nan() || missing > QUADRATIC * terms {
-                return Ok(None);
+                return None;
             }
         }
-        Ok(Some([a, b, middle]))
+        Some([a, b, middle])
     }
 
     fn three(&mut self, low: f64, middle: f64, high: f64) -> Result<[f64; 3], MotionError> {

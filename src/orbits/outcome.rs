@@ -52,7 +52,7 @@ const LOOKS: f64 = 1000.0;
 
 impl Outcome {
     /// A run that could not begin.
-    pub fn refused(why: impl ToString, columns: usize) -> Outcome {
+    pub fn refused(why: &impl ToString, columns: usize) -> Outcome {
         Outcome {
             status: OrbitStatus::Refused,
             message: Some(why.to_string()),
@@ -86,11 +86,11 @@ impl RunPlan {
         let columns = self.system.columns();
         let mut experiment = match self.experiment(start, end) {
             Ok(experiment) => experiment,
-            Err(why) => return Some(Outcome::refused(why, columns)),
+            Err(why) => return Some(Outcome::refused(&why, columns)),
         };
         if let Status::Failed(failure) = experiment.status() {
             let cancelled = self.system.cancel().is_cancelled();
-            return (!cancelled).then(|| Outcome::refused(failure.message, columns));
+            return (!cancelled).then(|| Outcome::refused(&failure.message, columns));
         }
         experiment.only_count_occurrences();
         let (status, message) = loop {

@@ -64,7 +64,7 @@ pub struct Crossings {
 
 impl Crossings {
     /// An orbit that could not begin.
-    pub fn refused(why: impl ToString) -> Crossings {
+    pub fn refused(why: &impl ToString) -> Crossings {
         let message = Some(why.to_string());
         Crossings { rows: Vec::new(), status: OrbitStatus::Refused, message }
     }
@@ -110,11 +110,11 @@ pub fn crossings(
     let made = Propagator::new(system, method, settings, &start.parameters);
     let mut motion = match made {
         Ok(motion) => motion,
-        Err(why) => return Crossings::refused(why),
+        Err(why) => return Crossings::refused(&why),
     };
     let begun = start.state(system).and_then(|state| motion.begin(&state, &start.parameters));
     if let Err(why) = begun {
-        return Crossings::refused(motion.explained(why));
+        return Crossings::refused(&motion.explained(why));
     }
     let observer = motion.system().observer(&start.parameters);
     let values = vec![0.0; system.columns()];

@@ -54,7 +54,7 @@ pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), Co
     }
     let whole = Identity { shard: None, ..first.identity.clone() };
     let (lead, names) = first.head.split_at(first.head.len() - 1);
-    let mut text: String = lead.iter().map(|line| format!("{line}\n")).collect();
+    let mut text = lead.iter().flat_map(|line| [line.as_str(), "\n"]).collect::<String>();
     text += &format!("{}\n{}\n", whole.line(), names[0]);
     for row in 0..rows {
         text += &parts[row % of].rows[row / of];

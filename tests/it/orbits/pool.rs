@@ -68,7 +68,7 @@ fn whoever_takes_may_break_off() {
 
 #[test]
 fn a_panic_of_one_item_reaches_the_caller() {
-    let take = |_, _| ControlFlow::Continue(());
+    let take = |_, ()| ControlFlow::Continue(());
     let outcome = catch_unwind(AssertUnwindSafe(|| {
         in_order(2, 100, &Cancel::new(), |i| assert_ne!(i, 30, "thirty"), take)
     }));

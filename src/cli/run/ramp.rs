@@ -1,0 +1,70 @@
+//! `--ramp NAME=FROM:TO:START:DURATION[:linear]`.
+//!
+//! In: the option. Out: a [`Ramp`] of a model. Never here: what it does to the model.
+
+use std::str::FromStr;
+
+use crate::cli::assignment::{self, Assignment, number};
+use crate::cli::failure::CommandError;
+use crate::model::{Model, Ramp};
+use crate::printable;
+
+/// A ramp under the name of its parameter.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct NamedRamp {
+    name: String,
+    values: [f64; 2],
+    start: f64,
+    duration: f64,
+    linear: bool,
+}
+
+impl FromStr for NamedRamp {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<NamedRamp, String> {
+        let form = "write it as name=from:to:start:duration, or with :linear behind";
+        let (name, rest) = text.split_once('=').ok_or(form)?;
+        let parts: Vec<&str> = rest.split(':').map(str::trim).collect();
+        let (numbers, linear) = match parts.as_slice() {
+            [numbers @ .., "linear"] => (numbers, true),
+            numbers => (numbers, false),
+        };
+        let &[from, to, start, duration] = numbers else { return Err(form.to_owned()) };
+        let duration = number(duration)?;
+        if duration <= 0.0 {
+            return Err("the duration of a ramp is above zero".to_owned());
+        }
+        Ok(NamedRamp {
+            name: name.trim().to_owned(),
+            values: [number(from)?, number(to)?],
+            start: number(start)?,
+            duration,
+            linear,
+        })
+    }
+}
+
+/// The ramps of a model.
+pub(super) fn of(
+    model: &Model,
+    named: &[NamedRamp],
+    set: &[Assignment],
+) -> Result<Vec<Ramp>, CommandError> {
+    let mut ramps: Vec<Ramp> = Vec::new();
+    for ramp in named {
+        let parameter = assignment::parameter(model, &ramp.name)?;
+        if ramps.iter().any(|before| before.parameter == parameter) {
+            let name = printable::quoted(&ramp.name);
+            return Err(CommandError::WrongUse(format!("--ramp gives {name} twice")));
+        }
+        if set.iter().any(|assignment| assignment.name() == ramp.name) {
+            let name = printable::quoted(&ramp.name);
+            let message = format!("--set and --ramp both give {name}: keep one of them");
+            return Err(CommandError::WrongUse(message));
+        }
+        let NamedRamp { values, start, duration, linear, .. } = *ramp;
+        ramps.push(Ramp { parameter, values, start, duration, linear });
+    }
+    Ok(ramps)
+}

@@ -1,0 +1,121 @@
+//! A parameter that changes with the time: it is replaced by a function of t before anything is derived, so that L or H
+//! depends on the time and every term that follows from that is there.
+//!
+//! In: a model, a ramp. Out: the model with the parameter replaced in its law, constraints, impulses, events and
+//! observables. Initial values keep the number that the parameter has at the start. Never here: motions.
+
+use std::collections::HashMap;
+
+use super::{Allowed, Mechanics, Model, Scope};
+use crate::expr::{Expr, Pool, Symbol};
+
+/// A parameter's way from one value to another.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Ramp {
+    /// The parameter's place in the model.
+    pub parameter: usize,
+    /// Its value before, and after.
+    pub values: [f64; 2],
+    /// When it begins to change.
+    pub start: f64,
+    /// How long it changes, above zero.
+    pub duration: f64,
+    /// Whether it changes evenly, with corners, in place of 10u³ − 15u⁴ + 6u⁵.
+    pub linear: bool,
+}
+
+/// Why a parameter cannot change with the time.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum RampRefused {
+    /// It determines the times of an impulse.
+    #[error("`{0}` determines when `{1}` acts, which cannot change with the time")]
+    Schedule(String, String),
+    /// The system is put together from pieces.
+    #[error("`{0}` cannot change with the time in a system with a [body]")]
+    Body(String),
+    /// It makes the constraint depend on more than it may.
+    #[error("the system grows beyond a million nodes")]
+    TooLarge,
+}
+
+impl Ramp {
+    /// The value at a time.
+    pub fn at(&self, time: f64) -> f64 {
+        let u = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        let part = if self.linear { u } else { u * u * u * (10.0 - u * (15.0 - 6.0 * u)) };
+        let [from, to] = self.values;
+        if u == 1.0 { to } else { from + (to - from) * part }
+    }
+
+    /// The value as a function of t, in the syntax of files.
+    fn written(&self) -> String {
+        let [from, to] = self.values;
+        let u = format!("min(max((t - ({:?}))/({:?}), 0), 1)", self.start, self.duration);
+        let part = if self.linear { u } else { format!("(10*{u}^3 - 15*{u}^4 + 6*{u}^5)") };
+        format!("({from:?}) + (({to:?}) - ({from:?}))*{part}")
+    }
+}
+
+/// Parameters as functions of the time.
+#[derive(Clone, Debug, Default)]
+pub struct Ramped(HashMap<Symbol, Expr>);
+
+impl Ramped {
+    /// An expression with these functions in place of the parameters.
+    pub fn replace(&self, pool: &mut Pool, e: Expr) -> Expr {
+        if self.0.is_empty() { e } else { pool.substitute(e, &self.0) }
+    }
+}
+
+/// Replaces parameters by functions of the time. Returns the replacements, which are those of every expression that is
+/// read later, and belong to the model's pool.
+///
+/// # Errors
+/// Returns an error if a parameter determines something that cannot change with the time.
+pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, RampRefused> {
+    let mut ramped = Ramped::default();
+    for ramp in ramps {
+        let parameter = &model.parameters[ramp.parameter];
+        let (name, symbol) = (parameter.name.clone(), parameter.symbol);
+        if model.body.is_some() {
+            return Err(RampRefused::Body(name));
+        }
+        for impulse in &model.impulses {
+            if impulse.times.iter().chain(&impulse.period).any(|&e| model.pool.depends(e, symbol)) {
+                return Err(RampRefused::Schedule(name, impulse.name.clone()));
+            }
+        }
+        let mut pool = model.pool.clone();
+        let read = Scope::new(model, Allowed::Event, "a ramp").read(&mut pool, &ramp.written());
+        model.pool = pool;
+        ramped.0.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
+    }
+    let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
+        model;
+    let mut all: Vec<&mut Expr> = Vec::new();
+    match mechanics {
+        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
+            all.extend([lagrangian, dissipation]);
+            all.extend(forces);
+        }
+        Mechanics::Hamiltonian { hamiltonian, forces } => {
+            all.push(hamiltonian);
+            all.extend(forces);
+        }
+        Mechanics::Poisson { hamiltonian, brackets, casimirs, forces, .. } => {
+            all.push(hamiltonian);
+            all.extend(brackets.iter_mut().flatten());
+            all.extend(casimirs.iter_mut().map(|casimir| &mut casimir.1));
+            all.extend(forces);
+        }
+    }
+    all.extend(constraints.iter_mut().map(|constraint| &mut constraint.expression));
+    all.extend(impulses.iter_mut().flat_map(|impulse| &mut impulse.change));
+    all.extend(events.iter_mut().map(|event| &mut event.when));
+    all.extend(observables.iter_mut().map(|observable| &mut observable.expression));
+    all.extend(definitions.iter_mut().map(|definition| &mut definition.1));
+    for e in all {
+        *e = ramped.replace(pool, *e);
+    }
+    Ok(ramped)
+}

@@ -1,0 +1,109 @@
+//! `run --ramp`: closed forms, adiabatic invariants, refusals.
+
+use std::f64::consts::PI;
+
+use super::{phaselab, with_file};
+
+/// The last row of a run.
+fn end(file: &str, arguments: &[&str]) -> Vec<f64> {
+    let object =
+        with_file(file, &[&["run", "system.toml", "--format=json"], arguments].concat()).json();
+    let rows = object["rows"].as_array().expect("rows");
+    rows.last().unwrap().as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, within: f64) {
+    assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");
+}
+
+/// A free particle whose mass changes keeps p = m ẋ: the term −(∂²L/∂ẋ∂m) ṁ is there.
+#[test]
+fn a_mass_that_changes_keeps_the_momentum() {
+    let file = r#"
+        title = "Free"
+        [coordinates]
+        x = { initial = 0, velocity = "v" }
+        [parameters]
+        m = 7
+        v = 3
+        [lagrangian]
+        L = "1/2*m*x'^2"
+        [[observables]]
+        name = "twice m"
+        expression = "2*m"
+    "#;
+    let smooth = |u: f64| 2.0 + 4.0 * (10.0 * u.powi(3) - 15.0 * u.powi(4) + 6.0 * u.powi(5));
+    for (ramp, time, mass) in [
+        ("m=2:6:1:4", 0.5, 2.0),
+        ("m=2:6:1:4", 2.0, smooth(0.25)),
+        ("m=2:6:1:4", 4.5, smooth(0.875)),
+        ("m=2:6:1:4", 7.0, 6.0),
+        ("m=2:6:1:4:linear", 2.0, 3.0),
+        ("m=6:2:-1:4", 1.0, 4.0),
+    ] {
+        let (ramp, at) = (format!("--ramp={ramp}"), format!("--at={time}"));
+        let row = end(file, &[&ramp, &at, "--observe=m^2"]);
+        // t, x, x', p_x, energy, twice m, m^2, m
+        let first = if ramp.contains("-1") { smooth(0.75) } else { 2.0 };
+        near(row[3], 3.0 * first, 1e-14);
+        near(row[2], 3.0 * first / mass, 1e-14);
+        near(row[5], 2.0 * mass, 4e-15);
+        near(row[6], mass * mass, 2e-14);
+        near(row[7], mass, 2e-15);
+    }
+    let text = with_file(file, &["run", "system.toml", "--ramp=m=2:6:1:4", "--at=0"]).success();
+    assert!(text.contains("\nt,x,x',p_x,energy,twice m,m\n"), "{text}");
+    assert!(text.contains("# parameters: m=2.0 v=3.0"), "{text}");
+}
+
+/// The change of J = E/ω when the frequency goes from 1 to 2: its amplitude over all phases of the start.
+fn change_of_action(duration: f64, kind: &str) -> f64 {
+    let file = r#"
+        title = "Oscillator"
+        [coordinates]
+        x = { initial = "cos(phase)", momentum = "-sin(phase)" }
+        [parameters]
+        w = 1
+        phase = 0
+        [hamiltonian]
+        H = "1/2*p_x^2 + 1/2*w^2*x^2"
+    "#;
+    let ramp = format!("--ramp=w=1:2:0:{duration:?}{kind}");
+    let at = format!("--at={duration:?}");
+    let change = |phase: &str| {
+        let row = end(file, &[&ramp, &at, "--set", phase]);
+        let (x, p) = (row[1], row[3]);
+        // E/ω at the end over E/ω at the start, which are (p²/2 + 2x²)/2 and 1/2
+        0.5 * p * p + 2.0 * x * x - 1.0
+    };
+    // to first order it is A cos(2 phase + …)
+    change("phase=0").hypot(change("phase=pi/4"))
+}
+
+/// A corner changes J in proportion to the rate ε, the smooth ramp, whose third derivative jumps, to ε³. The durations are
+/// such that the jumps at both ends meet in the same phase, 2 ∫ω dt = 3 D = 2π n.
+#[test]
+fn ramps_change_the_action_as_their_smoothness_says() {
+    let duration = 2.0 * PI * 20.0 / 3.0;
+    let slope = |kind| {
+        let [slow, slower] = [1.0, 2.0].map(|factor| change_of_action(factor * duration, kind));
+        assert!(slow > 1e-7, "{kind}: {slow}");
+        (slow / slower).log2()
+    };
+    near(slope(":linear"), 1.0, 0.05);
+    near(slope(""), 3.0, 0.1);
+}
+
+#[test]
+fn what_cannot_be_ramped_is_refused() {
+    let refused = |arguments: &[&str], said: &[&str]| {
+        phaselab(&[&["run"], arguments].concat()).fails(2, said);
+    };
+    refused(&["pendulum", "--ramp=l=1:2"], &["name=from:to:start:duration"]);
+    refused(&["pendulum", "--ramp=l=1:2:0:0"], &["above zero"]);
+    refused(&["pendulum", "--ramp=ll=1:2:0:1"], &["there is no parameter `ll`", "`l`"]);
+    refused(&["pendulum", "--ramp=l=1:2:0:1", "--ramp=l=1:2:0:1"], &["twice"]);
+    refused(&["pendulum", "--ramp=l=1:2:0:1", "--set=l=1"], &["--set and --ramp"]);
+    refused(&["kicked-rotor", "--ramp=T=1:2:0:1"], &["`T`", "kick"]);
+}
