@@ -79,7 +79,6 @@ fn scripts_in_the_lab() {
         ("Esc Space Esc", "lab parameter 0", ""),
         ("Esc Esc Enter", "lab parameter 0", "Reset, Play"),
         ("? q", "lab parameter 0", ""),
-        ("m q", "lab parameter 0", ""),
         ("2", "equations", ""),
         ("2 Esc", "lab parameter 0", ""),
         ("3", "notes", ""),
