@@ -102,7 +102,7 @@ fn scripts_in_the_lab() {
         ("m", "lab parameter 0 + menu \"Method of integration\"", ""),
         ("m Enter", "lab parameter 0", ""),
         ("m Esc", "lab parameter 0", ""),
-        ("m q", "lab parameter 0 + menu \"Method of integration\"", "Quit"),
+        ("m q", "lab parameter 0", ""),
         ("Right", "lab parameter 0", "Parameter { index: 0, value: 1.02 }"),
         ("Left", "lab parameter 0", "Parameter { index: 0, value: 0.98 }"),
         ("L", "lab parameter 0", "Parameter { index: 0, value: 1.2 }"),
