@@ -119,7 +119,6 @@ fn scripts_in_the_lab() {
         ("Enter Ctrl-c", "lab parameter 0 + field \"1\"", "Quit"),
         ("q", "lab parameter 0", "Quit"),
         ("4 q", "numbers", "Quit"),
-        ("? q", "lab parameter 0 + help", "Quit"),
         // Esc and q that arrived together.
         ("2 Alt-q", "lab parameter 0", "Quit"),
         ("Enter Alt-q", "lab parameter 0 + field \"1\"", ""),
