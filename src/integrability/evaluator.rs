@@ -327,7 +327,7 @@ impl Evaluator {
                     product
                 }
                 Step::Sine(angle, _) | Step::Cosine(angle, _) => {
-                    let (sine, cosine) = angle.open(&field, &circles)?;
+                    let (sine, cosine) = angle.open(&field, &circles);
                     let (value, companion) = match step {
                         Step::Sine(..) => (sine, cosine),
                         _ => (cosine, sine),
@@ -420,11 +420,7 @@ pub(super) struct Rates(Vec<Residue>);
 
 impl Angle {
     /// Its sine and cosine.
-    fn open(
-        &self,
-        field: &PrimeField,
-        circles: &[(Residue, Residue)],
-    ) -> Option<(Residue, Residue)> {
+    fn open(&self, field: &PrimeField, circles: &[(Residue, Residue)]) -> (Residue, Residue) {
         let one = field.one();
         let mut whole = match self.quarters.rem_euclid(4) {
             0 => (Residue::ZERO, one),
@@ -438,14 +434,16 @@ impl Angle {
         };
         for &(unit, n) in &self.parts {
             let (sine, cosine) = circles[unit];
-            let once = if n < 0 { (field.neg(sine), cosine) } else { (sine, cosine) };
-            if n.unsigned_abs() > 64 {
-                return None;
-            }
-            for _ in 0..n.unsigned_abs() {
-                whole = turn(whole, once);
+            let mut power = if n < 0 { (field.neg(sine), cosine) } else { (sine, cosine) };
+            let mut n = n.unsigned_abs();
+            while n > 0 {
+                if n & 1 == 1 {
+                    whole = turn(whole, power);
+                }
+                power = turn(power, power);
+                n >>= 1;
             }
         }
-        Some(whole)
+        whole
     }
 }
