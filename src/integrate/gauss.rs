@@ -5,8 +5,10 @@
 //! the c are the zeros of the Legendre polynomial on [0, 1].
 //!
 //! - The iteration starts from the extrapolated polynomial of the step before.
-//! - It ends when no number of any stage moves less from one pass to the next: the rest is
-//!   rounding. Fewer passes would leave an error of the same sign at every step.
+//! - It ends when no number of any stage moves less from one pass to the next, each by itself and
+//!   all together: the rest is rounding. Fewer passes would leave an error of the same sign at
+//!   every step. A number may rest for a pass while what it depends on still moves, as at a turning
+//!   point; when it moves on, it no longer counts as at rest.
 //! - The last pass uses all digits of the coefficients, and sums are compensated, for the same
 //!   reason: energy then performs a random walk.
 //!
@@ -33,6 +35,10 @@ const SMALL: f64 = 1e-9;
 /// rate.
 const PATIENCE: usize = 12;
 const ROUNDINGS: f64 = 64.0;
+
+/// A number that has come to rest moves on if it moves by more than this multiple of what it moved
+/// by then, or of its last digit.
+const RESTLESS: f64 = 4.0;
 
 pub(super) const FOURTH_ORDER: Method = Method {
     name: "gauss4",
@@ -91,7 +97,10 @@ struct Gauss {
     stages: Vec<Vec<f64>>,
     /// The movement of each number in the last pass, and in the one before.
     moves: Vec<[f64; 2]>,
-    resting: Vec<bool>,
+    /// The movement up to which each number has come to rest, if it has.
+    resting: Vec<Option<f64>>,
+    /// The largest movement of any number, in units of its size, in the last two passes.
+    largest: [f64; 2],
     /// The effect of rounding on each rate, computed on demand.
     noise: Vec<f64>,
     sizes: Vec<f64>,
@@ -109,7 +118,8 @@ impl Gauss {
             contiguous: false,
             stages: zeros.clone(),
             moves: vec![[0.0; 2]; s * n],
-            resting: vec![false; s * n],
+            resting: vec![None; s * n],
+            largest: [f64::INFINITY; 2],
             noise: vec![0.0; n],
             sizes: vec![0.0; n],
             scratch: zeros,
@@ -162,21 +172,29 @@ impl Gauss {
         }
         self.place(step, state);
         let n = state.values.len();
-        let mut rest = true;
+        let (mut rest, mut largest) = (true, 0.0_f64);
         for (s, stage) in self.stages.iter().enumerate() {
             for (i, x) in stage.iter().enumerate() {
                 let moved = (x - self.scratch[s][i]).abs();
                 let [before, last] = self.moves[s * n + i];
-                let small = SMALL * x.abs().max((step * self.slopes[s][i]).abs())
-                    + ROUNDINGS * step.abs() * self.noise[i];
+                let size = x.abs().max((step * self.slopes[s][i]).abs());
+                let small = SMALL * size + ROUNDINGS * step.abs() * self.noise[i];
                 // compares with two passes before, as positions and momenta may shrink alternately
                 let level = count >= 2 && moved >= before && moved <= small;
                 self.moves[s * n + i] = [last, moved];
-                self.resting[s * n + i] |= moved == 0.0 || level;
-                rest &= self.resting[s * n + i];
+                let resting = &mut self.resting[s * n + i];
+                if resting.is_some_and(|bound| moved > bound) {
+                    *resting = None;
+                } else if resting.is_none() && (moved == 0.0 || level) {
+                    *resting = Some(RESTLESS * moved.max(f64::EPSILON * size));
+                }
+                rest &= resting.is_some();
+                largest = largest.max(moved / (size + f64::MIN_POSITIVE));
             }
         }
-        Ok(rest)
+        let level = largest >= self.largest[0] || largest <= RESTLESS * f64::EPSILON;
+        self.largest = [self.largest[1], largest];
+        Ok(rest && level)
     }
 
     /// Measures the effect of rounding on the rates at the first stage.
@@ -194,7 +212,8 @@ impl Gauss {
 
     fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
-        self.resting.fill(false);
+        self.resting.fill(None);
+        self.largest = [f64::INFINITY; 2];
         self.place(step, state);
         for count in 1..=PASSES {
             if self.rates.system().cancel().is_cancelled() {

@@ -7,6 +7,7 @@ mod order;
 mod presets;
 mod stability;
 mod structure;
+mod turning_point;
 
 use phaselab::integrate::{METHODS, Method, Settings, Stepper, Stepping, method_named};
 use phaselab::mechanics;
