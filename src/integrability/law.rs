@@ -34,10 +34,10 @@ pub(super) struct Row {
 }
 
 /// Returns whether constants are searched in phase space, where they have brackets: nothing but H acts.
-pub fn is_hamiltonian(model: &Model, equations: &Equations) -> bool {
+pub fn is_hamiltonian(model: &Model, equations: &mut Equations) -> bool {
     let driven = model.mechanics.forces().iter().any(|&f| f != Expr::ZERO);
     let free = model.mechanics.dissipation() == Expr::ZERO && model.constraints.is_empty();
-    free && !driven && equations.hamiltonian.is_ok()
+    free && !driven && equations.hamiltonian().is_ok()
 }
 
 impl Row {
@@ -88,7 +88,7 @@ impl Law {
                 let rates = velocities.into_iter().chain(momentum_rates).collect();
                 (phase, Rule::Explicit(rates), undriven, equations.energy)
             }
-            Flow::Lagrange { mass, force, .. } => match equations.hamiltonian.clone() {
+            Flow::Lagrange { mass, force, .. } => match equations.hamiltonian().clone() {
                 Ok(h) if undriven => {
                     let pool = &mut equations.pool;
                     let mut rates = Vec::new();

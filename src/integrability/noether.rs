@@ -70,7 +70,7 @@ pub fn symmetries(
     is_over: &dyn Fn() -> bool,
 ) -> Result<Symmetries, Unsupported> {
     let refused = |why: &str| Err(Unsupported(why.to_owned()));
-    let Ok(lagrangian) = equations.lagrangian.clone() else {
+    let Ok(lagrangian) = equations.lagrangian().clone() else {
         return refused("there is no Lagrangian in closed form");
     };
     if !model.constraints.is_empty() {

@@ -23,7 +23,7 @@ pub fn separates(model: &Model, equations: &mut Equations) -> Option<bool> {
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
-    let h = equations.hamiltonian.clone().ok()?;
+    let h = equations.hamiltonian().clone().ok()?;
     let (coordinates, time) = (equations.coordinates.clone(), equations.symbols.time);
     let pool = &mut equations.pool;
     let h = pool.substitute(h, &values);

@@ -39,7 +39,10 @@ fn stages_are_solved_where_a_number_rests() {
         &[5.0 / 36.0 + other / 30.0, 2.0 / 9.0 + other / 15.0, 5.0 / 36.0],
     ];
     let k = 4.0 * std::f64::consts::PI.powi(2);
-    let model = || hamiltonian(&["r", "theta"], &[("k", k)], "p_r^2/2 + p_theta^2/(2*r^2) - k/r");
+    let model = || {
+        let h = format!("p_r^2/2 + p_theta^2/(2*r^2) - {k:?}/r");
+        hamiltonian(&["r", "theta"], &[], &h)
+    };
     for e in [0.1_f64, 0.6, 0.9] {
         for r in [1.0 - e, 1.0 + e] {
             let start = [r, 0.0, 0.0, (k * (1.0 - e * e)).sqrt()];
