@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_is_written_as_the_language_writes_it() {
+    fn a_number_is_the_shortest_that_reads_back() {
         let edges = [0.0, -0.0, 1.0, 0.1, 1e-4, 1e15, 1e16, 1e17, 1e-5, f64::MAX, 5e-324, 1e300];
         let around = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down(), -x]);
         let mut seed = 7_u64;
@@ -72,6 +72,12 @@ mod tests {
             }
         });
         for x in around.chain(random).filter(|x| x.is_finite()) {
+            let (text, other) = (shortest(x).expect("finite"), format!("{x:?}"));
+            assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(x.to_bits()), "{text}");
+            // of two shortest decimals that are equally near, either may be taken
+            assert_eq!(text.len(), other.len(), "{text} {other}");
+        }
+        for x in [0.0, -0.0, 1.0, 0.1, -2.5e-3, 1e15, 1e16, 1e-5, f64::MAX, 5e-324] {
             assert_eq!(shortest(x), Some(format!("{x:?}")));
         }
         assert_eq!((shortest(f64::NAN), shortest(f64::INFINITY)), (None, None));

@@ -2,7 +2,7 @@
 //! decimal digits. It is used where rounding must not be visible: the lowest orders of a Taylor
 //! step, constants and parameters, displayed values of a state. A fused
 //! multiply-add serves only to find the rounding error of a product, which Dekker's splitting finds
-//! as well: results are the same on every machine.
+//! as well: results are the same on every machine, but for the ends of the range.
 //!
 //! Sources: T. J. Dekker, Numer. Math. 18 (1971) 224 (products); D. E. Knuth, The Art of Computer
 //! Programming 2, 4.2.2 (sums); Y. Hida, X. S. Li, D. H. Bailey, 15th IEEE Symposium on Computer
@@ -56,7 +56,7 @@ impl DoubleDouble {
     }
 
     /// `a · b` exactly, by a fused multiply-add or without: the bits are the same, as either gives
-    /// the rounding error of a product between 1e−290 and 1e290 exactly.
+    /// the rounding error exactly, of factors below 1e300 and a product above 1e−290.
     #[inline(always)]
     pub(super) fn product_by<const FUSED: bool>(a: f64, b: f64) -> DoubleDouble {
         let high = a * b;

@@ -38,7 +38,7 @@ pub trait Real:
     /// The number as a [`DoubleDouble`].
     fn double(self) -> DoubleDouble;
 
-    /// Division by an integer from 1 to 64, in `f64` by multiplication with its reciprocal.
+    /// Division by an integer from 1 to 64.
     #[must_use]
     fn over(self, n: usize) -> Self {
         self / n as f64
@@ -102,25 +102,10 @@ pub trait Real:
     fn power(self, exponent: DoubleDouble) -> Self;
 }
 
-/// 1/n, for n up to 64.
-const RECIPROCALS: [f64; 65] = {
-    let mut table = [f64::NAN; 65];
-    let mut n = 1;
-    while n < table.len() {
-        table[n] = 1.0 / n as f64;
-        n += 1;
-    }
-    table
-};
-
 impl Real for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
 
-    #[inline]
-    fn over(self, n: usize) -> f64 {
-        self * RECIPROCALS[n]
-    }
     #[inline]
     fn inner_products(
         forward: &[f64],

@@ -61,7 +61,7 @@ pub struct Options {
     #[arg(long, short, value_name = "WORD", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "off", default_missing_value = "state")]
     pub log: LogTarget,
-    /// Use the mouse from the beginning; false leaves it to the terminal to select text. M switches in the lab.
+    /// Use the mouse; false leaves it to the terminal. M switches it in the lab.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, hide_possible_values = true)]
     #[arg(default_value = "true", default_missing_value = "true", value_name = SWITCH)]
     pub mouse: bool,

@@ -3,10 +3,8 @@
 //! In: the numbers of a state, the sides of its switches. Out: coefficients, or why there are none.
 //! Never here: the choice of precision for each order, time.
 
-use std::sync::Arc;
-
 use super::jet::{Jet, Side};
-use super::program::{Program, Singular};
+use super::program::Singular;
 use super::solve::Factored;
 use crate::cancel::Cancel;
 use crate::num::{DoubleDouble, ExtendedRange, Real};
@@ -50,21 +48,10 @@ pub(super) struct SeriesBuilder<R> {
 }
 
 impl<R: Real> SeriesBuilder<R> {
-    pub(super) fn new(
-        program: Arc<Program>,
-        inputs: usize,
-        len: usize,
-        order: usize,
-    ) -> SeriesBuilder<R> {
+    pub(super) fn new(jet: Jet<R>, inputs: usize, len: usize) -> SeriesBuilder<R> {
+        let order = jet.order();
         let state = vec![R::ZERO; len * (order + 1)];
-        SeriesBuilder {
-            jet: Jet::new(program, order),
-            order,
-            inputs,
-            state,
-            kept: Vec::new(),
-            depth: 1,
-        }
+        SeriesBuilder { jet, order, inputs, state, kept: Vec::new(), depth: 1 }
     }
 
     pub(super) fn series(&self, i: usize) -> &[R] {

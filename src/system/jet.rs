@@ -33,6 +33,7 @@ pub enum Side {
 #[derive(Clone, Debug)]
 pub struct Jet<R> {
     program: Arc<Program>,
+    schedule: Arc<Schedule>,
     tables: Tables<R>,
 }
 
@@ -64,8 +65,17 @@ impl<R: Real> Jet<R> {
     /// Allocates registers for a program, up to an order. The parameters must be set before it is
     /// evaluated.
     pub fn new(program: Arc<Program>, order: usize) -> Jet<R> {
-        let stride = order + 1;
-        let (registers, schedule) = (program.ops.len(), program.schedule());
+        let schedule = Arc::new(Schedule::of(&program));
+        Jet::with_schedule(program, schedule, order)
+    }
+
+    /// The same for the program of another jet.
+    pub(super) fn like<S: Real>(other: &Jet<S>, order: usize) -> Jet<R> {
+        Jet::with_schedule(Arc::clone(&other.program), Arc::clone(&other.schedule), order)
+    }
+
+    fn with_schedule(program: Arc<Program>, schedule: Arc<Schedule>, order: usize) -> Jet<R> {
+        let (stride, registers) = (order + 1, program.ops.len());
         let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
         // the first term of a series takes no part in inner products
@@ -87,7 +97,7 @@ impl<R: Real> Jet<R> {
             sides: vec![Side::Positive; program.switches.len()],
             weights: vec![R::ZERO; program.switches.len() * stride],
         };
-        Jet { program, tables }
+        Jet { program, schedule, tables }
     }
 
     /// The highest order there is room for.
@@ -141,8 +151,9 @@ impl<R: Real> Jet<R> {
         }
         tables.multiply(k);
         let rate = if k == 1 { R::ONE * scale } else { R::ZERO };
-        vectorized(Finish { tables: &mut *tables, program, k, rate });
-        tables.mirror(program, k);
+        let schedule = &*self.schedule;
+        vectorized(Finish { tables: &mut *tables, program, schedule, k, rate });
+        tables.mirror(schedule, k);
         Ok(())
     }
 
@@ -202,7 +213,7 @@ impl<R: Real> Jet<R> {
             }
         }
         for k in 1..orders {
-            own.mirror(&self.program, k);
+            own.mirror(&self.schedule, k);
         }
     }
 }
@@ -211,6 +222,7 @@ impl<R: Real> Jet<R> {
 struct Finish<'a, R> {
     tables: &'a mut Tables<R>,
     program: &'a Program,
+    schedule: &'a Schedule,
     k: usize,
     rate: R,
 }
@@ -220,7 +232,7 @@ impl<R: Real> Kernel for Finish<'_, R> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        self.tables.finish::<FUSED>(self.program, self.k, self.rate);
+        self.tables.finish::<FUSED>(self.program, self.schedule, self.k, self.rate);
     }
 }
 
@@ -277,8 +289,13 @@ impl<R: Real> Tables<R> {
 
     /// Finishes order `k`, once its inner products are known.
     #[inline(always)]
-    fn finish<const FUSED: bool>(&mut self, program: &Program, k: usize, rate: R) {
-        let schedule = program.schedule();
+    fn finish<const FUSED: bool>(
+        &mut self,
+        program: &Program,
+        schedule: &Schedule,
+        k: usize,
+        rate: R,
+    ) {
         for &r in &program.inputs {
             self.now[r as usize] = self.forward[r as usize * self.stride + k];
         }
@@ -431,14 +448,14 @@ impl<R: Real> Tables<R> {
     }
 
     /// Stores order `k` once more where inner products read it.
-    fn mirror(&mut self, program: &Program, k: usize) {
-        let (stride, schedule) = (self.stride, program.schedule());
+    fn mirror(&mut self, schedule: &Schedule, k: usize) {
+        let (stride, registers) = (self.stride, self.values.len());
         for (slot, &r) in schedule.reversed.iter().enumerate() {
             self.reversed[slot * stride + stride - 1 - k] = self.forward[r as usize * stride + k];
         }
         for (slot, &r) in schedule.slopes.iter().enumerate() {
             let slope = self.forward[r as usize * stride + k] * k as f64;
-            self.forward[(program.ops.len() + slot) * stride + k] = slope;
+            self.forward[(registers + slot) * stride + k] = slope;
         }
     }
 

@@ -8,9 +8,7 @@
 use super::program::LIVE_POWER_BITS;
 use crate::num::{DoubleDouble, Real};
 
-/// `y = a^n` with `n` known at run time. An integer power uses repeated squaring, which also works
-/// at the zeros of `a`: the registers after `y` contain, for each bit of the exponent, the square
-/// and the product of the factors so far.
+/// The coefficient of order `k` of `a^exponent`. `own` begins with the register of the power.
 pub(super) fn coefficient<R: Real>(
     a: &[R],
     exponent: DoubleDouble,

@@ -2,10 +2,9 @@
 //! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::lower::Lowering;
-use super::schedule::Schedule;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::DoubleDouble;
 
@@ -108,8 +107,6 @@ pub struct Program {
     pub(super) guards: Vec<Guard>,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
-    /// How it is evaluated as series, once that was asked for.
-    pub(super) schedule: OnceLock<Schedule>,
 }
 
 /// A matrix in the program is singular.
@@ -138,11 +135,6 @@ impl Program {
         }
         let outputs = lowering.lower_all(outputs);
         lowering.finish(outputs)
-    }
-
-    /// The order of work by which it is evaluated as series.
-    pub(super) fn schedule(&self) -> &Schedule {
-        self.schedule.get_or_init(|| Schedule::of(self))
     }
 
     /// The number of outputs.

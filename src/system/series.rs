@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::compiled::System;
 use super::error::{MotionError, MotionErrorKind};
 use super::growth::{Clock, Halt, SeriesBuilder};
-use super::jet::Side;
+use super::jet::{Jet, Side};
 use super::program::Program;
 use super::state::State;
 use crate::expr::FunctionId;
@@ -38,11 +38,12 @@ impl System {
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
         let (inputs, len) = (self.driven_len(), self.state_len());
-        let low = (exact > 0).then(|| SeriesBuilder::new(Arc::clone(program), inputs, len, exact));
+        let high = Jet::new(Arc::clone(program), order);
+        let low = (exact > 0).then(|| SeriesBuilder::new(Jet::like(&high, exact), inputs, len));
         Series {
             system: self.clone(),
             low,
-            high: SeriesBuilder::new(Arc::clone(program), inputs, len, order),
+            high: SeriesBuilder::new(high, inputs, len),
             wide: None,
             parameters: Vec::new(),
             origin: vec![DoubleDouble::ZERO; len],
@@ -153,9 +154,9 @@ impl Series {
     fn grow_extended(&mut self) -> Result<(), Halt> {
         let clock = Clock { time: self.time, scale: self.scale };
         let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
-        let program = &self.system.motion().native;
         let wide = self.wide.get_or_insert_with(|| {
-            let mut wide = Box::new(SeriesBuilder::new(Arc::clone(program), inputs, len, order));
+            let jet = Jet::like(&self.high.jet, order);
+            let mut wide = Box::new(SeriesBuilder::new(jet, inputs, len));
             wide.jet.set_parameters(&self.parameters);
             wide
         });

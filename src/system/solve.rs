@@ -11,8 +11,6 @@ const SMALLEST_PIVOT: f64 = 1e-13;
 pub(super) struct Factored<R> {
     size: usize,
     entries: Vec<R>,
-    /// The reciprocals of the pivots.
-    inverses: Vec<R>,
     rows: Vec<usize>,
     /// The unit of each unknown, and the size of each row in these units.
     units: Vec<f64>,
@@ -25,7 +23,6 @@ impl<R: Real> Factored<R> {
         Factored {
             size,
             entries: vec![R::ZERO; size * size],
-            inverses: vec![R::ZERO; size],
             rows: (0..size).collect(),
             units: vec![1.0; size],
             scales: vec![0.0; size],
@@ -48,8 +45,6 @@ impl<R: Real> Factored<R> {
             }
         }
         if !finite {
-            // what is not a number spreads to every unknown
-            self.inverses.fill(R::ONE * f64::NAN);
             return true;
         }
         self.measure();
@@ -68,10 +63,9 @@ impl<R: Real> Factored<R> {
             if pivot.is_nan() || pivot <= SMALLEST_PIVOT || self.scales[pivot_row] == 0.0 {
                 return false;
             }
-            let inverse = R::ONE / self.entries[pivot_row * n + k];
-            self.inverses[k] = inverse;
+            let pivot = self.entries[pivot_row * n + k];
             for &row in &self.rows[k + 1..] {
-                let factor = self.entries[row * n + k] * inverse;
+                let factor = self.entries[row * n + k] / pivot;
                 self.entries[row * n + k] = factor;
                 for j in k + 1..n {
                     let product = factor * self.entries[pivot_row * n + j];
@@ -126,7 +120,7 @@ impl<R: Real> Factored<R> {
             for j in k + 1..n {
                 sum = sum - self.entries[row * n + j] * right[j];
             }
-            right[k] = sum * self.inverses[k];
+            right[k] = sum / self.entries[row * n + k];
         }
     }
 }

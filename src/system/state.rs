@@ -27,8 +27,8 @@ pub struct State {
     pub time_carry: f64,
     /// Which rates the second part of `values` contains.
     pub form: Form,
-    /// The coordinates, then their velocities or momenta, then auxiliary numbers, then the
-    /// quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
+    /// The coordinates, then their velocities or momenta, then auxiliary numbers, then tangent
+    /// vectors, then the quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
     pub values: Vec<f64>,
     /// What rounding cut off from `values`.
     pub carry: Vec<f64>,

@@ -9,7 +9,7 @@
 //! SIAM 2008, chapter 3). A function with a kink has the derivative of the branch that is taken.
 
 use std::collections::HashMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::program::{Block, LIVE_POWER_BITS, Op, Program, Register, Term};
 use crate::expr::FunctionId;
@@ -120,9 +120,7 @@ type Delta = Option<Register>;
 
 impl Builder {
     fn new(program: &Program) -> Builder {
-        // its schedule is another than that of the program it begins as
-        let program = Program { schedule: OnceLock::new(), ..program.clone() };
-        Builder { program, written: HashMap::new(), slopes: HashMap::new() }
+        Builder { program: program.clone(), written: HashMap::new(), slopes: HashMap::new() }
     }
 
     /// The derivatives of all needed registers of `primal` along a vector.
@@ -260,7 +258,13 @@ impl Builder {
         let da = da?;
         let slope = self.slopes.get(&register).copied().unwrap_or_else(|| {
             let one = Term { coefficient: DoubleDouble::ONE, register: exponent };
-            let exponent_less = self.linear(-1.0, &[one]);
+            let opposite = Term { coefficient: -DoubleDouble::ONE, register: exponent };
+            // the slope of a⁰ is 0 · a⁰ and not 0/a, so that it is zero where a is: at a zero of
+            // its switch a Select is the mean of its branches, which is 0 here
+            let switch = self.push(Op::Square(exponent));
+            let positive = self.linear(-1.0, &[one]);
+            let negative = self.linear(1.0, &[opposite]);
+            let exponent_less = self.push(Op::Select { switch, mode: None, positive, negative });
             let less = self.push(Op::ParametricPower(a, exponent_less));
             for _ in 0..2 * LIVE_POWER_BITS {
                 self.push(Op::Written);
@@ -418,6 +422,13 @@ impl Builder {
                 [first as usize..(first + count) as usize]
                 .iter()
                 .all(|term| program.fixed[term.register as usize]),
+            Op::Square(a) | Op::Root(a) | Op::Power(a, _) => program.fixed[a as usize],
+            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
+                program.fixed[a as usize] && program.fixed[b as usize]
+            }
+            Op::Select { switch, positive, negative, .. } => {
+                [switch, positive, negative].iter().all(|&r| program.fixed[r as usize])
+            }
             Op::Written => program.fixed[register as usize - 1],
             _ => false,
         };

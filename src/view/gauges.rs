@@ -176,7 +176,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
             )
         }
         Verdict::Lost => "has left its value by more than a tenth of what moves".to_owned(),
-        Verdict::Broken(law) => format!("not conserved, by the physics: {law}"),
+        Verdict::Broken(law) => format!("by the physics: {law}"),
     }
 }
 

@@ -11,7 +11,6 @@ const IN_CIRCLES: &[(&str, usize)] = &[
     ("cli", 5),
     ("instrument", 6),
     ("integrate", 2),
-    ("num", 2),
     ("preset", 2),
     ("record", 2),
     ("shell", 3),

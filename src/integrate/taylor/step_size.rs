@@ -27,8 +27,8 @@ const INDULGENCE: f64 = 1.5;
 /// The largest step as a part of the radius of convergence.
 const PART_OF_RADIUS: f64 = 0.6;
 
-/// The tolerance of an integral (action, work), in tolerances of the motion: its errors have no
-/// effect on the motion.
+/// The tolerance of an integral (action, work) and of a tangent vector, in tolerances of the motion:
+/// its errors have no effect on the motion.
 const SPARED: f64 = 1e3;
 
 /// The largest change of a function's argument in one step: a short-range potential must not be

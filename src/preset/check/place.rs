@@ -10,7 +10,7 @@ pub(super) fn within(file: &str, formula: &Formula, span: Span) -> SourceRange {
     let whole = formula.span();
     let Some(raw) = file.get(whole.clone()) else { return whole };
     let (open, close) = quotes(raw);
-    let body = &raw[open..raw.len() - close];
+    let Some(body) = raw.get(open..raw.len() - close) else { return whole };
     let text = formula.get_ref();
     let first = whole.start + open;
     if body == text {

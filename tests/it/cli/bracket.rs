@@ -82,7 +82,7 @@ fn a_bracket_in_latex_and_in_ascii() {
 #[test]
 fn wrong_words_get_a_caret() {
     with_file(PENDULUM, &["bracket", "system.toml", "theta", "thet'"])
-        .fails(2, &["the name `thet` is not known", "did you mean `theta'`?", "G: "]);
+        .fails(2, &["unknown name `thet`", "did you mean `theta'`?", "G: "]);
     phaselab(&["bracket", "pendulum", "theta"]).fails(2, &["<G>"]);
     phaselab(&["bracket", "pendulum", "theta", "1", "--set", "q=1"]).fails(2, &["no parameter"]);
 }

@@ -39,16 +39,15 @@ fn what_is_cancelled_before_it_begins_is_not_begun() {
 
 #[test]
 fn a_derivation_ends_soon_after_it_is_cancelled() {
-    for links in [12, 30] {
+    for links in [40, 64] {
         let cancel = Cancel::new();
         let (told, ended) = channel();
         let token = cancel.clone();
         thread::spawn(move || {
             let _ = told.send(Prepared::with(&chain(links), &token).is_err());
         });
-        thread::sleep(Duration::from_millis(700));
+        thread::sleep(Duration::from_millis(50));
         cancel.cancel();
-        // it would take minutes
         let stopped = ended.recv_timeout(Duration::from_secs(10));
         assert_eq!(stopped, Ok(true), "a chain of {links}");
     }

@@ -250,6 +250,8 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     let kept = || fs::read_to_string(&texts).unwrap_or_default();
     let mut left = edited(state.path(), &place);
     left.press("\x1b");
+    left.shows("Esc again");
+    left.press("\x1b");
     left.shows("Systems");
     left.press("q");
     assert_eq!(left.ends().0, 0);
