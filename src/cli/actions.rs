@@ -126,7 +126,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     crowd::write(out, &written(arguments.format, &turning, &rows, &separatrices), interrupt)?;
     if rows.is_empty() {
-        return Err(could_not(format!("{name} moves nowhere with that energy")));
+        return Err(could_not(format!("{name} cannot move at that energy")));
     }
     Ok(())
 }

@@ -255,7 +255,9 @@ pub(super) fn expression(
         .collect();
     stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
     let written = printable::quoted(written);
-    Err(CommandError::WrongUse(format!("{called}: `{written}` is no expression of this system")))
+    Err(CommandError::WrongUse(format!(
+        "{called}: `{written}` is not an expression of this system"
+    )))
 }
 
 fn wrong(assignment: &Assignment, why: &str) -> CommandError {

@@ -7,7 +7,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::assignment::{self, Assignment, number};
 use super::failure::CommandError;
@@ -166,11 +166,7 @@ impl Arguments {
     fn search(&self, model: &Model, equations: &mut Equations) -> Result<Invariants, CommandError> {
         let budget = self.budget.or(self.degree.is_none().then_some(BUDGET));
         let begin = Instant::now();
-        let is_over = || {
-            budget.is_some_and(|seconds| {
-                Duration::try_from_secs_f64(seconds).is_ok_and(|most| begin.elapsed() > most)
-            })
-        };
+        let is_over = || budget.is_some_and(|seconds| begin.elapsed().as_secs_f64() > seconds);
         let limits = Limits { degree: self.degree, is_over: &is_over };
         invariants(model, equations, &limits).map_err(|why| CommandError::CouldNot(why.to_string()))
     }

@@ -106,7 +106,7 @@ fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     match (arguments.energy, arguments.period) {
         (_, Some(period)) if period <= 0.0 => wrong("--period: a period is above zero"),
         (Some(_), _) if !conserved => {
-            wrong("--energy: the energy of this system is not that of an orbit, as it changes")
+            wrong("--energy: the energy is not conserved, so it cannot select an orbit")
         }
         (Some(energy), _) => Ok(Fixed::Energy(energy)),
         // a limit cycle has the period that it has

@@ -124,10 +124,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         None => vec![laid.start.clone()],
     };
     let shell = shell(arguments, &laid.model)?;
-    let first = starts.iter().map(|start| start.time).fold(f64::INFINITY, f64::min);
+    let first = starts.iter().map(|start| start.time).fold(f64::NEG_INFINITY, f64::max);
     if let Some(until) = arguments.until.filter(|&until| until < first) {
         let [until, first] = [until, first].map(printable::number);
-        let message = format!("the motion begins at {first}; --until {until} is before it");
+        let message = format!("a motion begins at {first}; --until {until} is before it");
         return Err(CommandError::WrongUse(message));
     }
     let count = arguments.count.or(arguments.until.is_none().then_some(COUNT));
@@ -167,7 +167,7 @@ pub(super) fn surface(
         let mistakes: Vec<Diagnostic> = mistakes.collect();
         stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
         let written = printable::quoted(written);
-        let message = format!("{called}: `{written}` is no expression of this system");
+        let message = format!("{called}: `{written}` is not an expression of this system");
         return Err(CommandError::WrongUse(message));
     };
     if pool.symbols_of(e).is_empty() {

@@ -82,7 +82,7 @@ impl Starts {
             return Err(failed(format!("a table of more than {} MiB", LONGEST >> 20)));
         }
         let text =
-            String::from_utf8(bytes).map_err(|_| failed("it is no text in UTF-8".to_owned()))?;
+            String::from_utf8(bytes).map_err(|_| failed("it is not UTF-8 text".to_owned()))?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))

@@ -231,7 +231,7 @@ impl Sweep<'_> {
     /// Keeps rows in a journal, and writes the file when all are there.
     fn into_file(self, path: &Path) -> Result<(), CommandError> {
         let resume = self.arguments.resume;
-        if resume && journal::is_complete(path, &self.identity)? {
+        if resume && journal::is_complete(path, &self.identity, self.places.len())? {
             journal::discard(path);
             stderr::tell(&format!("{} is complete", printable::path(path)));
             return Ok(());

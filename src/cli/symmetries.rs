@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
@@ -56,9 +56,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let parameters = assignment::parameters(&model, &arguments.set)?;
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
     let Derived { model, mut equations } = open::derive(&document, model)?;
-    let most = Duration::try_from_secs_f64(arguments.budget.unwrap_or(BUDGET));
+    let most = arguments.budget.unwrap_or(BUDGET);
     let begin = Instant::now();
-    let is_over = || most.as_ref().is_ok_and(|most| begin.elapsed() > *most);
+    let is_over = || begin.elapsed().as_secs_f64() > most;
     let found = symmetries(&model, &mut equations, &is_over)
         .map_err(|why| CommandError::CouldNot(why.to_string()))?;
     let text = match arguments.format {

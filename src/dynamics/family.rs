@@ -490,6 +490,10 @@ impl Walk<'_> {
                 }
             }
             let (part, point) = last;
+            // a member that was not found is left out
+            if (point.value - value).abs() > 1e-9 * value.abs().max(1e-2) {
+                continue;
+            }
             found.push((part, Member { value, orbit: point.orbit, bifurcation: None }));
         }
         found.sort_by(|x, y| x.0.total_cmp(&y.0));

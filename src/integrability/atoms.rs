@@ -181,7 +181,11 @@ impl Atoms {
         }
         if d > 1 && exponents.iter().any(|n| !n.is_negative()) {
             let root = pool.monomial(Number::ONE, &[(base, Number::Rational(1, d))]);
-            both.push(self.add(root, (d - 1) as u32));
+            // a higher power is a polynomial in the others, of the degree of the base
+            let degree = self.degrees(pool, base).into_values().max().unwrap_or(0);
+            let highest =
+                if i128::from(degree) > i128::from(d) { u32::MAX } else { (d - 1) as u32 };
+            both.push(self.add(root, highest));
         }
         if let [a, b] = both[..] {
             self.excluded.push((a, b));

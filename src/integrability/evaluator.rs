@@ -103,7 +103,7 @@ impl Units {
         for (c, term) in terms(pool, argument) {
             let Number::Rational(_, d) = c else {
                 return Err(Unsupported(
-                    "a coefficient in an angle or exponent is no fraction".into(),
+                    "a coefficient in an angle or exponent is not a fraction".into(),
                 ));
             };
             let known = self.denominators.entry(term).or_insert_with(|| {
@@ -183,7 +183,7 @@ impl Evaluator {
                 Node::Product(_, factors) => {
                     for &(base, n) in factors {
                         let Number::Rational(_, d) = n else {
-                            let why = format!("the power {} is no fraction", pool.text(e));
+                            let why = format!("the power {} is not a fraction", pool.text(e));
                             return Err(Unsupported(why));
                         };
                         let known = roots_of.entry(base).or_insert(1);
@@ -281,8 +281,10 @@ impl Evaluator {
         };
         let circles: Vec<(Residue, Residue)> =
             self.circles.iter().map(&mut circle).collect::<Option<_>>()?;
+        // exponentials are positive, so that they have roots
         let unit = |fixed: &bool| {
-            if *fixed { same.residue(&field) } else { random.residue(&field) }
+            let root = if *fixed { same.residue(&field) } else { random.residue(&field) };
+            field.mul(root, root)
         };
         let units: Vec<Residue> = self.units.iter().map(unit).collect();
         let mut roots: FxHashMap<(usize, u64), Residue> = FxHashMap::default();

@@ -76,6 +76,12 @@ pub fn symmetries(
     if !model.constraints.is_empty() {
         return refused("symmetries of a Lagrangian under constraints are not searched");
     }
+    let forces = model.mechanics.forces();
+    if model.mechanics.dissipation() != Expr::ZERO || forces.iter().any(|&f| f != Expr::ZERO) {
+        return refused(
+            "friction or forces act beside the Lagrangian, whose symmetries then give no constants",
+        );
+    }
     let values: HashMap<Symbol, Expr> = law::constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
@@ -89,7 +95,7 @@ pub fn symmetries(
     let mut problem = Problem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
     let mut found = Vec::new();
-    let mut complete = true;
+    let mut complete = !problem.overgeneral;
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
@@ -120,6 +126,8 @@ struct Problem {
     generators: Vec<Expr>,
     monomials: Vec<Expr>,
     field: PrimeField,
+    /// Whether points are more general than the motion, so that a symmetry may have been missed.
+    overgeneral: bool,
 }
 
 impl Problem {
@@ -147,6 +155,7 @@ impl Problem {
             generators,
             monomials,
             field: PrimeField::nth(0),
+            overgeneral: false,
         }
     }
 
@@ -176,6 +185,7 @@ impl Problem {
         let moving: Vec<Symbol> =
             self.positions.iter().chain(&self.velocities).chain([&self.time]).copied().collect();
         let evaluator = Evaluator::new(pool, &roots, &moving)?;
+        self.overgeneral = evaluator.overgeneral;
         let (n, m) = (self.positions.len(), self.monomials.len());
         let mut random = Random::new(3);
         let works = |k: &usize| {
@@ -194,7 +204,7 @@ impl Problem {
         while idle < SPARE {
             tries += 1;
             if is_over() || tries > 100 * MOST {
-                return Err(Unsupported("the time for it was over".to_owned()));
+                return Err(Unsupported("the time allowed ran out".to_owned()));
             }
             let Some((values, row)) = self.row(&evaluator, self.field, &mut random) else {
                 continue;

@@ -87,8 +87,8 @@ impl Scope {
                 let odd = |e: &Expr| *e == Expr::ZERO || parity(pool, *e, momenta) == Some(false);
                 velocities.iter().all(odd) && forces.iter().all(even)
             }
-            Rule::Solved { force, rows, .. } => {
-                force.iter().all(even)
+            Rule::Solved { mass, force, rows } => {
+                mass.iter().flatten().chain(force).all(even)
                     && rows.iter().all(|row| row.is_scleronomic(pool, self.law.time))
             }
         }

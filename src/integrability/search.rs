@@ -132,7 +132,9 @@ pub fn invariants(
     let outcome = search.levels(model, equations, &mut answer);
     match outcome {
         Ok(()) => {}
-        Err(Broken::Over) => answer.ended = Some("the time for it was over".to_owned()),
+        Err(Broken::Over) => {
+            answer.ended.get_or_insert_with(|| "the time allowed ran out".to_owned());
+        }
         Err(Broken::NoPoint) => {
             let why = "no point was found at which everything has a value modulo a prime";
             answer.ended = Some(why.to_owned());
@@ -297,7 +299,7 @@ impl<'a> Search<'a> {
                 }
                 (None, None) => {
                     answer.ended = Some(
-                        "a constant of the motion has coefficients that are no short fractions"
+                        "a constant of the motion has coefficients that are not short fractions"
                             .to_owned(),
                     );
                     return Err(Broken::Over);

@@ -32,9 +32,6 @@ const SAFETY: f64 = 0.9;
 /// The multiple of the measured rounding of a rate that is tolerated.
 const ROUNDINGS: f64 = 4.0;
 
-/// A rate of which more than this part is rounding is nothing else.
-const MOSTLY: f64 = 0.1;
-
 /// The part of that rounding that is kept for the next step, since one measurement may by chance be
 /// too small.
 const FORGETTING: f64 = 0.8;
@@ -181,7 +178,7 @@ impl DormandPrince {
     }
 
     /// Measures the effect of rounding on the rates at the beginning of the step, since its end may
-    /// be anywhere; and on those of the last stage, since at the beginning it may happen to vanish.
+    /// be anywhere.
     fn estimate_roundoff(&mut self, step: f64) {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
@@ -194,12 +191,10 @@ impl DormandPrince {
         }
         let begin = self.state.values.clone();
         self.compare(self.state.time, &begin);
-        let reached = self.numbers.clone();
-        self.compare(self.state.time + STAGES[METHOD_STAGES - 1].at * step, &reached);
     }
 
-    /// Counts rates that are mostly rounding, by the same rates in double-double, as such, unless the
-    /// two lie on two sides of a kink.
+    /// Counts the difference between the rates somewhere and the same rates in double-double as
+    /// rounding, unless they lie on two sides of a kink.
     fn compare(&mut self, time: f64, numbers: &[f64]) {
         let exact: Vec<DoubleDouble> = numbers.iter().map(|&x| DoubleDouble::from(x)).collect();
         if self.rates.evaluate(time, numbers, &mut self.fresh).is_err()
@@ -213,7 +208,7 @@ impl DormandPrince {
         }
         for (i, (noise, fresh)) in self.noise.iter_mut().zip(&self.fresh).enumerate() {
             let rounding = (self.exact.rate(i).high - fresh).abs();
-            if rounding.is_finite() && rounding > MOSTLY * fresh.abs() {
+            if rounding.is_finite() {
                 *noise = noise.max(rounding);
             }
         }

@@ -19,7 +19,7 @@ impl Shard {
 
     /// How many of so many rows it has.
     pub(super) fn count(self, rows: usize) -> usize {
-        (rows + self.of - self.index) / self.of
+        if self.index > rows { 0 } else { (rows - self.index) / self.of + 1 }
     }
 }
 

@@ -32,8 +32,12 @@ pub(super) fn is_regular(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |about| about.is_file())
 }
 
-/// Whether an output is the complete file of this sweep; one of another sweep is refused.
-pub(super) fn is_complete(path: &Path, identity: &Identity) -> Result<bool, CommandError> {
+/// Whether an output is the file of this sweep with all its rows; one of another sweep is refused.
+pub(super) fn is_complete(
+    path: &Path,
+    identity: &Identity,
+    rows: usize,
+) -> Result<bool, CommandError> {
     let text = match fs::read_to_string(path) {
         Ok(text) => text,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
@@ -41,7 +45,9 @@ pub(super) fn is_complete(path: &Path, identity: &Identity) -> Result<bool, Comm
     };
     let mut lines = text.lines().take_while(|line| line.starts_with('#'));
     if lines.find_map(Identity::read).as_ref() == Some(identity) {
-        return Ok(true);
+        // a sweep that was written row by row, and ended early, has fewer
+        let lines = text.lines().filter(|line| !line.starts_with('#')).count();
+        return Ok(lines == rows + 1 && text.ends_with('\n'));
     }
     let path = printable::path(path);
     let message = format!("{path} is not of this sweep: --resume leaves it as it is");

@@ -240,7 +240,7 @@ fn taken(
         (Some(expression), _) => expression.clone(),
         (None, _) if reading.model.is_poisson() => {
             let message = format!(
-                "--measure {0}: variables of brackets have no velocities; write {0}=EXPR",
+                "--measure {0}: the variables of a [poisson] system have no velocities; write {0}=EXPR",
                 name.measure.name
             );
             return Err(CommandError::WrongUse(message));

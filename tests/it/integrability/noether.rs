@@ -2,7 +2,7 @@
 //! Source: P. J. Olver, *Applications of Lie Groups to Differential Equations*, §§ 2.4, 4.4; for the damped quintic,
 //! the Emden–Fowler equation of index 5.
 
-use phaselab::integrability::{Symmetries, symmetries};
+use phaselab::integrability::{Limits, Symmetries, invariants, symmetries};
 use phaselab::mechanics::{self, Equations};
 
 use super::{drift, model};
@@ -91,4 +91,36 @@ fn emdens_constant_is_the_textbooks() {
     let ratio = pool.evaluate(quotient, &at);
     let other = pool.evaluate(quotient, &crate::build::sample(8));
     assert!(ratio != 0.0 && (ratio - other).abs() < 1e-12 * ratio.abs(), "{ratio} {other}");
+}
+
+#[test]
+fn where_friction_or_forces_act_nothing_is_said_to_be_constant() {
+    let friction = "[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"1/2*x'^2\"\n";
+    let force = "[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"1\" }\n";
+    for law in [friction, force] {
+        let text = format!("title = \"test\"\n[coordinates]\nx = {{ initial = 1.0 }}\n{law}");
+        let model = model(&text);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        let refused =
+            symmetries(&model, &mut equations, &|| false).expect_err("something else acts");
+        assert!(refused.to_string().contains("friction or forces"), "{refused}");
+    }
+}
+
+#[test]
+fn a_quantity_of_odd_degree_under_a_mass_that_is_odd_is_not_missed() {
+    // M = diag(x', y'): x'³/3 + x and the like in y are constant
+    let model = model(
+        "title = \"test\"\n[coordinates]\nx = { initial = 0.0, velocity = 1.0 }\n\
+         y = { initial = 0.0, velocity = 1.5 }\n[lagrangian]\nL = \"x'^3/6 + y'^3/6 - x - y\"\n",
+    );
+    let mut equations = mechanics::derive(&model).expect("derivable");
+    let limits = Limits { degree: Some(3), is_over: &|| false };
+    let found = invariants(&model, &mut equations, &limits).expect("it can be searched");
+    assert!(
+        found.independent() >= 2,
+        "{} found, and nothing else up to {:?}",
+        found.independent(),
+        found.none_up_to
+    );
 }

@@ -114,7 +114,12 @@ fn a_looser_tolerance_costs_less_and_is_kept() {
         let error = (state[0] - exact[0]).abs().max((state[1] - exact[1]).abs());
         // 20 units of time, errors of the period grow linearly
         assert!(error < 400.0 * tolerance, "{tolerance:e}: {error:e}");
-        assert!(last.0 == 0 || error > 3.0 * last.1, "{tolerance:e}: {error:e} after {:e}", last.1);
+        // below 1e-13 it is the rounding of plain f64
+        assert!(
+            last.0 == 0 || error > 3.0 * last.1 || error < 1e-13,
+            "{tolerance:e}: {error:e} after {:e}",
+            last.1
+        );
         last = (run.steps, error);
     }
 }
