@@ -178,7 +178,7 @@ impl DormandPrince {
     }
 
     /// Measures the effect of rounding on the rates at the beginning of the step, since its end may
-    /// be anywhere.
+    /// be anywhere; and on those of the last stage, since at the beginning it may happen to vanish.
     fn estimate_roundoff(&mut self, step: f64) {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
@@ -191,6 +191,8 @@ impl DormandPrince {
         }
         let begin = self.state.values.clone();
         self.compare(self.state.time, &begin);
+        let reached = self.numbers.clone();
+        self.compare(self.state.time + STAGES[METHOD_STAGES - 1].at * step, &reached);
     }
 
     /// Counts the difference between the rates somewhere and the same rates in double-double as

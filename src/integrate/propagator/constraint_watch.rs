@@ -192,13 +192,15 @@ impl Propagator {
 
     /// Another method that passes a time, if there is one.
     fn way_past(&mut self, time: f64) -> Option<Passage> {
-        let (from, until) = self.around(time).into_iter().next()?;
         let settings = Settings { step: None, tolerance: None };
         for name in ["taylor", "dop853"] {
             let method = method_named(name).filter(|method| method.name != self.method.name);
             let Some(method) = method else { continue };
-            if self.lead_past(method, settings, &from, until).is_some() {
-                return Some(Passage { method: method.name, step: None });
+            // a state nearby may be so near that no step can be told apart there
+            for (from, until) in self.around(time) {
+                if self.lead_past(method, settings, &from, until).is_some() {
+                    return Some(Passage { method: method.name, step: None });
+                }
             }
         }
         if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
