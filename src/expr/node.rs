@@ -5,7 +5,7 @@
 use super::symbol::Symbol;
 use crate::num::Number;
 
-/// A handle to an expression of one [`Pool`]. Equal handles mean equal canonical expressions.
+/// A handle to an expression of one [`Pool`](super::Pool). Equal handles mean equal canonical expressions.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Expr(pub(super) u32);
 

@@ -17,8 +17,9 @@ use crate::worker::Side;
 #[derive(Debug)]
 pub(super) struct Loader {
     catalog: Arc<Catalog>,
-    /// The name requested last.
+    /// The name requested last, and the number of that request: a load that ends while it is replaced is not its answer.
     name: String,
+    request: u64,
     side: Side<Result<Box<Prepared>, String>>,
 }
 
@@ -28,7 +29,7 @@ type Outcome = Result<(String, Box<Prepared>), LoadError>;
 impl Loader {
     /// Creates a loader with the presets of this catalog.
     pub(super) fn new(catalog: Arc<Catalog>) -> Self {
-        Self { catalog, name: String::new(), side: Side::new("loader") }
+        Self { catalog, name: String::new(), request: 0, side: Side::new("loader") }
     }
 
     /// Cancels the load under way.
@@ -42,7 +43,8 @@ impl Loader {
         // The token passes to the system once that exists.
         let job = Job::new("loading", move |progress| prepare(&catalog, &asked, progress.token()));
         self.name = name;
-        self.side.begin(0, job);
+        self.request += 1;
+        self.side.begin(self.request, job);
     }
 
     /// Returns the outcome of the latest request as soon as there is one.
@@ -63,4 +65,33 @@ impl Loader {
 fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Box<Prepared>, String> {
     let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
     Prepared::with(&document, cancel).map(Box::new).map_err(|unready| unready.report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread;
+    use std::time::Duration;
+
+    #[test]
+    fn what_was_loaded_for_an_earlier_request_is_no_answer_to_a_later_one() {
+        let mut loader = Loader::new(Arc::new(Catalog::with_folder(None)));
+        for _ in 0..3 {
+            loader.load("planet".to_owned());
+            // enough for it to be ready, and nobody has asked for it
+            thread::sleep(Duration::from_millis(200));
+            loader.load("pendulum".to_owned());
+            let outcome = loop {
+                match loader.take() {
+                    Some(outcome) => break outcome,
+                    None => thread::sleep(Duration::from_millis(1)),
+                }
+            };
+            let (name, prepared) = outcome.expect("shipped presets");
+            assert_eq!(
+                (&name[..], &prepared.model.info.title[..]),
+                ("pendulum", "Simple pendulum")
+            );
+        }
+    }
 }

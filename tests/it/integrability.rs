@@ -11,6 +11,7 @@ use phaselab::integrability::{Invariants, Limits, invariants};
 use phaselab::mechanics::{self, Equations, Flow};
 use phaselab::model::Model;
 use phaselab::preset::read;
+use std::fmt::Write;
 
 /// The model of a file.
 pub(crate) fn model(text: &str) -> Model {
@@ -26,7 +27,9 @@ pub(crate) fn hamiltonian(coordinates: &[&str], parameters: &[(&str, f64)], h: &
     }
     if !parameters.is_empty() {
         text.push_str("[parameters]\n");
-        parameters.iter().for_each(|(name, value)| text.push_str(&format!("{name} = {value}\n")));
+        for (name, value) in parameters {
+            writeln!(text, "{name} = {value}").expect("memory");
+        }
     }
     model(&format!("{text}[hamiltonian]\nH = \"{h}\"\n"))
 }

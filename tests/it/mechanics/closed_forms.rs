@@ -104,6 +104,9 @@ fn what_outgrows_reading_is_not_attempted_and_the_reason_is_true() {
     assert_eq!(solved.len(), 5);
 }
 
+/// A question to equations, and whether it was answered.
+type Ask = fn(&mut Equations) -> bool;
+
 #[test]
 fn the_forms_are_the_same_whoever_asks_first() {
     let l = "a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)";
@@ -112,7 +115,6 @@ fn the_forms_are_the_same_whoever_asks_first() {
     let text = |e: &Equations, all: &[phaselab::expr::Expr]| -> Vec<String> {
         all.iter().map(|&x| e.pool.text(x)).collect()
     };
-    type Ask = fn(&mut Equations) -> bool;
     let first: [Ask; 4] = [
         |e| e.separable().is_err(),
         |e| e.velocities().is_ok(),
