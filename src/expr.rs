@@ -15,6 +15,7 @@ mod derivative;
 mod evaluate;
 mod expand;
 mod function;
+mod inverses;
 mod latex;
 mod measure;
 mod memo;

@@ -5,6 +5,7 @@
 
 mod attitude;
 mod bracket;
+mod canonical;
 mod closed_forms;
 mod conservation;
 mod constrain;
@@ -14,12 +15,16 @@ mod domain;
 mod equations;
 mod flaw;
 mod frames;
+mod generator;
 mod hamilton;
+mod hamilton_jacobi;
 mod invariants;
+mod isolate;
 mod lagrange;
 mod legendre;
 mod linear;
 mod modulo;
+mod new_hamiltonian;
 mod observe;
 mod poisson;
 mod poisson_structure;
@@ -32,6 +37,7 @@ mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
+pub use canonical::{FailingBracket, PhaseMap, Verdict, phase_maps};
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::{derive, derive_for_motion};
@@ -41,12 +47,14 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use flaw::StructureError;
+pub use generator::{GeneratorFlow, flow_of};
+pub use hamilton_jacobi::HamiltonJacobi;
 pub use invariants::casimir_rate;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::flaws;
 pub use report::{
-    BodyNumbers, BodyReport, Constant, Constrained, Further, ImpulseReport, Kept, Left, Line,
-    Reaction, Report,
+    BodyNumbers, BodyReport, Constant, Constrained, Further, GeneratorReport, ImpulseReport, Kept,
+    Left, Line, Reaction, Report, TransformationReport,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,

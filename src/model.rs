@@ -13,6 +13,7 @@ mod parameter;
 mod picture;
 mod ramp;
 mod scope;
+mod transformation;
 mod unit;
 
 pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
@@ -28,3 +29,7 @@ pub use parameter::{Parameter, Scale};
 pub use picture::{Channel, Point, Shape, View};
 pub use ramp::{Ramp, RampRefused, Ramped, replace_by_ramps};
 pub use scope::{Allowed, Scope};
+pub use transformation::{
+    CompleteIntegral, GeneratingType, Generator, IntegralConstant, Transformation,
+    TransformationLaw,
+};

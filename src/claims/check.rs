@@ -9,7 +9,7 @@ use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
-use crate::mechanics::{self, Class, Conserved, Equations, Flow, class_of};
+use crate::mechanics::{self, Class, Conserved, Equations, Flow, HamiltonJacobi, class_of};
 use crate::model::{ExpectedValue, Model};
 use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
@@ -63,6 +63,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     mistakes.extend(denied(model, equations));
     mistakes.extend(false_brackets(model, equations));
     mistakes.extend(false_count(model, equations));
+    mistakes.extend(incomplete(model, equations));
     let mut extended = equations.clone();
     let claims = open_claims(model, &mut extended);
     let equations = &extended;
@@ -101,6 +102,20 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let flaws = mechanics::flaws(model, equations).into_iter();
     flaws.map(|flaw| Diagnostic::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
+}
+
+/// A complete integral that is none.
+fn incomplete(model: &Model, equations: &Equations) -> Option<Diagnostic> {
+    let integral = model.complete_integral.as_ref()?;
+    let found = HamiltonJacobi::of(model, &mut equations.clone())?;
+    let message = format!("this is no complete integral: {}", found.why?);
+    let help = match found.residual {
+        Some(residual) if residual > 0.0 => {
+            format!("|H(q, ∂S/∂q, t) + ∂S/∂t| reaches {residual:.1e} at points near the start")
+        }
+        _ => "S(q, α, t) solves the equation with det ∂²S/∂q∂α ≠ 0".to_owned(),
+    };
+    Some(Diagnostic::error(integral.place.clone(), message).with_help(help))
 }
 
 /// Observables declared not conserved that are conserved.

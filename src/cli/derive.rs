@@ -19,7 +19,8 @@ use crate::mechanics::{Further, Report};
 ///
 /// Momenta, mass matrix, equations of motion, the Hamiltonian (or why it has no closed form), the
 /// energy and the law of its change, cyclic coordinates, what is conserved and why; of every
-/// declared observable whether it is conserved.
+/// declared observable whether it is conserved; of transformations whether they are canonical, and
+/// K; of generators [H, G]; of a complete integral whether it is one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -43,8 +44,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let further = Further::of(&model, &mut equations);
     let report = Report::of(&model, &equations);
     let text = match arguments.format {
-        Format::Text => text::write(&report, &further.classes, Script::of_locale()),
-        Format::Latex => latex::write(&report),
+        Format::Text => text::write(&report, &further, Script::of_locale()),
+        Format::Latex => latex::write(&report, &further),
         Format::Json => json::write(&report, &further),
     };
     Output::print(arguments.format.form(), &text)

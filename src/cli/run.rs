@@ -3,6 +3,7 @@
 mod cautions;
 mod clock;
 mod execution;
+mod flow_of;
 mod invariants;
 pub(super) mod progress;
 mod ramp;
@@ -41,6 +42,7 @@ Examples:
   phaselab run pendulum --set l=2 --init theta=pi/3 --until 20 --every 0.1
   phaselab run planet --at 0,0.5,1 --observe 'r*cos(theta)' --format json
   phaselab run pendulum --ramp l=1:2:0:50 --until 60 > lengthened.csv
+  phaselab run planet --flow-of p_theta --until 1
   phaselab run henon-heiles --method yoshida4 --step 0.05 --until 1000 -o heiles.csv")]
 pub(super) struct Arguments {
     /// A preset's name, or a file.
@@ -55,6 +57,10 @@ pub(super) struct Arguments {
     /// Changes a parameter with the time, smoothly by 10u³ − 15u⁴ + 6u⁵ or evenly; it becomes a column.
     #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:linear]", allow_hyphen_values = true)]
     ramp: Vec<ramp::NamedRamp>,
+    /// Carries the state along the flow of a generator in place of the motion: one of the file, by its name, or an
+    /// expression G of q and p. The column t is then ε, from 0; dq/dε = ∂G/∂p, dp/dε = −∂G/∂q.
+    #[arg(long, value_name = "NAME|EXPR", allow_hyphen_values = true, conflicts_with = "ramp")]
+    flow_of: Option<String>,
     /// When to end; where it is left out, the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
@@ -110,7 +116,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     assignment::begin_at(&mut model, &given);
     let ramped = replace_by_ramps(&mut model, &ramps)
         .map_err(|why| CommandError::WrongUse(format!("--ramp: {why}")))?;
-    let times = Times::plan(&model.run, arguments.until, arguments.every, arguments.at.as_deref())?;
+    let mut run = model.run.clone();
+    if arguments.flow_of.is_some() {
+        run.start = 0.0;
+    }
+    let times = Times::plan(&run, arguments.until, arguments.every, arguments.at.as_deref())?;
     let settings = settings(arguments.step, arguments.tolerance, &model)?;
 
     if arguments.method.is_none()
@@ -130,6 +140,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .collect::<Result<_, _>>()?;
     for column in &mut columns {
         column.expression = ramped.replace(&mut equations.pool, column.expression);
+    }
+    let mut given = given;
+    if let Some(written) = &arguments.flow_of {
+        let carried = flow_of::carried(derived, &columns, written, &parameters, &given)?;
+        (derived, columns, given) = (carried.derived, carried.columns, carried.given);
     }
     let system = derived
         .compile(&columns)

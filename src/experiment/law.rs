@@ -43,7 +43,11 @@ impl EnergyLaw {
             ],
         };
         let present = || terms.iter().filter(|term| term.0);
-        let cause = present().map(|term| term.1).collect::<Vec<_>>().join(", ");
+        let mut cause = present().map(|term| term.1).collect::<Vec<_>>().join(", ");
+        if cause.is_empty() {
+            // along the flow of another generator
+            cause = "[H,G] is not 0".to_owned();
+        }
         let mut rate = equations.pool.unicode(equations.energy_rate);
         if rate.chars().count() > LONGEST {
             rate = present().map(|term| term.2).collect::<Vec<_>>().join(" ");

@@ -3,9 +3,11 @@
 //! In: a [`Model`]. Out: [`Equations`]. Never here: the individual steps.
 
 use super::attitude;
+use super::canonical;
 use super::equations::{Equations, Flow, NoClosedForm};
 use super::frames;
 use super::hamilton;
+use super::hamilton_jacobi;
 use super::invariants;
 use super::lagrange;
 use super::poisson;
@@ -58,6 +60,8 @@ pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
         equations.supplements.vakonomic =
             Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
+    canonical::find(&mut equations, model);
+    hamilton_jacobi::find(&mut equations, model);
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
         return Err(too_large());

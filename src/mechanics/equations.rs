@@ -81,6 +81,14 @@ pub struct Supplements {
     pub body: Option<RigidBody>,
     /// The attitude matrix of the body, if it follows from Euler's angles.
     pub attitude: Option<Tensor>,
+    /// For each transformation of the file the new variables as functions of (q, p, t), if they can
+    /// be written down.
+    pub transformations: Vec<Option<Vec<(Symbol, Expr)>>>,
+    /// New variables of transformations and constants of the complete integral, as functions of
+    /// (q, p, t), as far as they can be written down.
+    pub new_variables: Vec<(Symbol, Expr)>,
+    /// q̇ as columns show it, if that is not what the state moves by.
+    pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
 }

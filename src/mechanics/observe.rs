@@ -26,10 +26,12 @@ impl Equations {
         seeds
     }
 
-    /// The entries of an attitude matrix in terms of Euler's angles.
+    /// The entries of an attitude matrix in terms of Euler's angles, and the new variables of
+    /// transformations in terms of (q, p, t).
     pub fn attitude_map(&self) -> HashMap<Symbol, Expr> {
         let symbols = self.supplements.attitude_symbols.iter().flat_map(|m| m.concat());
-        symbols.zip(self.supplements.attitude.iter().flat_map(|m| m.concat())).collect()
+        let entries = symbols.zip(self.supplements.attitude.iter().flat_map(|m| m.concat()));
+        entries.chain(self.supplements.new_variables.iter().copied()).collect()
     }
 
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a

@@ -4,11 +4,15 @@
 //! In: a model and its equations. Out: sections of lines, each an expression with its left-hand
 //! side, or the reason why there is none. Never here: how any of it is written.
 
-use super::conservation::{Classed, classes};
+use super::bracket::{bracket, in_phase_space};
+use super::canonical::{PhaseMap, Verdict, phase_maps};
+use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::domain::widened;
 use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
+use super::hamilton_jacobi::HamiltonJacobi;
 use super::invariants::casimir_rate;
+use super::isolate::Solution;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
 use crate::expr::{Expr, Symbol};
 use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
@@ -261,6 +265,63 @@ pub struct Further {
     pub right_hand_side: Vec<Expr>,
     /// The rate of change of each Casimir.
     pub casimir_rates: Vec<Expr>,
+    /// The transformations.
+    pub transformations: Vec<TransformationReport>,
+    /// The generators of infinitesimal transformations.
+    pub generators: Vec<GeneratorReport>,
+    /// The complete integral.
+    pub hamilton_jacobi: Option<HamiltonJacobi>,
+}
+
+/// A transformation of the file.
+#[derive(Clone, Debug)]
+pub struct TransformationReport {
+    /// The map.
+    pub map: PhaseMap,
+    /// Whether it is canonical.
+    pub verdict: Verdict,
+    /// The old variables in terms of the new, if that can be written down.
+    pub backwards: Option<Solution>,
+    /// K(Q, P, t), or why there is none.
+    pub hamiltonian: Result<Expr, NoClosedForm>,
+}
+
+/// A generator of the file.
+#[derive(Clone, Debug)]
+pub struct GeneratorReport {
+    /// Its name.
+    pub name: String,
+    /// G, as far as possible as a function of (q, p, t).
+    pub expression: Expr,
+    /// [H, G], or why it has no closed form.
+    pub bracket: Result<Expr, NoClosedForm>,
+    /// Whether G is conserved along the motion.
+    pub conserved: bool,
+}
+
+fn transformations(model: &Model, equations: &mut Equations) -> Vec<TransformationReport> {
+    let maps = phase_maps(model, equations);
+    let report = |map: PhaseMap| {
+        let verdict = map.verdict(model, equations);
+        let backwards = map.backwards(model, equations);
+        let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
+        TransformationReport { map, verdict, backwards, hamiltonian }
+    };
+    maps.into_iter().map(report).collect()
+}
+
+fn generators(model: &Model, equations: &mut Equations) -> Vec<GeneratorReport> {
+    let mut all = Vec::new();
+    for generator in &model.generators {
+        let hamiltonian = equations.hamiltonian().clone();
+        let bracket = hamiltonian.and_then(|h| bracket(model, equations, h, generator.expression));
+        let name = generator.name.clone();
+        let class = class_of(model, equations, &name, generator.expression).class;
+        let expression = in_phase_space(equations, generator.expression);
+        let expression = expression.unwrap_or(generator.expression);
+        all.push(GeneratorReport { name, expression, bracket, conserved: class.is_conserved() });
+    }
+    all
 }
 
 impl Further {
@@ -284,7 +345,14 @@ impl Further {
             }
             Mechanics::Lagrangian { .. } | Mechanics::Hamiltonian { .. } => Vec::new(),
         };
-        Further { classes, right_hand_side, casimir_rates }
+        Further {
+            classes,
+            right_hand_side,
+            casimir_rates,
+            transformations: transformations(model, equations),
+            generators: generators(model, equations),
+            hamilton_jacobi: HamiltonJacobi::of(model, equations),
+        }
     }
 }
 

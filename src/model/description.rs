@@ -10,6 +10,7 @@ use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
 use super::picture::{Shape, View};
+use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};
 
@@ -43,6 +44,12 @@ pub struct Model {
     pub attitude: Option<Attitude>,
     /// The vakonomic comparison motion.
     pub comparison: Option<Comparison>,
+    /// Transformations of phase space.
+    pub transformations: Vec<Transformation>,
+    /// Generators of infinitesimal transformations.
+    pub generators: Vec<Generator>,
+    /// A complete integral of the Hamilton–Jacobi equation.
+    pub complete_integral: Option<CompleteIntegral>,
     /// Frames from which a picture may be seen.
     pub frames: Vec<Frame>,
     /// The place of its law, L or H, in the file.
@@ -223,6 +230,9 @@ impl Model {
             body: None,
             attitude: None,
             comparison: None,
+            transformations: Vec::new(),
+            generators: Vec::new(),
+            complete_integral: None,
             frames: Vec::new(),
             observables: Vec::new(),
             expect: Expect::default(),
@@ -256,6 +266,18 @@ impl Model {
     /// The index of the parameter with this name.
     pub fn parameter(&self, name: &str) -> Option<usize> {
         self.parameters.iter().position(|p| p.name == name)
+    }
+
+    /// The new variables that other expressions may use, by name: those that belong to one
+    /// transformation only, and the constants of the complete integral.
+    pub fn new_variables(&self) -> Vec<(String, Symbol)> {
+        let all: Vec<Symbol> = self.transformations.iter().flat_map(|t| t.new.concat()).collect();
+        let once = all.iter().filter(|s| all.iter().filter(|other| other == s).count() == 1);
+        let named = once.map(|&s| (self.pool.symbol_info(s).name.clone(), s));
+        let constants = self.complete_integral.iter().flat_map(|s| &s.constants);
+        let constants = constants.flat_map(|c| [c.symbol, c.conjugate]);
+        let constants = constants.map(|s| (self.pool.symbol_info(s).name.clone(), s));
+        named.chain(constants).collect()
     }
 
     /// The parameters' values as the file gives them.

@@ -89,6 +89,10 @@ impl Scope {
             let rates = [Kind::Position, Kind::Velocity, Kind::Acceleration];
             kinds.extend(symbols.into_iter().zip(rates));
         }
+        for (name, symbol) in model.new_variables() {
+            names.insert(name, Meaning::Symbol(symbol));
+            kinds.insert(symbol, Kind::New);
+        }
         for &(position, velocity) in model.comparison.iter().flat_map(|c| &c.symbols) {
             let name = model.pool.symbol_info(position).name.clone();
             names.insert(name, Meaning::Other([position, velocity]));
@@ -128,6 +132,11 @@ impl Scope {
     /// path).
     pub fn define(&mut self, name: &str, e: Expr) {
         self.names.insert(name.to_owned(), Meaning::Defined(e));
+    }
+
+    /// Allows a symbol wherever it stands.
+    pub fn admit(&mut self, symbol: Symbol) {
+        self.kinds.remove(&symbol);
     }
 
     /// Adds a name that is defined further down. Until [`Scope::define`] gives it a meaning, its

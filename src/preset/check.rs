@@ -19,6 +19,7 @@ mod picture;
 mod place;
 mod poisson;
 mod run;
+mod transformation;
 
 use std::collections::BTreeSet;
 
@@ -55,6 +56,7 @@ pub(super) fn check(
     if let Some(comparison) = &draft.comparison {
         check.comparison(comparison);
     }
+    check.new_variables(draft, &mut names);
     check.occurrences_named_once(draft);
     check.definitions(draft);
     let law = check.law(&draft.mechanics, &mut names);
@@ -69,6 +71,7 @@ pub(super) fn check(
     if let Some(attitude) = &draft.attitude {
         check.attitude(attitude);
     }
+    check.transformations(draft);
     check.impulses(&draft.impulses);
     check.observables(&draft.observables, &mut names);
     check.events(&draft.events);
@@ -152,6 +155,8 @@ impl Check<'_> {
         let impulses = draft.impulses.iter().map(|i| i.place.clone()).collect();
         let times = draft.impulses.iter().flat_map(|i| i.at.iter().map(toml::Spanned::span));
         let events = draft.events.iter().map(|e| e.place.clone()).collect();
+        let transformations = draft.transformations.iter().map(|t| t.place.clone()).collect();
+        let generators = draft.generators.iter().map(|g| g.place.clone()).collect();
         let values = draft.expect.values.iter().map(|v| v.place.clone()).collect();
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
@@ -178,6 +183,8 @@ impl Check<'_> {
             named(impulses, 256, "impulses"),
             named(times.collect(), 10_000, "times of impulses"),
             named(events, 256, "events"),
+            named(transformations, 64, "transformations"),
+            named(generators, 256, "generators"),
             named(brackets, 4096, "brackets"),
             named(casimirs, 64, "casimirs"),
             named(pieces, 1024, "pieces of a body"),

@@ -15,13 +15,14 @@ mod picture;
 mod run;
 mod system;
 mod table;
+mod transformation;
 mod value;
 mod vector;
 
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::schema::{FILE, Kind};
+use super::schema::FILE;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
 use crate::model::Info;
@@ -38,6 +39,7 @@ pub(super) use picture::{DraftShape, DraftShapeKind, DraftView};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
 pub(super) use table::Table;
+pub(super) use transformation::{DraftGenerator, DraftIntegral, DraftTransformation};
 pub(super) use value::kind;
 pub(super) use vector::Formulas;
 
@@ -69,6 +71,12 @@ pub(super) struct Draft {
     pub(super) attitude: Option<DraftAttitude>,
     /// The incorrect mechanics for comparison.
     pub(super) comparison: Option<DraftComparison>,
+    /// The transformations.
+    pub(super) transformations: Vec<DraftTransformation>,
+    /// The generators.
+    pub(super) generators: Vec<DraftGenerator>,
+    /// The complete integral.
+    pub(super) integral: Option<DraftIntegral>,
     /// The observables.
     pub(super) observables: Vec<DraftObservable>,
     /// The file's claims.
@@ -97,13 +105,6 @@ const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics",
 pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
     let info = read_info(&mut top, mistakes);
-    let not_yet = FILE.keys.iter().filter(|row| matches!(row.kind, Kind::NotYet));
-    for table in not_yet.map(|row| row.name) {
-        if let Some((key, _)) = top.take(table) {
-            let message = format!("the table `{table}` is not supported yet by this version");
-            mistakes.push(Diagnostic::error(key, message));
-        }
-    }
     let draft = Draft {
         info,
         moving: system::moving(&mut top, mistakes),
@@ -116,6 +117,9 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
         body: body::body(&mut top, mistakes),
         attitude: body::attitude(&mut top, mistakes),
         comparison: body::comparison(&mut top, mistakes),
+        transformations: transformation::transformations(&mut top, mistakes),
+        generators: transformation::generators(&mut top, mistakes),
+        integral: transformation::integral(&mut top, mistakes),
         observables: claims::observables(&mut top, mistakes),
         expect: claims::expect(&mut top, mistakes),
         frames: frame::frames(&mut top, mistakes),

@@ -68,8 +68,6 @@ pub(super) enum Kind {
     Kinds(&'static Section),
     /// A list of tables in braces.
     List(&'static Section),
-    /// A value that this version does not read yet.
-    NotYet,
 }
 
 const fn key(name: &'static str, kind: Kind, help: &'static str) -> Key {
@@ -91,8 +89,8 @@ impl Key {
 }
 
 use Kind::{
-    Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, NotYet, Number, Point,
-    Table, Tables, Text, Texts, Triple,
+    Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, Number, Point, Table,
+    Tables, Text, Texts, Triple,
 };
 
 const NAME: Key = key("name", Text, "what it is called").needed("write name = \"...\"");
@@ -122,9 +120,6 @@ pub(super) const FILE: Section = Section {
         key("source", Text, "where it is from"),
         key("chapter", Text, "the section that a shipped system belongs to"),
         key("topics", Texts, "words under which it is listed"),
-        key("transformations", NotYet, "canonical transformations"),
-        key("generators", NotYet, "generators of infinitesimal transformations"),
-        key("hamilton_jacobi", NotYet, "a complete integral"),
         key("coordinates", Named(&COORDINATE), "the coordinates in order"),
         key("variables", Named(&VARIABLE), "the variables of brackets, in place of coordinates"),
         key("parameters", Named(&PARAMETER), "what can be changed while it runs"),
@@ -138,6 +133,9 @@ pub(super) const FILE: Section = Section {
         key("body", Table(&BODY), "a rigid body made of pieces"),
         key("attitude", Table(&ATTITUDE), "how the body stands"),
         key("comparison", Table(&COMPARISON), "the wrong mechanics beside the right"),
+        key("transformations", Tables(&TRANSFORMATION), "transformations (q, p) → (Q, P)"),
+        key("generators", Tables(&GENERATOR), "generators of infinitesimal transformations"),
+        key("hamilton_jacobi", Table(&INTEGRAL), "a complete integral"),
         key("observables", Tables(&OBSERVABLE), "what is watched"),
         key("expect", Table(&EXPECT), "what the file claims of its motion"),
         key("frames", Tables(&FRAME), "frames that a picture may be seen from"),
@@ -345,6 +343,42 @@ const COMPARISON: Section = Section {
         .needed("write eliminate = [\"x\"], one coordinate for each constraint")],
 };
 
+const TRANSFORMATION: Section = Section {
+    head: "[[transformations]]",
+    about: "By a generating function of one old and one new variable of each pair, or explicitly. The new variables are \
+            `Q`, `P` for one coordinate, else `Q1` …, `P1` …; observables, views, claims and `--observe` may use them \
+            where no other transformation has the same.",
+    keys: &[
+        NAME,
+        key(
+            "kind",
+            Text,
+            "`F1` of q, Q; `F2` of q, P; `F3` of p, Q; `F4` of p, P; `mixed`, `explicit`",
+        ),
+        key("types", Texts, "the kind for each pair, where they differ"),
+        key("F", Formula, "the generating function"),
+        key("Q", Names, "the new coordinates as functions of q, p, t, where it is explicit"),
+        key("P", Names, "the new momenta"),
+        key("new", Texts, "other names for the new coordinates, then for the new momenta"),
+    ],
+};
+
+const GENERATOR: Section = Section {
+    head: "[[generators]]",
+    about: "Of infinitesimal transformations; `run --flow-of NAME` carries the state along its flow.",
+    keys: &[NAME, key("G", Formula, "a function of q, p, t").needed("write G = \"...\"")],
+};
+
+const INTEGRAL: Section = Section {
+    head: "[hamilton_jacobi]",
+    about: "A complete integral of H(q, ∂S/∂q, t) + ∂S/∂t = 0; checked.",
+    keys: &[
+        key("S", Formula, "a function of q, t and the constants").needed("write S = \"...\""),
+        key("constants", Texts, "the constants, one for each coordinate")
+            .needed("write constants = [\"alpha\"]"),
+    ],
+};
+
 const OBSERVABLE: Section = Section {
     head: "[[observables]]",
     about: "Each may use those above it.",
@@ -524,7 +558,6 @@ impl Kind {
             Named(_) => "names, each with a table or a value",
             Tables(_) | Kinds(_) => "tables",
             List(_) => "list of tables",
-            NotYet => "not read yet",
         }
     }
 

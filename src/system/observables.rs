@@ -236,11 +236,13 @@ pub(super) fn program(
         }
         _ => Vec::new(),
     };
+    let used: Vec<Symbol> =
+        channels.iter().flatten().flat_map(|&e| builder.pool.symbols_of(e)).collect();
     let kkt = builder.kkt.clone();
     let mut lowering = builder.on_full_state();
     let (action, work) = (lowering.input(), lowering.input());
     lowering.bind(equations.symbols.action, action);
-    bind_derived(&mut lowering, equations, &kkt, accelerated, &accelerations);
+    bind_derived(&mut lowering, equations, &kkt, accelerated, &accelerations, &used);
     let energy = lowering.variable(equations.symbols.energy);
     let outputs: Vec<Register> = channels
         .iter()
@@ -268,6 +270,7 @@ fn bind_derived(
     kkt: &ConstraintSystem,
     accelerated: bool,
     accelerations: &[Expr],
+    used: &[Symbol],
 ) {
     match &equations.flow {
         Flow::Lagrange { force, .. } => {
@@ -280,7 +283,8 @@ fn bind_derived(
             }
         }
         Flow::Hamilton { velocities, .. } | Flow::Poisson { rates: velocities } => {
-            let velocities = lowering.lower_all(velocities);
+            let shown = equations.supplements.shown_velocities.as_ref();
+            let velocities = lowering.lower_all(shown.unwrap_or(velocities));
             for (c, v) in equations.coordinates.iter().zip(velocities) {
                 lowering.bind(c.velocity, v);
             }
@@ -291,6 +295,9 @@ fn bind_derived(
         }
     }
     for (symbol, e) in equations.attitude_map() {
+        if !used.contains(&symbol) {
+            continue;
+        }
         let entry = lowering.lower(e);
         lowering.bind(symbol, entry);
     }

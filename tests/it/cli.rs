@@ -19,6 +19,7 @@ mod run;
 mod section;
 mod signals;
 mod sweep;
+mod transformations;
 mod write;
 
 use std::path::Path;

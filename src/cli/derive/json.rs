@@ -3,8 +3,8 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::expr::Expr;
-use crate::mechanics::{Further, Left, Line, Report};
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Further, HamiltonJacobi, Left, Line, Report};
 use crate::model::{Action, Direction, Event, Model};
 
 pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
@@ -55,7 +55,8 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
         "constraints": page.constraints(),
         "impulses": page.impulses(),
         "events": events(report.model),
-        "transformations": [],
+        "transformations": page.transformations(further),
+        "generators": page.generators(further),
     });
     if let Some(body) = &report.body {
         let expressions = page.map(&body.lines);
@@ -68,6 +69,9 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
             "axes": body.axes,
             "expressions": expressions,
         });
+    }
+    if let Some(integral) = &further.hamilton_jacobi {
+        object["hamilton_jacobi"] = page.hamilton_jacobi(integral);
     }
     if report.model.is_poisson() {
         object["variables"] = object["coordinates"].clone();
@@ -139,6 +143,74 @@ impl Page<'_> {
             })
         });
         all.collect()
+    }
+
+    /// Each transformation: whether it is canonical, and K.
+    fn transformations(&self, further: &Further) -> Vec<Value> {
+        let pool = &self.report.equations.pool;
+        let name = |symbol| pool.symbol_info(symbol).name.clone();
+        let all = further.transformations.iter().map(|known| {
+            let map = |solution: &Option<Vec<(Symbol, Expr)>>, order: &[Symbol]| {
+                let Some(solution) = solution else { return Value::Null };
+                let value = |s: &Symbol| solution.iter().find(|(found, _)| found == s);
+                let found = order.iter().filter_map(value);
+                Value::Object(found.map(|&(s, e)| (name(s), self.text(e))).collect())
+            };
+            let failing = known.verdict.failing.iter().map(|bracket| {
+                let [a, b] = bracket.pair.map(name);
+                let (is, expected) = (self.text(bracket.is), self.text(bracket.expected));
+                json!({ "f": a, "g": b, "is": is, "expected": expected })
+            });
+            let valence = known.verdict.valence.map(|e| self.text(e));
+            let mut why = known.verdict.why.clone();
+            if let (None, Err(reason)) = (&why, &known.hamiltonian) {
+                why = Some(format!("K: {reason}"));
+            }
+            json!({
+                "name": known.map.name,
+                "canonical": known.verdict.canonical,
+                "proved": known.verdict.proved,
+                "residual": known.verdict.residual,
+                "K": known.hamiltonian.as_ref().ok().map(|&e| self.text(e)),
+                "new": map(&known.map.forwards, &known.map.new),
+                "old": map(&known.backwards, &known.map.old),
+                "valence": valence,
+                "failing_brackets": failing.collect::<Vec<_>>(),
+                "why": why,
+            })
+        });
+        all.collect()
+    }
+
+    /// Each generator G with [H, G].
+    fn generators(&self, further: &Further) -> Vec<Value> {
+        let all = further.generators.iter().map(|known| {
+            json!({
+                "name": known.name,
+                "expression": self.text(known.expression),
+                "bracket_with_H": known.bracket.as_ref().ok().map(|&e| self.text(e)),
+                "conserved": known.conserved,
+            })
+        });
+        all.collect()
+    }
+
+    /// The complete integral.
+    fn hamilton_jacobi(&self, known: &HamiltonJacobi) -> Value {
+        let model = self.report.model;
+        let coordinates = model.coordinates.iter().zip(&known.momenta);
+        let momenta: Map<String, Value> =
+            coordinates.map(|(c, &e)| (format!("p_{}", c.name), self.text(e))).collect();
+        let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+        let beta: Map<String, Value> =
+            constants.zip(&known.beta).map(|(c, &e)| (c.name.clone(), self.text(e))).collect();
+        json!({
+            "residual": known.residual,
+            "complete": known.complete,
+            "momenta": momenta,
+            "beta": beta,
+            "why": known.why,
+        })
     }
 
     /// Each impulse with its time and what it adds to momenta (or variables).

@@ -1,9 +1,9 @@
 //! The report on a law of motion as a fragment for LaTeX with amsmath.
 
 use crate::expr::Symbol;
-use crate::mechanics::{Left, Line, Report};
+use crate::mechanics::{Further, Left, Line, Report};
 
-pub(super) fn write(report: &Report<'_>) -> String {
+pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
     let pool = &report.equations.pool;
     let mut page = Page { report, lines: Vec::new() };
     page.lines(report.body.iter().flat_map(|body| &body.lines));
@@ -36,6 +36,23 @@ pub(super) fn write(report: &Report<'_>) -> String {
         page.lines([&report.energy]);
     }
     page.add("\\frac{dE}{dt}", &pool.latex(report.energy_rate));
+    for known in &further.transformations {
+        for (symbol, e) in known.map.forwards.iter().flatten() {
+            page.add(&pool.symbol_info(*symbol).latex, &pool.latex(*e));
+        }
+        if let Ok(e) = known.hamiltonian {
+            page.add("K", &pool.latex(e));
+        }
+    }
+    for known in &further.generators {
+        page.add("G", &pool.latex(known.expression));
+        if let Ok(e) = known.bracket {
+            page.add("[H, G]", &pool.latex(e));
+        }
+    }
+    if let Some(integral) = &report.model.complete_integral {
+        page.add("S", &pool.latex(integral.function));
+    }
     let title = report.model.info.title.replace('\n', " ");
     format!("% {title}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", page.lines.join(" \\\\\n"))
 }

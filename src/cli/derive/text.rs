@@ -6,10 +6,10 @@ use unicode_width::UnicodeWidthStr;
 
 use super::super::script::Script;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Constant, Left, Line, NoClosedForm, Report};
+use crate::mechanics::{Class, Classed, Constant, Further, Left, Line, NoClosedForm, Report};
 use crate::model::Model;
 
-pub(super) fn write(report: &Report<'_>, classes: &[Classed], script: Script) -> String {
+pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> String {
     let mut page = Page { report, script, text: String::new() };
     page.head(report.model);
     page.body();
@@ -22,7 +22,10 @@ pub(super) fn write(report: &Report<'_>, classes: &[Classed], script: Script) ->
     page.occurrences();
     page.energy();
     page.conserved();
-    page.changing(classes);
+    page.changing(&further.classes);
+    page.transformations(further);
+    page.generators(further);
+    page.hamilton_jacobi(further);
     page.text
 }
 
@@ -289,6 +292,77 @@ impl Page<'_> {
                     self.line(row);
                 }
             }
+        }
+    }
+
+    /// Each transformation: the map, whether it is canonical, and K.
+    fn transformations(&mut self, further: &Further) {
+        for known in &further.transformations {
+            let name = self.words(&known.map.name);
+            let verdict = &known.verdict;
+            let residual = verdict.residual.map_or_else(String::new, |residual| {
+                format!("; residual {residual:.1e} at points near the start")
+            });
+            let judged = match (verdict.canonical, verdict.proved) {
+                (true, true) => format!("canonical, proved{residual}"),
+                (true, false) => format!("canonical to rounding{residual}"),
+                (false, _) => format!("not canonical{residual}"),
+            };
+            self.heading(&format!("Transformation “{name}”: {}", self.words(&judged)));
+            for (s, e) in known.map.forwards.iter().flatten() {
+                let line = format!("  {} = {}", self.symbol(*s), self.math(*e));
+                self.line(&line);
+            }
+            if known.map.forwards.is_none() {
+                self.line("  the new variables are not known in closed form");
+            }
+            if let Some(why) = &verdict.why {
+                self.line(&format!("  {}", self.words(why)));
+            }
+            if let Some(valence) = verdict.valence {
+                self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
+            }
+            match &known.hamiltonian {
+                Ok(e) => self.line(&format!("  K = {}", self.math(*e))),
+                Err(why) if verdict.canonical => {
+                    self.line(&format!("  K: {}", self.words(&why.to_string())));
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// Each generator G with [H, G].
+    fn generators(&mut self, further: &Further) {
+        if further.generators.is_empty() {
+            return;
+        }
+        self.heading("Generators");
+        for known in &further.generators {
+            let bracket = match &known.bracket {
+                Ok(e) => self.math(*e),
+                Err(_) => "not known in closed form".to_owned(),
+            };
+            let kept = if known.conserved { "conserved" } else { "not conserved" };
+            let (name, e) = (self.words(&known.name), self.math(known.expression));
+            self.line(&format!("  {name}: G = {e}, [H, G] = {bracket}   ({kept})"));
+        }
+    }
+
+    fn hamilton_jacobi(&mut self, further: &Further) {
+        let Some(known) = &further.hamilton_jacobi else { return };
+        let model = self.report.model;
+        let complete = if known.complete { "complete" } else { "not complete" };
+        self.heading(&format!("Integral of the Hamilton-Jacobi equation: {complete}"));
+        if let Some(why) = &known.why {
+            self.line(&format!("  {}", self.words(why)));
+        }
+        for (c, &e) in model.coordinates.iter().zip(&known.momenta) {
+            self.line(&format!("  {} = {}", self.symbol(c.momentum), self.math(e)));
+        }
+        let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+        for (c, &e) in constants.zip(&known.beta) {
+            self.line(&format!("  {} = {}", self.symbol(c.conjugate), self.math(e)));
         }
     }
 

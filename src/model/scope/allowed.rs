@@ -21,6 +21,8 @@ pub enum Allowed {
     Casimir,
     /// q, q̇, p, t, parameters, `energy`: the two sides of a bracket.
     Bracket,
+    /// q, p, t, parameters and new variables: a generating function, an explicit transformation.
+    Transformation,
     /// Everything an observable may use except the comparison motion: the expression of an event.
     Event,
     /// Everything, including q̈, λ, `energy` and `action`: observables, views, shapes,
@@ -47,6 +49,8 @@ pub(super) enum Kind {
     Attitude,
     /// A coordinate or velocity of the comparison motion.
     Other,
+    /// A new variable of a transformation of the file.
+    New,
 }
 
 impl Allowed {
@@ -55,17 +59,18 @@ impl Allowed {
     pub(super) fn refusal(self, kind: Kind, place: &str) -> Option<String> {
         use Allowed::{
             Bracket, Casimir, Configuration, Event, Hamiltonian, Lagrangian, Observable,
-            Parameters, Pieces, Poisson,
+            Parameters, Pieces, Poisson, Transformation,
         };
-        use Kind::{Action, Energy, Inertia, Momentum, Other, Position, Time, Velocity};
+        use Kind::{Action, Energy, Inertia, Momentum, New, Other, Position, Time, Velocity};
         Some(match (self, kind) {
             (Event, Other) => format!("{place} watches the right motion alone"),
             (Observable | Event, _)
             | (Configuration | Poisson, Time | Position)
             | (Lagrangian, Time | Position | Velocity)
             | (Hamiltonian, Time | Position | Momentum)
+            | (Transformation, Time | Position | Momentum | New)
             | (Casimir, Position)
-            | (Bracket, Time | Position | Velocity | Momentum | Energy) => return None,
+            | (Bracket, Time | Position | Velocity | Momentum | Energy | New) => return None,
             (Pieces, Inertia) => format!("{place} stands before what follows from the body"),
             (_, Inertia) => return None,
             (Parameters | Pieces, _) => format!("{place} is made of parameters only"),
@@ -73,6 +78,7 @@ impl Allowed {
             (_, Energy | Action) => {
                 format!("{place} stands before energy and action, which follow from it")
             }
+            (Transformation, _) => format!("{place} is a function of q, p, t and new variables"),
             (Configuration, _) => format!("{place} is a function of q and t"),
             (Hamiltonian, _) => format!("{place} is a function of q, p and t"),
             (Lagrangian, _) => format!("{place} is a function of q, q' and t"),

@@ -38,7 +38,7 @@ impl Check<'_> {
         }
     }
 
-    fn introduce(&mut self, name: &str, rank: Rank) -> Symbol {
+    pub(super) fn introduce(&mut self, name: &str, rank: Rank) -> Symbol {
         let symbol = self.model.pool.symbol(name);
         let (unicode, latex) = match name.strip_prefix('I') {
             Some(axes @ ("xx" | "yy" | "zz" | "xy" | "xz" | "yz")) => {

@@ -68,12 +68,35 @@ impl Names {
         }
     }
 
-    /// Claims a name that may be used in expressions.
-    fn word(&mut self, name: &Spanned<String>, kind: &'static str, mistakes: &mut Diagnostics) {
+    /// Claims the name of a new variable, which other transformations may have too.
+    pub(super) fn new_variable(
+        &mut self,
+        name: &Spanned<String>,
+        mistakes: &mut Diagnostics,
+    ) -> bool {
+        const KIND: &str = "a new variable";
+        if let Some((kind, _)) = self.taken.get(name.get_ref()).filter(|(kind, _)| *kind != KIND) {
+            let message = format!("the new variable `{}` would be {kind} too", name.get_ref());
+            let help = "give the new variables other names: new = [\"...\", \"...\"]";
+            mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            false
+        } else {
+            self.kind(name.get_ref()).is_some() || self.word(name, KIND, mistakes)
+        }
+    }
+
+    /// Claims a name that may be used in expressions; returns whether it is one.
+    pub(super) fn word(
+        &mut self,
+        name: &Spanned<String>,
+        kind: &'static str,
+        mistakes: &mut Diagnostics,
+    ) -> bool {
         let written = name.get_ref();
         if is_word(written) {
+            let before = self.taken.len();
             self.claim(name, kind, mistakes);
-            return;
+            return self.taken.len() > before;
         }
         let message = format!("`{written}` cannot name {kind}");
         let rule = "a name is made of ASCII letters, digits and `_`, and begins with no digit";
@@ -85,6 +108,7 @@ impl Names {
             rule.to_owned()
         };
         mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        false
     }
 
     /// Claims a name of any letters, which must be neither reserved nor taken.

@@ -1,0 +1,499 @@
+//! Transformations (q, p) → (Q, P): both directions where they can be written down, a point and
+//! its image where they cannot, and whether they are canonical.
+//!
+//! In: a transformation of a model. Out: a [`PhaseMap`] and its [`Verdict`]. Its matrix
+//! M = ∂(Q, P)/∂(q, p) follows from second derivatives of the law, so that M 𝕁 Mᵀ − 𝕁 is at
+//! rounding where the map is canonical. Never here: motion.
+//! Source: *The Principles of Dynamics*, §§ 3.2.1, 3.3.
+
+use std::collections::HashMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::equations::Equations;
+use super::isolate::{self, Solution, tidy};
+use super::sampling::{POINTS, TRIES};
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::model::{Model, Transformation, TransformationLaw};
+use crate::num::Number;
+
+/// The residual below which a map without a proof is canonical, relative to the size of M.
+const CANONICAL: f64 = 1e-10;
+
+/// Relations hold at a point if what is left of them is this small relative to their terms.
+const HOLDS: f64 = 1e-9;
+
+/// Points at which M is larger are left out while there are others: they are next to where the map
+/// breaks down.
+const LARGEST: f64 = 1e4;
+
+/// The points at which a written solution has to hold, and the points looked at for them.
+const WITNESSES: usize = 8;
+const LOOKED_AT: u64 = 64;
+
+/// A transformation as relations between the old and the new variables.
+#[derive(Clone, Debug)]
+pub struct PhaseMap {
+    /// As written in the file.
+    pub name: String,
+    /// q…, then p….
+    pub old: Vec<Symbol>,
+    /// Q…, then P….
+    pub new: Vec<Symbol>,
+    /// Expressions of both that vanish, as many as there are new variables.
+    pub relations: Vec<Expr>,
+    /// ∂F/∂t at fixed variables of the generating function; `None` if the map is explicit.
+    pub function_rate: Option<Expr>,
+    /// The new variables as functions of the old and t, if they can be written down.
+    pub forwards: Option<Solution>,
+    /// Whether its generating function has an old and a new variable of different kinds.
+    may_be_near_identity: bool,
+    by_new: Vec<Vec<Expr>>,
+    by_old: Vec<Vec<Expr>>,
+}
+
+/// Whether a map is canonical.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// Whether it is: proved, or to rounding at the points tried.
+    pub canonical: bool,
+    /// Whether that is proved.
+    pub proved: bool,
+    /// The largest entry of |M 𝕁 Mᵀ − 𝕁| at the points; `None` if there are none.
+    pub residual: Option<f64>,
+    /// c of M 𝕁 Mᵀ = c 𝕁, if c is another number than 1.
+    pub valence: Option<Expr>,
+    /// The brackets that are not what they should be.
+    pub failing: Vec<FailingBracket>,
+    /// Why it is not canonical, or no map.
+    pub why: Option<String>,
+}
+
+/// A bracket of new variables that is not that of canonical variables.
+#[derive(Clone, Debug)]
+pub struct FailingBracket {
+    /// The two variables.
+    pub pair: [Symbol; 2],
+    /// Their bracket.
+    pub is: Expr,
+    /// What it should be.
+    pub expected: Expr,
+}
+
+impl PhaseMap {
+    /// The relations of a transformation, with their derivatives.
+    pub(super) fn relations(pool: &mut Pool, model: &Model, given: &Transformation) -> PhaseMap {
+        let pairs = model.coordinates.iter().zip(&given.new);
+        let half = |k: usize| given.new.iter().map(move |pair| pair[k]);
+        let new: Vec<Symbol> = half(0).chain(half(1)).collect();
+        let old: Vec<Symbol> = model
+            .coordinates
+            .iter()
+            .map(|c| c.position)
+            .chain(model.coordinates.iter().map(|c| c.momentum))
+            .collect();
+        let mut relations = Vec::new();
+        let mut function_rate = None;
+        let mut may_be_near_identity = false;
+        match &given.law {
+            TransformationLaw::Explicit { positions, momenta } => {
+                for (&symbol, &e) in new.iter().zip(positions.iter().chain(momenta)) {
+                    let variable = pool.variable(symbol);
+                    relations.push(pool.sub(variable, e));
+                }
+            }
+            TransformationLaw::Generating { types, function } => {
+                for ((c, &[position, momentum]), of) in pairs.zip(types) {
+                    // the two that F does not depend on are its slopes, with a sign
+                    let (own, slope, sign) = if of.has_position() {
+                        (c.momentum, c.position, Number::MINUS_ONE)
+                    } else {
+                        (c.position, c.momentum, Number::ONE)
+                    };
+                    let derivative = pool.derivative(*function, slope);
+                    let own = pool.variable(own);
+                    relations
+                        .push(pool.linear(Number::ZERO, &[(Number::ONE, own), (sign, derivative)]));
+                    let (own, slope, sign) = if of.has_new_position() {
+                        (momentum, position, Number::ONE)
+                    } else {
+                        (position, momentum, Number::MINUS_ONE)
+                    };
+                    let derivative = pool.derivative(*function, slope);
+                    let own = pool.variable(own);
+                    relations
+                        .push(pool.linear(Number::ZERO, &[(Number::ONE, own), (sign, derivative)]));
+                }
+                may_be_near_identity =
+                    types.iter().all(|of| of.has_position() != of.has_new_position());
+                function_rate = Some(pool.derivative(*function, model.symbols.time));
+            }
+        }
+        let mut jacobian = |of: &[Symbol]| -> Vec<Vec<Expr>> {
+            let row = |pool: &mut Pool, e| of.iter().map(|&s| pool.derivative(e, s)).collect();
+            relations.iter().map(|&e| row(pool, e)).collect()
+        };
+        let (by_new, by_old) = (jacobian(&new), jacobian(&old));
+        let name = given.name.clone();
+        PhaseMap {
+            name,
+            old,
+            new,
+            relations,
+            function_rate,
+            forwards: None,
+            may_be_near_identity,
+            by_new,
+            by_old,
+        }
+    }
+
+    /// Whether the map is given by the new variables themselves.
+    pub fn is_explicit(&self) -> bool {
+        self.function_rate.is_none()
+    }
+
+    /// Finds the new variables as functions of the old ones, if they can be written down.
+    fn find_forwards(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
+        let points: Vec<Valuation> =
+            (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
+        // of a map that may be near the identity the branch that is nearest to it comes first
+        let nearest: Vec<Option<Valuation>> = if self.may_be_near_identity {
+            let same = |point: &Valuation| {
+                let values = self.new.iter().zip(&self.old).map(|(&s, &old)| (s, point.at(old)));
+                self.newton(&equations.pool, point.clone().with(values.collect::<Vec<_>>()))
+            };
+            points.iter().take(WITNESSES).map(same).collect()
+        } else {
+            Vec::new()
+        };
+        let mut near = |pool: &mut Pool, found: &Solution| {
+            let same = |point: &Valuation, image: &Valuation| {
+                found.iter().all(|&(s, e)| {
+                    let (value, expected) = (point.value(pool, e), image.at(s));
+                    (value - expected).abs() <= 1e-7 * (1.0 + expected.abs())
+                })
+            };
+            let both =
+                points.iter().zip(&nearest).filter_map(|(p, image)| Some((p, image.as_ref()?)));
+            let (right, wrong): (Vec<_>, Vec<_>) = both.partition(|(p, image)| same(p, image));
+            right.len() > wrong.len()
+        };
+        let (relations, new) = (self.relations.clone(), self.new.clone());
+        if nearest.iter().any(Option::is_some) {
+            let found = isolate::solve(&mut equations.pool, &relations, &new, &mut near);
+            if found.is_some() {
+                return found;
+            }
+        }
+        let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
+            let (mut right, mut wrong) = (0, 0);
+            for point in &points {
+                let image: Vec<(Symbol, f64)> =
+                    found.iter().map(|&(s, e)| (s, point.value(pool, e))).collect();
+                let at = point.clone().with(image);
+                match self.holds(pool, &at) {
+                    Some(true) => right += 1,
+                    Some(false) => wrong += 1,
+                    None => {}
+                }
+                if right + wrong == WITNESSES {
+                    break;
+                }
+            }
+            right > 0 && if strict { wrong == 0 } else { wrong <= right }
+        };
+        [true, false].into_iter().find_map(|everywhere| {
+            let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
+            isolate::solve(&mut equations.pool, &relations, &new, &mut test)
+        })
+    }
+
+    /// The old variables as functions of the new ones and t, if they can be written down.
+    pub fn backwards(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
+        let images = self.images(model, equations, WITNESSES);
+        let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
+            let back = |at: &Valuation| {
+                found.iter().all(|&(symbol, e)| {
+                    let (value, was) = (at.value(pool, e), at.at(symbol));
+                    (value - was).abs() <= 1e-7 * (1.0 + was.abs())
+                })
+            };
+            let right = images.iter().filter(|at| back(at)).count();
+            right > 0 && if strict { right == images.len() } else { 2 * right >= images.len() }
+        };
+        let pool = &mut equations.pool;
+        let open = |pool: &mut Pool, e: Expr| {
+            let e = pool.open_tangents(e);
+            pool.simplify(e)
+        };
+        let relations: Vec<Expr> = self.relations.iter().map(|&e| open(pool, e)).collect();
+        // a solution that holds everywhere, else a branch
+        [true, false].into_iter().find_map(|everywhere| {
+            let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
+            isolate::solve(&mut equations.pool, &relations, &self.old, &mut test)
+        })
+    }
+
+    /// Whether the relations hold at a point; `None` if they have no values there.
+    fn holds(&self, pool: &Pool, at: &Valuation) -> Option<bool> {
+        let mut all = true;
+        for &e in &self.relations {
+            let (value, size) = pool.evaluate_with_size(e, &|s| at.at(s));
+            if !value.is_finite() {
+                return None;
+            }
+            all &= value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE);
+        }
+        Some(all)
+    }
+
+    /// A point with its image, if one is found by what is written down or by Newton's method.
+    pub fn image(&self, pool: &Pool, point: &Valuation) -> Option<Valuation> {
+        if let Some(forwards) = &self.forwards {
+            let image: Vec<(Symbol, f64)> =
+                forwards.iter().map(|&(s, e)| (s, point.value(pool, e))).collect();
+            let at = point.clone().with(image);
+            if self.holds(pool, &at) == Some(true) {
+                return Some(self.newton(pool, at.clone()).unwrap_or(at));
+            }
+        }
+        // guesses: the old variables, and numbers of several sizes and signs
+        let same: Vec<f64> = self.old.iter().map(|&s| point.at(s)).collect();
+        let n = self.new.len();
+        let spread = |k: usize| -> Vec<f64> {
+            const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
+            (0..n).map(|i| SIZES[(k + i * (k / 7 + 1)) % 7]).collect()
+        };
+        std::iter::once(same).chain((0..21).map(spread)).find_map(|guess| {
+            let at = point.clone().with(self.new.iter().copied().zip(guess));
+            self.newton(pool, at)
+        })
+    }
+
+    /// The image of a point by Newton's method from a guess.
+    fn newton(&self, pool: &Pool, mut at: Valuation) -> Option<Valuation> {
+        const MOST: usize = 60;
+        let n = self.new.len();
+        let residual = |at: &Valuation| {
+            DVector::from_iterator(n, self.relations.iter().map(|&e| at.value(pool, e)))
+        };
+        let mut left = residual(&at);
+        for _ in 0..MOST {
+            if !left.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            let step = self.matrix(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
+            let (mut part, mut moved) = (1.0, None);
+            for _ in 0..12 {
+                let values =
+                    self.new.iter().zip(step.iter()).map(|(&s, d)| (s, at.at(s) - part * d));
+                let trial = at.clone().with(values.collect::<Vec<_>>());
+                let after = residual(&trial);
+                if after.iter().all(|x| x.is_finite())
+                    && (after.norm() < left.norm() || step.norm() < 1e-12)
+                {
+                    moved = Some((trial, after));
+                    break;
+                }
+                part *= 0.5;
+            }
+            let size = self.new.iter().map(|&s| at.at(s).abs()).fold(1.0, f64::max);
+            let small = step.amax() <= 1e-14 * size;
+            match moved {
+                Some((trial, after)) => (at, left) = (trial, after),
+                None => return (self.holds(pool, &at) == Some(true)).then_some(at),
+            }
+            if small {
+                break;
+            }
+        }
+        (self.holds(pool, &at) == Some(true)).then_some(at)
+    }
+
+    fn matrix(&self, pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
+        DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
+    }
+
+    /// M = ∂(Q, P)/∂(q, p) at a point with its image; `None` where the map breaks down.
+    pub fn tangent(&self, pool: &Pool, at: &Valuation) -> Option<DMatrix<f64>> {
+        let by_old = self.matrix(pool, &self.by_old, at);
+        let tangent = -self.matrix(pool, &self.by_new, at).full_piv_lu().solve(&by_old)?;
+        tangent.iter().all(|x| x.is_finite()).then_some(tangent)
+    }
+
+    /// Points near the start with their images.
+    fn images(&self, model: &Model, equations: &Equations, most: usize) -> Vec<Valuation> {
+        let points = (0..TRIES).map(|n| Valuation::near_start(model, equations, n));
+        // where a tenth of the points has no image, none of the others will
+        let mut failed = 0;
+        let found = points.map_while(|point| {
+            (failed < 40).then(|| {
+                let image = self.image(&equations.pool, &point);
+                failed += usize::from(image.is_none());
+                image
+            })
+        });
+        found.flatten().take(most).collect()
+    }
+
+    /// Whether the map is canonical.
+    pub fn verdict(&self, model: &Model, equations: &mut Equations) -> Verdict {
+        let mut matrices: Vec<DMatrix<f64>> = Vec::new();
+        let mut wild: Vec<DMatrix<f64>> = Vec::new();
+        for at in self.images(model, equations, 2 * POINTS) {
+            if let Some(matrix) = self.tangent(&equations.pool, &at) {
+                if matrix.amax() <= LARGEST { &mut matrices } else { &mut wild }.push(matrix);
+            }
+        }
+        matrices.truncate(POINTS);
+        if matrices.is_empty() {
+            matrices = wild;
+        }
+        let residual = matrices.iter().map(departure).reduce(f64::max);
+        let relative = matrices
+            .iter()
+            .map(|matrix| departure(matrix) / matrix.norm_squared().max(1.0))
+            .reduce(f64::max);
+        let mut verdict = Verdict {
+            canonical: relative.is_some_and(|r| r < CANONICAL),
+            proved: false,
+            residual,
+            valence: None,
+            failing: Vec::new(),
+            why: None,
+        };
+        if self.is_explicit() {
+            self.by_brackets(equations, &mut verdict);
+        } else if residual.is_none() {
+            verdict.why = Some(self.no_map(&mut equations.pool));
+        } else {
+            verdict.proved = verdict.canonical;
+        }
+        verdict
+    }
+
+    /// Why a generating function gives no map.
+    fn no_map(&self, pool: &mut Pool) -> String {
+        let matrix = self.by_new.clone();
+        let right = vec![Expr::ZERO; matrix.len()];
+        match super::linear::solve(pool, &matrix, &right) {
+            Err(_) => "its equations cannot be solved: the determinant of ∂²F/∂old∂new vanishes \
+                       everywhere"
+                .to_owned(),
+            Ok(_) => "no point of its domain was found near the start".to_owned(),
+        }
+    }
+
+    /// Compares the brackets of an explicit map with those of canonical variables.
+    fn by_brackets(&self, equations: &mut Equations, verdict: &mut Verdict) {
+        let n = self.new.len() / 2;
+        let pool = &mut equations.pool;
+        let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
+        for i in 0..2 * n {
+            for j in i + 1..2 * n {
+                // the relation is Q − Q(q, p, t)
+                let mut terms = Vec::new();
+                for k in 0..n {
+                    let a = pool.mul(self.by_old[i][k], self.by_old[j][n + k]);
+                    let b = pool.mul(self.by_old[i][n + k], self.by_old[j][k]);
+                    terms.extend([(Number::ONE, a), (Number::MINUS_ONE, b)]);
+                }
+                let is = pool.linear(Number::ZERO, &terms);
+                let is = super::slope::zero_if_proved(pool, is);
+                let is = pool.simplify(is);
+                let expected = if j == i + n { Expr::ONE } else { Expr::ZERO };
+                let difference = pool.sub(is, expected);
+                let zero = pool.is_zero(difference);
+                let pair = [self.new[i], self.new[j]];
+                all.push((FailingBracket { pair, is, expected }, zero));
+            }
+        }
+        let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
+        let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
+        verdict.proved = proved || refuted;
+        verdict.canonical = proved || (verdict.canonical && !refuted);
+        if verdict.canonical {
+            return;
+        }
+        verdict.valence = self.valence(pool, &all);
+        let wrong = |zero: Zero| if refuted { zero == Zero::No } else { zero != Zero::Proved };
+        verdict.failing =
+            all.into_iter().filter(|(_, zero)| wrong(*zero)).map(|(bracket, _)| bracket).collect();
+        let failing = verdict.failing.iter().map(|bracket| {
+            let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).name.clone());
+            let (is, expected) = (pool.text(bracket.is), pool.text(bracket.expected));
+            format!("[{a}, {b}] = {is}, not {expected}")
+        });
+        verdict.why = Some(failing.collect::<Vec<_>>().join("; "));
+    }
+
+    /// The common number of all brackets [Q, P], if the others vanish.
+    fn valence(&self, pool: &mut Pool, all: &[(FailingBracket, Zero)]) -> Option<Expr> {
+        let mut variables = self.old.clone();
+        variables.extend(pool.find_symbol("t"));
+        let mut valence = None;
+        for (bracket, zero) in all {
+            if bracket.expected == Expr::ZERO {
+                if *zero != Zero::Proved {
+                    return None;
+                }
+                continue;
+            }
+            let c = *valence.get_or_insert(bracket.is);
+            let difference = pool.sub(c, bracket.is);
+            if pool.depends_on_any(c, &variables) || pool.is_zero(difference) != Zero::Proved {
+                return None;
+            }
+        }
+        valence.filter(|&c| pool.is_zero(c) == Zero::No)
+    }
+}
+
+/// The largest entry of |M 𝕁 Mᵀ − 𝕁|.
+fn departure(matrix: &DMatrix<f64>) -> f64 {
+    let size = matrix.nrows();
+    let n = size / 2;
+    let unit =
+        DMatrix::from_fn(size, size, |i, j| f64::from(i8::from(j == i + n) - i8::from(i == j + n)));
+    (matrix * &unit * matrix.transpose() - unit).amax()
+}
+
+/// Finds the transformations of a model.
+pub(super) fn find(equations: &mut Equations, model: &Model) {
+    let mut all = Vec::new();
+    for given in &model.transformations {
+        let map = PhaseMap::relations(&mut equations.pool, model, given);
+        all.push(map.find_forwards(model, equations));
+    }
+    let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
+    let known = all.iter().flatten().flatten().copied();
+    equations.supplements.new_variables =
+        known.filter(|(symbol, _)| shared.contains(symbol)).collect();
+    equations.supplements.transformations = all;
+}
+
+/// The transformations of a model, as they were found with its equations.
+pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
+    let found = equations.supplements.transformations.clone();
+    let pool = &mut equations.pool;
+    let maps = model
+        .transformations
+        .iter()
+        .zip(found)
+        .map(|(given, forwards)| PhaseMap { forwards, ..PhaseMap::relations(pool, model, given) });
+    maps.collect()
+}
+
+/// Values put into an expression, which must leave none of these symbols.
+pub(super) fn free_of(
+    pool: &mut Pool,
+    e: Expr,
+    values: &Solution,
+    symbols: &[Symbol],
+) -> Option<Expr> {
+    let map: HashMap<Symbol, Expr> = values.iter().copied().collect();
+    let e = tidy(pool, e, &map);
+    (!pool.depends_on_any(e, symbols)).then_some(e)
+}

@@ -1,0 +1,204 @@
+//! A complete integral S(q, α, t) of H(q, ∂S/∂q, t) + ∂S/∂t = 0: whether it is one, the momenta
+//! ∂S/∂q, and β = ∂S/∂α, which are constant along the motion as the α are.
+//!
+//! In: S as a file gives it. Out: a [`HamiltonJacobi`]. Never here: motion.
+//! Source: *The Principles of Dynamics*, § 3.5.
+
+use std::collections::HashMap;
+
+use super::equations::{Equations, NoClosedForm};
+use super::isolate::{self, Solution, tidy};
+use super::linear;
+use super::sampling::POINTS;
+use super::slope::tidy_derivative;
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::model::{CompleteIntegral, Model};
+
+/// What is left of the equation counts as zero below this, relative to its terms.
+const SOLVES: f64 = 1e-10;
+
+/// The numbers tried for the constants, relative to the energy at the point.
+const TRIED: [f64; 6] = [1.0, 0.7, 1.6, 2.9, -0.8, 0.3];
+
+/// A complete integral with what follows from it.
+#[derive(Clone, Debug)]
+pub struct HamiltonJacobi {
+    /// The largest value of |H(q, ∂S/∂q, t) + ∂S/∂t| at points near the start, 0 if that is
+    /// proved; `None` if it has no value at any of them, or H has no closed form.
+    pub residual: Option<f64>,
+    /// Whether S solves the equation and det ∂²S/∂q∂α does not vanish.
+    pub complete: bool,
+    /// ∂S/∂q of each coordinate, in its order.
+    pub momenta: Vec<Expr>,
+    /// ∂S/∂α of each constant.
+    pub beta: Vec<Expr>,
+    /// Why it is not complete.
+    pub why: Option<String>,
+}
+
+/// Finds α(q, p, t) and β(q, p, t), so that they may be watched along the motion.
+pub(super) fn find(equations: &mut Equations, model: &Model) {
+    let Some(integral) = &model.complete_integral else { return };
+    let unknowns: Vec<Symbol> = integral.constants.iter().map(|c| c.symbol).collect();
+    let pool = &mut equations.pool;
+    let mut relations = Vec::new();
+    for c in &model.coordinates {
+        let slope = tidy_derivative(pool, integral.function, c.position);
+        let momentum = pool.variable(c.momentum);
+        relations.push(pool.sub(momentum, slope));
+    }
+    // −∂S/∂t is the value of H, often a constant itself
+    let rate = tidy_derivative(pool, integral.function, model.symbols.time);
+    if pool.depends_on_any(rate, &unknowns)
+        && let Ok(hamiltonian) = equations.hamiltonian().clone()
+    {
+        relations.push(equations.pool.add(hamiltonian, rate));
+    }
+    let points: Vec<Valuation> =
+        (0..2 * POINTS as u64).map(|n| Valuation::near_start(model, equations, n)).collect();
+    let mut accept = |pool: &mut Pool, found: &Solution| {
+        let (mut right, mut wrong) = (0, 0);
+        for point in &points {
+            let values: Vec<(Symbol, f64)> =
+                found.iter().map(|&(s, e)| (s, point.value(pool, e))).collect();
+            let at = point.clone().with(values);
+            let sizes: Vec<(f64, f64)> =
+                relations.iter().map(|&e| pool.evaluate_with_size(e, &|s| at.at(s))).collect();
+            if sizes.iter().any(|(value, _)| !value.is_finite()) {
+                continue;
+            }
+            let holds = sizes.iter().all(|(value, size)| value.abs() <= 1e-9 * size.max(1e-300));
+            if holds { right += 1 } else { wrong += 1 }
+        }
+        // S is one branch: p has its sign on part of the orbit only
+        right > 0 && 3 * right >= wrong
+    };
+    let found = isolate::solve(&mut equations.pool, &relations, &unknowns, &mut accept);
+    let Some(found) = found else { return };
+    let map: HashMap<Symbol, Expr> = found.iter().copied().collect();
+    let pool = &mut equations.pool;
+    let mut known: Solution = found;
+    for constant in &integral.constants {
+        let beta = pool.derivative(integral.function, constant.symbol);
+        let beta = tidy(pool, beta, &map);
+        known.push((constant.conjugate, beta));
+    }
+    equations.supplements.new_variables.extend(known);
+}
+
+impl HamiltonJacobi {
+    /// Checks the complete integral of a model.
+    pub fn of(model: &Model, equations: &mut Equations) -> Option<HamiltonJacobi> {
+        let integral = model.complete_integral.as_ref()?;
+        let pool = &mut equations.pool;
+        let s = integral.function;
+        let momenta: Vec<Expr> =
+            model.coordinates.iter().map(|c| tidy_derivative(pool, s, c.position)).collect();
+        let beta: Vec<Expr> =
+            integral.constants.iter().map(|c| tidy_derivative(pool, s, c.symbol)).collect();
+        let (residual, mut why) = match remainder(model, equations, s, &momenta) {
+            Ok(Remainder { value, solves }) => {
+                let unsolved = "S does not solve H(q, ∂S/∂q, t) + ∂S/∂t = 0".to_owned();
+                let unknown = "S has no value at the points tried".to_owned();
+                let why = match value {
+                    None => Some(unknown),
+                    Some(_) => (!solves).then_some(unsolved),
+                };
+                (value, why)
+            }
+            Err(no) => (None, Some(format!("H is not known: {no}"))),
+        };
+        if why.is_none() {
+            why = not_complete(model, equations, integral, &momenta);
+        }
+        Some(HamiltonJacobi { residual, complete: why.is_none(), momenta, beta, why })
+    }
+}
+
+struct Remainder {
+    value: Option<f64>,
+    solves: bool,
+}
+
+/// What is left of the equation.
+fn remainder(
+    model: &Model,
+    equations: &mut Equations,
+    s: Expr,
+    momenta: &[Expr],
+) -> Result<Remainder, NoClosedForm> {
+    let hamiltonian = equations.hamiltonian().clone()?;
+    let map: HashMap<Symbol, Expr> =
+        model.coordinates.iter().map(|c| c.momentum).zip(momenta.iter().copied()).collect();
+    let pool = &mut equations.pool;
+    let energy = pool.substitute(hamiltonian, &map);
+    let rate = pool.derivative(s, model.symbols.time);
+    let left = pool.add(energy, rate);
+    if pool.is_zero(left) == Zero::Proved {
+        return Ok(Remainder { value: Some(0.0), solves: true });
+    }
+    let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+    let constants: Vec<Symbol> = constants.map(|c| c.symbol).collect();
+    let known = equations.supplements.new_variables.clone();
+    let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
+    for n in 0..200_u64 {
+        let point = Valuation::near_start(model, equations, n);
+        let scale = point.value(&equations.pool, hamiltonian).abs().max(0.1);
+        let tried = (0..TRIED.len()).map(|k| {
+            let values = constants.iter().enumerate().map(|(i, &c)| {
+                let own = known.iter().find(|(s, _)| *s == c).filter(|_| k == 0);
+                let own = own.map(|&(_, e)| point.value(&equations.pool, e));
+                (c, own.unwrap_or(TRIED[(k + i) % TRIED.len()] * scale / (1.0 + i as f64)))
+            });
+            point.clone().with(values.collect::<Vec<_>>())
+        });
+        for at in tried {
+            let (value, size) = equations.pool.evaluate_with_size(left, &|s| at.at(s));
+            if value.is_finite() {
+                largest = largest.max(value.abs());
+                relative = relative.max(value.abs() / size.max(f64::MIN_POSITIVE));
+                seen += 1;
+                break;
+            }
+        }
+        if seen == POINTS {
+            break;
+        }
+    }
+    let value = (seen > 0).then_some(largest);
+    Ok(Remainder { value, solves: relative < SOLVES })
+}
+
+/// Why a solution is not a complete one.
+fn not_complete(
+    model: &Model,
+    equations: &mut Equations,
+    integral: &CompleteIntegral,
+    momenta: &[Expr],
+) -> Option<String> {
+    let pool = &mut equations.pool;
+    let mut matrix = Vec::new();
+    for constant in &integral.constants {
+        let row: Vec<Expr> =
+            momenta.iter().map(|&p| tidy_derivative(pool, p, constant.symbol)).collect();
+        if row.iter().all(|&e| e == Expr::ZERO) {
+            return Some(format!(
+                "`{}` is an additive constant: no momentum ∂S/∂q depends on it",
+                constant.name
+            ));
+        }
+        matrix.push(row);
+    }
+    let (constants, coordinates) = (matrix.len(), model.coordinates.len());
+    if constants != coordinates {
+        return Some(format!(
+            "a complete integral has as many constants as coordinates: {coordinates}, not \
+             {constants}"
+        ));
+    }
+    let right = vec![Expr::ZERO; constants];
+    linear::solve(pool, &matrix, &right).err().map(|_| {
+        "the determinant of ∂²S/∂q∂α vanishes: the constants are not independent".to_owned()
+    })
+}

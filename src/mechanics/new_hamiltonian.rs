@@ -1,0 +1,115 @@
+//! The Hamiltonian in new variables: K = H + ∂F/∂t, or c H + R for a map of valence c that is
+//! given explicitly, with ∂(Q, P)/∂t = 𝕁 ∂R/∂(Q, P).
+//!
+//! In: a map that is canonical up to its valence. Out: K(Q, P, t), or why it cannot be written
+//! down. Never here: whether the map is canonical.
+//! Source: *The Principles of Dynamics*, §§ 3.2, 3.3.
+
+use std::collections::HashMap;
+
+use super::canonical::{PhaseMap, Verdict, free_of};
+use super::equations::{CLOSED_FORM_LIMIT, Equations, NoClosedForm};
+use super::isolate::Solution;
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::model::Model;
+use crate::num::Number;
+
+/// The greatest degree in the old variables of what follows from an explicit map with time.
+const HIGHEST: i64 = 12;
+
+impl PhaseMap {
+    /// K as a function of the new variables and t.
+    ///
+    /// # Errors
+    /// Returns an error if the map is not canonical up to a valence, H has no closed form, or the
+    /// old variables cannot be eliminated.
+    pub fn new_hamiltonian(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        verdict: &Verdict,
+        backwards: Option<&Solution>,
+    ) -> Result<Expr, NoClosedForm> {
+        let no = |why: &str| Err(NoClosedForm(why.to_owned()));
+        if !verdict.canonical && verdict.valence.is_none() {
+            return no("the transformation is not canonical");
+        }
+        let hamiltonian = equations.hamiltonian().clone()?;
+        let time = model.symbols.time;
+        let pool = &mut equations.pool;
+        let rate = match self.function_rate {
+            Some(rate) => rate,
+            None => self.rate_of_explicit(pool, time)?,
+        };
+        let valence = verdict.valence.unwrap_or(Expr::ONE);
+        let scaled = pool.mul(valence, hamiltonian);
+        let e = pool.add(scaled, rate);
+        let Some(backwards) = backwards else {
+            return no("the old variables cannot be written in terms of the new ones");
+        };
+        let Some(e) = free_of(pool, e, backwards, &self.old) else {
+            return no("the old variables cannot be eliminated");
+        };
+        let e = pool.simplify_terms(e);
+        if pool.weight(e) > CLOSED_FORM_LIMIT {
+            return Err(NoClosedForm(format!("K has more than {CLOSED_FORM_LIMIT} nodes")));
+        }
+        Ok(e)
+    }
+
+    /// R(q, p, t): its slopes by the old variables are w = Σ (∂Q_i/∂t ∂P_i − ∂P_i/∂t ∂Q_i), and
+    /// R = ∫₀¹ w(s η)·η ds, which is written down where w is a polynomial.
+    fn rate_of_explicit(&self, pool: &mut Pool, time: Symbol) -> Result<Expr, NoClosedForm> {
+        let n = self.new.len() / 2;
+        // the relations are Q − Q(q, p, t)
+        let rates: Vec<Expr> = self.relations.iter().map(|&e| pool.derivative(e, time)).collect();
+        if rates.iter().all(|&rate| rate == Expr::ZERO) {
+            return Ok(Expr::ZERO);
+        }
+        let mut slopes = Vec::new();
+        for k in 0..2 * n {
+            let mut terms = Vec::new();
+            for i in 0..n {
+                let by_momentum = pool.derivative(self.relations[n + i], self.old[k]);
+                let by_position = pool.derivative(self.relations[i], self.old[k]);
+                terms.push((Number::ONE, pool.mul(rates[i], by_momentum)));
+                terms.push((Number::MINUS_ONE, pool.mul(rates[n + i], by_position)));
+            }
+            let slope = pool.linear(Number::ZERO, &terms);
+            slopes.push(pool.simplify(slope));
+        }
+        let s = pool.symbol("part of the way");
+        let scale = pool.variable(s);
+        let mut terms = Vec::new();
+        for (&slope, &variable) in slopes.iter().zip(&self.old) {
+            let variable = pool.variable(variable);
+            terms.push((Number::ONE, pool.mul(slope, variable)));
+        }
+        let along = pool.linear(Number::ZERO, &terms);
+        let mut map = HashMap::new();
+        for &variable in &self.old {
+            let value = pool.variable(variable);
+            map.insert(variable, pool.mul(scale, value));
+        }
+        // w(s η)·η s, divided by s again below
+        let mut rest = pool.substitute(along, &map);
+        let at_zero = HashMap::from([(s, Expr::ZERO)]);
+        let mut parts = Vec::new();
+        let mut factorial = Number::ONE;
+        for degree in 1..=HIGHEST {
+            rest = pool.derivative(rest, s);
+            rest = pool.simplify(rest);
+            if rest == Expr::ZERO || pool.is_zero(rest) == Zero::Proved {
+                let total = pool.linear(Number::ZERO, &parts);
+                return Ok(pool.simplify(total));
+            }
+            factorial = factorial * Number::integer(degree);
+            let coefficient = pool.substitute(rest, &at_zero);
+            let weight = (factorial * Number::integer(degree)).recip();
+            parts.push((weight, coefficient));
+        }
+        Err(NoClosedForm(
+            "∂(Q, P)/∂t is no polynomial in q and p, and its integral is not looked for".to_owned(),
+        ))
+    }
+}

@@ -1,0 +1,325 @@
+//! Transformations, generators and the complete integral: their names, then their laws.
+//!
+//! New variables are introduced before any expression is read, so that all that come later know
+//! them. Whether a transformation is canonical is not asked here.
+
+use toml::Spanned;
+
+use super::Check;
+use super::names::{Names, report_twice};
+use crate::diagnostic::{Diagnostic, SourceRange, nearest};
+use crate::expr::{Expr, Rank, Symbol};
+use crate::model::{
+    Allowed, CompleteIntegral, GeneratingType, Generator, IntegralConstant, Scope, Transformation,
+    TransformationLaw,
+};
+use crate::preset::draft::{Draft, DraftTransformation, Formula, NamedFormula};
+
+impl Check<'_> {
+    /// Introduces the new variables and the constants of the complete integral.
+    pub(super) fn new_variables(&mut self, draft: &Draft, names: &mut Names) {
+        let poisson = self.model.is_poisson();
+        let places = draft.transformations.iter().map(|t| t.place.clone());
+        let places = places.chain(draft.generators.iter().map(|g| g.place.clone()));
+        for place in places.filter(|_| poisson) {
+            let message = "brackets of variables have no canonical coordinates to transform";
+            self.error(place, message);
+        }
+        if poisson {
+            return;
+        }
+        let mut taken: Vec<&Spanned<String>> = Vec::new();
+        for written in &draft.transformations {
+            if let Some(name) = &written.name {
+                let first = taken.iter().find(|first| first.get_ref() == name.get_ref());
+                if let Some(first) = first {
+                    report_twice(name, first.span(), "a transformation", self.mistakes);
+                }
+                taken.push(name);
+            }
+            let new = self.variables_of(written, names);
+            let name = written.name.as_ref().map_or("", |name| name.get_ref()).to_owned();
+            let law = TransformationLaw::Explicit { positions: Vec::new(), momenta: Vec::new() };
+            let place = written.place.clone();
+            self.model.transformations.push(Transformation { name, law, new, place });
+        }
+        if let Some(written) = &draft.integral {
+            let mut constants = Vec::new();
+            for name in &written.constants {
+                const KIND: &str = "a constant of the complete integral";
+                let beta = Spanned::new(name.span(), format!("beta_{}", name.get_ref()));
+                if names.word(name, KIND, self.mistakes)
+                    && names.word(&beta, "what is conjugate to a constant", self.mistakes)
+                {
+                    let symbol = self.introduce(name.get_ref(), Rank::Constant);
+                    let conjugate = self.introduce(beta.get_ref(), Rank::Constant);
+                    let name = name.get_ref().clone();
+                    constants.push(IntegralConstant { name, symbol, conjugate });
+                }
+            }
+            let (function, place) = (Expr::ZERO, 0..0);
+            self.model.complete_integral = Some(CompleteIntegral { function, constants, place });
+        }
+    }
+
+    /// The new variables of a transformation: Q and P of each pair.
+    fn variables_of(
+        &mut self,
+        written: &DraftTransformation,
+        names: &mut Names,
+    ) -> Vec<[Symbol; 2]> {
+        let n = self.model.coordinates.len();
+        let place = written.name.as_ref().map_or_else(|| written.place.clone(), Spanned::span);
+        let own = |formulas: &Option<Vec<NamedFormula>>| -> Vec<Spanned<String>> {
+            formulas.iter().flatten().map(|(name, _)| name.clone()).collect()
+        };
+        let (positions, momenta) = (own(&written.positions), own(&written.momenta));
+        let all: Vec<Spanned<String>> = if !written.new.is_empty() {
+            written.new.clone()
+        } else if positions.len() == n && momenta.len() == n {
+            [positions, momenta].concat()
+        } else {
+            let numbered = |letter: &str| -> Vec<Spanned<String>> {
+                let name = |i: usize| {
+                    if n == 1 { letter.to_owned() } else { format!("{letter}{}", i + 1) }
+                };
+                (0..n).map(|i| Spanned::new(place.clone(), name(i))).collect()
+            };
+            [numbered("Q"), numbered("P")].concat()
+        };
+        if all.len() != 2 * n {
+            let message = format!("`new` names {} variables where there are {}", all.len(), 2 * n);
+            let help = "name every new coordinate, then every new momentum";
+            let place = written.new.first().map_or(place, Spanned::span);
+            self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+        }
+        let mut symbols = Vec::new();
+        for (k, name) in all.iter().enumerate() {
+            if all[..k].iter().any(|before| before.get_ref() == name.get_ref()) {
+                let message = format!("`{}` would be two new variables", name.get_ref());
+                self.error(name.span(), message);
+            }
+            symbols.push(if names.new_variable(name, self.mistakes) {
+                self.introduce(name.get_ref(), Rank::Momentum)
+            } else {
+                // what has the name already keeps it
+                self.model.pool.symbol(&format!("new {}", name.get_ref()))
+            });
+        }
+        symbols.resize(2 * n, self.model.symbols.time);
+        (0..n).map(|i| [symbols[i], symbols[n + i]]).collect()
+    }
+
+    /// Reads the laws of the transformations, the generators and the complete integral.
+    pub(super) fn transformations(&mut self, draft: &Draft) {
+        if self.model.is_poisson() {
+            return;
+        }
+        for (k, written) in draft.transformations.iter().enumerate() {
+            if let Some(law) = self.transformation(written, k) {
+                let place = written.function.as_ref().map_or(written.place.clone(), Spanned::span);
+                self.model.transformations[k].place = place;
+                self.model.transformations[k].law = law;
+            }
+        }
+        let mut scope = Scope::new(&self.model, Allowed::Bracket, "a generator");
+        let mut taken: Vec<&Spanned<String>> = Vec::new();
+        for written in &draft.generators {
+            let formula = written.function.as_ref();
+            let e = formula.and_then(|f| self.formula(&mut scope, "a generator", f));
+            let Some(name) = &written.name else { continue };
+            if let Some(first) = taken.iter().find(|first| first.get_ref() == name.get_ref()) {
+                report_twice(name, first.span(), "a generator", self.mistakes);
+            }
+            taken.push(name);
+            if let (Some(expression), Some(formula)) = (e, formula) {
+                let (name, place) = (name.get_ref().clone(), formula.span());
+                self.model.generators.push(Generator { name, expression, place });
+            }
+        }
+        let Some(written) = &draft.integral else { return };
+        let called = "the complete integral";
+        let mut scope = Scope::new(&self.model, Allowed::Configuration, called);
+        let constants = self.model.complete_integral.as_ref().map(|s| s.constants.clone());
+        for IntegralConstant { name, symbol, .. } in constants.into_iter().flatten() {
+            let e = self.model.pool.variable(symbol);
+            scope.define(&name, e);
+            scope.admit(symbol);
+        }
+        let read = written.function.as_ref().and_then(|f| self.formula(&mut scope, called, f));
+        if let (Some(e), Some(integral)) = (read, &mut self.model.complete_integral) {
+            integral.function = e;
+            integral.place = written.function.as_ref().map_or(0..0, Spanned::span);
+        }
+    }
+
+    fn transformation(
+        &mut self,
+        written: &DraftTransformation,
+        k: usize,
+    ) -> Option<TransformationLaw> {
+        let n = self.model.coordinates.len();
+        let new = self.model.transformations[k].new.clone();
+        let mut scope = Scope::new(&self.model, Allowed::Transformation, "a transformation");
+        for symbol in new.concat() {
+            let name = self.model.pool.symbol_info(symbol).name.clone();
+            let e = self.model.pool.variable(symbol);
+            scope.define(&name, e);
+        }
+        let kind = written.kind.as_ref().map(|kind| kind.get_ref().as_str());
+        let given = written.positions.is_some() || written.momenta.is_some();
+        if kind == Some("explicit") || (kind.is_none() && given) {
+            if let Some(function) = &written.function {
+                self.error(
+                    function.span(),
+                    "an explicit transformation has no generating function",
+                );
+            }
+            let positions = self.explicit(written, &mut scope, &new, 0)?;
+            let momenta = self.explicit(written, &mut scope, &new, 1)?;
+            return Some(TransformationLaw::Explicit { positions, momenta });
+        }
+        let types = self.types(written, n)?;
+        if given {
+            let message = "a transformation by a generating function has no `Q` and `P` of its own";
+            self.mistakes.push(
+                Diagnostic::error(written.place.clone(), message)
+                    .with_help("write kind = \"explicit\", or leave them out"),
+            );
+        }
+        let Some(formula) = &written.function else {
+            let message = "this transformation has no `F`";
+            let help = "write F = \"...\", or kind = \"explicit\" with Q = { ... } and P = { ... }";
+            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            return None;
+        };
+        let function = self.formula(&mut scope, "a generating function", formula)?;
+        self.has_its_variables(function, &types, &new, formula)
+            .then_some(TransformationLaw::Generating { types, function })
+    }
+
+    /// The type of the generating function for each pair.
+    fn types(&mut self, written: &DraftTransformation, n: usize) -> Option<Vec<GeneratingType>> {
+        let known = || GeneratingType::ALL.map(GeneratingType::name);
+        let mut read = |name: &Spanned<String>, others: &[&str]| {
+            let found = GeneratingType::by_name(name.get_ref());
+            if found.is_none() {
+                let message = format!("there is no kind `{}` of transformation", name.get_ref());
+                let all = known().into_iter().chain(others.iter().copied()).collect::<Vec<_>>();
+                let help = match nearest(name.get_ref(), all.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("there are {}", all.join(", ")),
+                };
+                self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            }
+            found
+        };
+        let mixed = written.kind.as_ref().filter(|kind| kind.get_ref() == "mixed");
+        if !written.types.is_empty() || mixed.is_some() {
+            let types: Vec<_> = written.types.iter().map(|name| read(name, &[])).collect();
+            if types.len() != n {
+                let message = format!("`types` has {} entries for {n} pairs", types.len());
+                let place = written.types.first().map_or(written.place.clone(), Spanned::span);
+                let help = "write one of F1, F2, F3, F4 for each coordinate";
+                self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+                return None;
+            }
+            if let (Some(kind), None) = (&written.kind, mixed) {
+                self.error(kind.span(), "`types` says the kind of each pair, and `kind` another");
+                return None;
+            }
+            return types.into_iter().collect();
+        }
+        let Some(kind) = &written.kind else {
+            let message = "this transformation has no `kind`";
+            let help = "write kind = \"F1\", \"F2\", \"F3\", \"F4\" or \"explicit\"";
+            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            return None;
+        };
+        read(kind, &["explicit", "mixed"]).map(|kind| vec![kind; n])
+    }
+
+    /// Reads one half of an explicit transformation in the order of its new variables.
+    fn explicit(
+        &mut self,
+        written: &DraftTransformation,
+        scope: &mut Scope,
+        new: &[[Symbol; 2]],
+        half: usize,
+    ) -> Option<Vec<Expr>> {
+        let (table, letter) =
+            if half == 0 { (&written.positions, "Q") } else { (&written.momenta, "P") };
+        let symbols = new.concat();
+        let Some(table) = table else {
+            let message = format!("this transformation has no `{letter}`");
+            let help = format!("write {letter} = {{ {letter} = \"...\" }}");
+            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            return None;
+        };
+        let mut found: Vec<Option<Expr>> = vec![None; new.len()];
+        let wanted: Vec<String> =
+            new.iter().map(|pair| self.model.pool.symbol_info(pair[half]).name.clone()).collect();
+        for (name, formula) in table {
+            let e = formula.as_ref().and_then(|f| self.formula(scope, "a new variable", f));
+            match wanted.iter().position(|w| w == name.get_ref()) {
+                Some(i) => found[i] = e,
+                None => {
+                    let message = format!("`{}` is not a new variable here", name.get_ref());
+                    let help = format!("the variables are {}", wanted.join(", "));
+                    self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+                    return None;
+                }
+            }
+            if let (Some(e), Some(f)) = (e, formula)
+                && self.model.pool.depends_on_any(e, &symbols)
+            {
+                self.error(f.span(), "an explicit transformation is a function of q, p and t");
+                return None;
+            }
+        }
+        for (name, _) in wanted.iter().zip(&found).filter(|(_, e)| e.is_none()) {
+            if !table.iter().any(|(written, _)| written.get_ref() == name) {
+                let message = format!("the transformation does not say what `{name}` is");
+                self.error(written.place.clone(), message);
+            }
+        }
+        found.into_iter().collect()
+    }
+
+    /// Whether a generating function depends on the variables of its types only.
+    fn has_its_variables(
+        &mut self,
+        function: Expr,
+        types: &[GeneratingType],
+        new: &[[Symbol; 2]],
+        formula: &Formula,
+    ) -> bool {
+        let mut wrong: Option<(Symbol, String)> = None;
+        for ((c, of), [position, momentum]) in self.model.coordinates.iter().zip(types).zip(new) {
+            let old = if of.has_position() { c.momentum } else { c.position };
+            let other = if of.has_new_position() { *momentum } else { *position };
+            let right = [
+                if of.has_position() { c.position } else { c.momentum },
+                if of.has_new_position() { *position } else { *momentum },
+            ];
+            for symbol in [old, other] {
+                if wrong.is_none() && self.model.pool.depends(function, symbol) {
+                    let names = right.map(|s| self.model.pool.symbol_info(s).name.clone());
+                    wrong = Some((
+                        symbol,
+                        format!("{} is a function of {} and {}", of.name(), names[0], names[1]),
+                    ));
+                }
+            }
+        }
+        let Some((symbol, help)) = wrong else { return true };
+        let name = &self.model.pool.symbol_info(symbol).name;
+        let message = format!("this generating function may not depend on `{name}`");
+        self.mistakes.push(Diagnostic::error(place_of(formula), message).with_help(help));
+        false
+    }
+}
+
+fn place_of(formula: &Formula) -> SourceRange {
+    formula.span()
+}

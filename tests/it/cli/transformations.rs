@@ -1,0 +1,292 @@
+//! `[[transformations]]`, `[[generators]]` and `[hamilton_jacobi]` by what the commands say of them.
+
+use serde_json::Value;
+
+use super::{Done, with_file};
+
+const OSCILLATOR: &str = r#"
+title = "Oscillator"
+[coordinates]
+q = { initial = 1.0, momentum = 0.3 }
+[parameters]
+m = 1.3
+omega = 0.7
+c = 2.0
+[hamiltonian]
+H = "p_q^2/(2*m) + 1/2*m*omega^2*q^2"
+"#;
+
+const PLANE: &str = r#"
+title = "Plane"
+[coordinates]
+x = { initial = 1.0, velocity = 0.1 }
+y = { initial = 0.2, velocity = 0.9 }
+[parameters]
+m = 1.2
+k = 1.0
+w = 0.3
+[lagrangian]
+L = "1/2*m*(x'^2 + y'^2) + k/sqrt(x^2+y^2)"
+"#;
+
+fn derived(head: &str, rest: &str) -> Value {
+    with_file(&format!("{head}{rest}"), &["derive", "system.toml", "--format", "json"]).json()
+}
+
+fn run(head: &str, rest: &str, words: &[&str]) -> Done {
+    let words = [&["run", "system.toml", "--format", "json"], words].concat();
+    with_file(&format!("{head}{rest}"), &words)
+}
+
+/// A column of a run.
+fn column(found: &Value, name: &str) -> Vec<f64> {
+    let names = found["columns"].as_array().unwrap();
+    let at = names.iter().position(|n| n == name).unwrap_or_else(|| panic!("no {name}: {names:?}"));
+    let rows = found["rows"].as_array().unwrap().iter();
+    rows.map(|row| row[at].as_f64().unwrap_or(f64::NAN)).collect()
+}
+
+fn close(a: f64, b: f64, within: f64) {
+    assert!((a - b).abs() <= within, "{a} is not {b}");
+}
+
+fn transformation(name: &str, rest: &str) -> String {
+    format!("[[transformations]]\nname = \"{name}\"\n{rest}\n")
+}
+
+#[test]
+fn the_oscillator_by_its_angle() {
+    // The Principles of Dynamics, § 3.2.2: K = ω P
+    let f1 = transformation("a", "kind = \"F1\"\nF = \"1/2*m*omega*q^2/tan(Q)\"");
+    let explicit = transformation(
+        "b",
+        "kind = \"explicit\"\nQ = { w = \"atan2(m*omega*q, p_q)\" }\n\
+         P = { J = \"p_q^2/(2*m*omega) + m*omega*q^2/2\" }",
+    );
+    let found = derived(OSCILLATOR, &format!("{f1}{explicit}"));
+    for (k, energy) in [(0, "omega*P"), (1, "omega*J")] {
+        let map = &found["transformations"][k];
+        assert_eq!(map["canonical"], true, "{map}");
+        assert!(map["residual"].as_f64().unwrap() < 1e-14, "{map}");
+        assert_eq!(map["K"], energy);
+    }
+    let rows =
+        run(OSCILLATOR, &f1, &["--at", "0,0.5,1,6", "--observe", "Q", "--observe", "P"]).json();
+    let (angle, action) = (column(&rows, "Q"), column(&rows, "P"));
+    let (q, p, t) = (1.0, 0.3, column(&rows, "t"));
+    let product = 1.3_f64 * 0.7;
+    for k in 0..4 {
+        close(action[k], p * p / (2.0 * product) + product * q * q / 2.0, 1e-14);
+        let turned = angle[k] - (product * q).atan2(p) - 0.7 * t[k];
+        close(
+            (turned / std::f64::consts::TAU)
+                .fract()
+                .abs()
+                .min(1.0 - (turned / std::f64::consts::TAU).fract().abs()),
+            0.0,
+            1e-13,
+        );
+    }
+}
+
+#[test]
+fn a_map_that_is_not_canonical_is_told_so_with_its_bracket() {
+    let polar = transformation(
+        "x = p sin θ, p_x = p cos θ",
+        "kind = \"explicit\"\nQ = { U = \"p_q*sin(q)\" }\nP = { V = \"p_q*cos(q)\" }",
+    );
+    let scale =
+        transformation("scale", "kind = \"explicit\"\nQ = { A = \"c*q\" }\nP = { B = \"3*p_q\" }");
+    let nearly = transformation(
+        "nearly",
+        "kind = \"explicit\"\nQ = { C = \"q + 1e-9*q*p_q\" }\nP = { D = \"p_q\" }",
+    );
+    let degenerate = transformation("degenerate", "kind = \"F2\"\nF = \"q^2 + P^2\"");
+    let found = derived(OSCILLATOR, &format!("{polar}{scale}{nearly}{degenerate}"));
+    let all = &found["transformations"];
+    for k in 0..4 {
+        assert_eq!(all[k]["canonical"], false, "{}", all[k]);
+    }
+    let bracket = &all[0]["failing_brackets"][0];
+    assert_eq!((&bracket["f"], &bracket["g"]), (&"U".into(), &"V".into()));
+    assert_eq!(bracket["is"], "p_q");
+    assert!(all[0]["K"].is_null());
+    // valence λμ, and K = λμ H in the new variables
+    assert_eq!(all[1]["valence"], "3*c");
+    close(all[1]["residual"].as_f64().unwrap(), 5.0, 1e-12);
+    assert_eq!(all[1]["K"], "3*m*omega^2*A^2/(2*c) + 1/6*c*B^2/m");
+    assert!(all[2]["residual"].as_f64().unwrap() > 1e-11);
+    assert!(all[3]["why"].as_str().unwrap().contains("determinant"), "{}", all[3]);
+    let text = with_file(&format!("{OSCILLATOR}{polar}"), &["derive", "system.toml"]).success();
+    assert!(text.contains("not canonical") && text.contains("[U, V] = p_q, not 1"), "{text}");
+}
+
+#[test]
+fn each_kind_of_generating_function_gives_its_map() {
+    let f2 = transformation("F2", "kind = \"F2\"\nF = \"q*P + 0.1*P^2*q^2\"");
+    let found = run(OSCILLATOR, &f2, &["--at", "0", "--observe", "Q", "--observe", "P"]).json();
+    // p = P + 0.2 P² q, near the identity; Q = q + 0.2 P q²
+    let (q, p) = (column(&found, "Q")[0], column(&found, "P")[0]);
+    close(p + 0.2 * p * p, 0.3, 1e-15);
+    close(q, 1.0 + 0.2 * p, 1e-15);
+    close(p, 0.2838821814150109, 1e-15);
+    let f3 = transformation("F3", "kind = \"F3\"\nF = \"-p_q*Q + p_q^3*Q/20\"");
+    let found = run(OSCILLATOR, &f3, &["--at", "0", "--observe", "Q", "--observe", "P"]).json();
+    // q = Q − 3 p² Q/20, P = p − p³/20
+    close(column(&found, "Q")[0], 1.0 / (1.0 - 0.15 * 0.09), 1e-15);
+    close(column(&found, "P")[0], 0.3 - 0.027 / 20.0, 1e-15);
+    let f4 = transformation("F4", "kind = \"F4\"\nF = \"p_q*P + t*p_q\"");
+    let found = derived(OSCILLATOR, &f4);
+    assert_eq!(
+        found["transformations"][0]["new"],
+        serde_json::json!({ "Q": "p_q", "P": "-q - t" })
+    );
+    assert_eq!(found["transformations"][0]["K"], "Q + 1/2*Q^2/m + 1/2*m*omega^2*(P + t)^2");
+    // no closed form, and canonical all the same
+    let hard = transformation("hard", "kind = \"F2\"\nF = \"q*P + sin(q + P)/10\"");
+    let found = &derived(OSCILLATOR, &hard)["transformations"][0];
+    assert_eq!(found["canonical"], true);
+    assert!(found["residual"].as_f64().unwrap() < 1e-13, "{found}");
+}
+
+#[test]
+fn point_transformations_rotating_axes_and_mixed_types() {
+    let polar = transformation(
+        "polar",
+        "kind = \"F2\"\nF = \"sqrt(x^2+y^2)*p_r + atan2(y,x)*p_phi\"\n\
+         new = [\"r\", \"phi\", \"p_r\", \"p_phi\"]",
+    );
+    let turning = transformation(
+        "turning",
+        "kind = \"F2\"\nF = \"(x*cos(w*t)+y*sin(w*t))*P1 + (y*cos(w*t)-x*sin(w*t))*P2\"",
+    );
+    let same = transformation(
+        "turning, explicitly",
+        "kind = \"explicit\"\nQ = { X = \"x*cos(w*t)+y*sin(w*t)\", Y = \"y*cos(w*t)-x*sin(w*t)\" }\n\
+         P = { PX = \"p_x*cos(w*t)+p_y*sin(w*t)\", PY = \"p_y*cos(w*t)-p_x*sin(w*t)\" }",
+    );
+    let mixed = transformation(
+        "mixed",
+        "types = [\"F1\", \"F2\"]\nF = \"x*A1 + y*B2\"\nnew = [\"A1\", \"A2\", \"B1\", \"B2\"]",
+    );
+    let wrong = transformation(
+        "wrong",
+        "kind = \"explicit\"\nQ = { U = \"x*cos(w)+y*sin(w)\", V = \"y\" }\n\
+         P = { PU = \"p_x\", PV = \"p_y\" }",
+    );
+    let rest = format!("{polar}{turning}{same}{mixed}{wrong}");
+    let found = derived(PLANE, &rest);
+    let all = found["transformations"].as_array().unwrap();
+    for map in &all[..4] {
+        assert_eq!(map["canonical"], true, "{map}");
+        assert!(map["residual"].as_f64().unwrap() < 1e-12, "{map}");
+    }
+    assert_eq!(all[4]["canonical"], false);
+    // rotating axes: K = H − w L_z
+    for (k, term) in [(1, "w*Q1*P2 + 1/2*P2^2/m + w*Q2*P1"), (2, "w*X*PY + w*Y*PX")] {
+        let written = all[k]["K"].as_str().unwrap();
+        assert!(written.ends_with(term), "{written}");
+    }
+    let words = ["--at", "0,1.5", "--observe", "p_phi", "--observe", "X", "--observe", "phi"];
+    let rows = run(PLANE, &rest, &words).json();
+    let (x, y) = (column(&rows, "x"), column(&rows, "y"));
+    let (p_x, p_y) = (column(&rows, "p_x"), column(&rows, "p_y"));
+    for (k, t) in [(0, 0.0_f64), (1, 1.5)] {
+        close(column(&rows, "p_phi")[k], x[k] * p_y[k] - y[k] * p_x[k], 1e-14);
+        close(column(&rows, "X")[k], x[k] * (0.3 * t).cos() + y[k] * (0.3 * t).sin(), 1e-14);
+        close(column(&rows, "phi")[k], y[k].atan2(x[k]), 1e-14);
+    }
+    // names that two transformations have belong to neither outside of them
+    let two = format!("{turning}{}", turning.replace("turning", "again"));
+    run(PLANE, &two, &["--observe", "Q1"]).fails(2, &["unknown name `Q1`"]);
+}
+
+#[test]
+fn claims_use_new_variables() {
+    let f1 = transformation("a", "kind = \"F1\"\nF = \"1/2*m*omega*q^2/tan(Q)\"");
+    let good = "[expect]\nconserves = [\"P\"]\nvalues = [{ expression = \"P\", at = 3.0, \
+                is = 0.5044505494505495, within = 1e-12 }]\nbrackets = [{ f = \"Q\", g = \"P\", is = \"1\" }]\n";
+    with_file(&format!("{OSCILLATOR}{f1}{good}"), &["check", "system.toml"]).says("");
+    let bad = good.replace("[\"P\"]", "[\"Q\"]");
+    let done = with_file(&format!("{OSCILLATOR}{f1}{bad}"), &["check", "system.toml"]);
+    done.fails(65, &["conserved"]);
+}
+
+#[test]
+fn generators_are_conserved_where_they_commute_with_h() {
+    let rest = "[[generators]]\nname = \"rotation\"\nG = \"x*p_y - y*p_x\"\n\
+                [[generators]]\nname = \"boost\"\nG = \"m*x - t*p_x\"\n\
+                [[generators]]\nname = \"Runge-Lenz\"\nG = \"p_y*(x*p_y - y*p_x) - m*k*x/sqrt(x^2+y^2)\"\n";
+    let found = derived(PLANE, rest);
+    let all = &found["generators"];
+    let told: Vec<_> = (0..3).map(|i| all[i]["conserved"].as_bool().unwrap()).collect();
+    assert_eq!(told, [true, false, true]);
+    assert_eq!(all[0]["bracket_with_H"], "0");
+    assert_eq!(all[0]["expression"], "x*p_y - p_x*y");
+    // the boost is conserved of a free particle, though [H, G] is not 0
+    let free = PLANE.replace(" + k/sqrt(x^2+y^2)", "");
+    let boost = &derived(&free, rest)["generators"][1];
+    assert_eq!(boost["conserved"], true);
+    assert_eq!(boost["bracket_with_H"], "-p_x");
+    for (name, kept) in [("rotation", true), ("Runge-Lenz", true), ("boost", false), ("y", false)] {
+        let rows = run(PLANE, rest, &["--flow-of", name, "--until", "1"]).json();
+        let energy = column(&rows, "energy");
+        let moved = energy.iter().map(|e| (e - energy[0]).abs()).fold(0.0, f64::max);
+        assert_eq!(moved < 1e-14, kept, "{name}: {moved}");
+    }
+    // a rotation by ε, of coordinates and momenta
+    let rows = run(PLANE, rest, &["--flow-of", "rotation", "--at", "0,0.7"]).json();
+    let (c, s) = (0.7_f64.cos(), 0.7_f64.sin());
+    close(column(&rows, "x")[1], c - 0.2 * s, 1e-15);
+    close(column(&rows, "y")[1], s + 0.2 * c, 1e-15);
+    close(column(&rows, "p_x")[1], 1.2 * (0.1 * c - 0.9 * s), 1e-15);
+    close(column(&rows, "x'")[1], 0.1 * c - 0.9 * s, 1e-15);
+    // a boost at t = 2: δx = −t ε, δp = −m ε
+    let words = ["--flow-of", "boost", "--at", "0,0.5", "--init", "t=2"];
+    let rows = run(PLANE, rest, &words).json();
+    assert_eq!(column(&rows, "t"), [0.0, 0.5]);
+    close(column(&rows, "x")[1], 1.0 - 2.0 * 0.5, 1e-15);
+    close(column(&rows, "p_x")[1], 0.12 - 1.2 * 0.5, 1e-15);
+    run(PLANE, rest, &["--flow-of", "rotatoin"]).fails(2, &["rotatoin"]);
+}
+
+#[test]
+fn a_complete_integral_is_checked() {
+    let oscillator = "[hamilton_jacobi]\nconstants = [\"alpha\"]\nS = \"alpha/omega*asin(q*omega*sqrt(m/(2*alpha))) \
+                      + q/2*sqrt(2*m*alpha - m^2*omega^2*q^2) - alpha*t\"\n";
+    let found = &derived(OSCILLATOR, oscillator)["hamilton_jacobi"];
+    assert_eq!(found["complete"], true, "{found}");
+    assert!(found["residual"].as_f64().unwrap() < 1e-14);
+    assert!(found["momenta"]["p_q"].is_string() && found["beta"]["alpha"].is_string());
+    with_file(&format!("{OSCILLATOR}{oscillator}"), &["check", "system.toml"]).says("");
+    // α is the energy, β the time of passing q = 0, with its sign, while p > 0
+    let words = ["--at", "0,0.1,0.3", "--observe", "alpha", "--observe", "beta_alpha"];
+    let rows = run(OSCILLATOR, oscillator, &words).json();
+    let beta = (1.3_f64 * 0.7).atan2(0.3) / 0.7;
+    for k in 0..3 {
+        close(column(&rows, "alpha")[k], column(&rows, "energy")[k], 1e-14);
+        close(column(&rows, "beta_alpha")[k], beta, 1e-12);
+    }
+    let fall = OSCILLATOR.replace("+ 1/2*m*omega^2*q^2", "+ m*omega*q");
+    let falls = "[hamilton_jacobi]\nconstants = [\"alpha\"]\n\
+                 S = \"-(2*m*(alpha - m*omega*q))^(3/2)/(3*m^2*omega) - alpha*t\"\n";
+    let found = &derived(&fall, falls)["hamilton_jacobi"];
+    assert_eq!(
+        (&found["complete"], found["residual"].as_f64()),
+        (&true.into(), Some(0.0)),
+        "{found}"
+    );
+    for (wrong, why) in [
+        (oscillator.replace("- alpha*t", "+ alpha*t"), "does not solve"),
+        (
+            falls.replace("- alpha*t", "- c*t + alpha").replace("alpha -", "c -"),
+            "additive constant",
+        ),
+    ] {
+        let head = if wrong.contains("asin") { OSCILLATOR } else { &fall };
+        let found = &derived(head, &wrong)["hamilton_jacobi"];
+        assert_eq!(found["complete"], false, "{found}");
+        assert!(found["why"].as_str().unwrap().contains(why), "{found}");
+        with_file(&format!("{head}{wrong}"), &["check", "system.toml"]).fails(65, &[why]);
+    }
+}
