@@ -70,7 +70,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let motion = &arguments.motion;
     let zero = surface(&mut reading.model, &format!("{name}'"), "--coordinate")?;
     let turns = add_section(&mut reading.model, zero, Direction::Either);
-    let columns = ["S = action".to_owned()];
+    let columns = [format!("{} = action", unused_column(&plain.model))];
     let turning = motion.compile(reading, &columns, "--coordinate", interrupt)?;
     refuse_where_energy_is_not_conserved(&turning)?;
     let start = &turning.start;
@@ -129,6 +129,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(could_not(format!("{name} cannot move at that energy")));
     }
     Ok(())
+}
+
+/// A name that no column of the file has.
+fn unused_column(model: &Model) -> String {
+    let mut name = "S".to_owned();
+    let coordinates = || model.coordinates.iter().map(|c| c.name.as_str());
+    while coordinates().chain(model.observables.iter().map(|o| o.name.as_str())).any(|n| n == name)
+    {
+        name.push('_');
+    }
+    name
 }
 
 /// The coordinate that is asked for.

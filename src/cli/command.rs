@@ -130,6 +130,14 @@ pub(super) fn parse(command: clap::Command, words: &[OsString]) -> Result<Argume
 fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError> {
     let Some(command) = arguments.command else { return lab::perform(&arguments.lab, words) };
     let interrupt = Interrupt::watch();
+    execute(command, &interrupt).map_err(|failure| match interrupt.signal() {
+        // whatever failed, the signal stopped it
+        Some(signal) => CommandError::Signal(signal),
+        None => failure,
+    })
+}
+
+fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> {
     match command {
         Command::List(arguments) => list::perform(&arguments),
         Command::Derive(arguments) => derive::perform(&arguments),
@@ -137,17 +145,17 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Invariants(arguments) => invariants::perform(&arguments),
         Command::Symmetries(arguments) => symmetries::perform(&arguments),
-        Command::Run(arguments) => run::perform(&arguments, &interrupt),
-        Command::Flow(arguments) => flow::perform(&arguments, &interrupt),
-        Command::Lyapunov(arguments) => lyapunov::perform(&arguments, &interrupt),
-        Command::Orbit(arguments) => orbit::perform(&arguments, &interrupt),
-        Command::Equilibria(arguments) => equilibria::perform(&arguments, &interrupt),
-        Command::Section(arguments) => section::perform(&arguments, &interrupt),
-        Command::Sweep(arguments) => sweep::perform(&arguments, &interrupt),
-        Command::Actions(arguments) => actions::perform(&arguments, &interrupt),
+        Command::Run(arguments) => run::perform(&arguments, interrupt),
+        Command::Flow(arguments) => flow::perform(&arguments, interrupt),
+        Command::Lyapunov(arguments) => lyapunov::perform(&arguments, interrupt),
+        Command::Orbit(arguments) => orbit::perform(&arguments, interrupt),
+        Command::Equilibria(arguments) => equilibria::perform(&arguments, interrupt),
+        Command::Section(arguments) => section::perform(&arguments, interrupt),
+        Command::Sweep(arguments) => sweep::perform(&arguments, interrupt),
+        Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
-        Command::Play(arguments) => play::perform(&arguments, &interrupt),
+        Command::Play(arguments) => play::perform(&arguments, interrupt),
         Command::Methods(arguments) => methods::perform(&arguments),
         Command::Doctor(arguments) => doctor::perform(&arguments),
         Command::Config(arguments) => config::perform(&arguments),

@@ -78,10 +78,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     interrupt.ends_by_itself(|| ());
     let method = (study.method, study.settings);
     let found = periodic_orbit(&study.space, method, &study.start, arguments.period, fixed);
-    let orbit = found.map_err(|error| match interrupt.signal() {
-        Some(signal) => CommandError::Signal(signal),
-        None => study::failed(error),
-    })?;
+    let orbit = found.map_err(study::failed)?;
     let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
     let family = along
         .map(|along| family(&study.space, method, &orbit, (along, fixed), values))

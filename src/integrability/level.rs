@@ -1,8 +1,11 @@
 //! One level of the search: an ansatz, the null space of D on it, and what of it is not made of known constants.
 //!
 //! In: an ansatz at points over a prime field. Out: the dimension of the constants in it, and those that are new, each
-//! with the least support. Since a rank modulo a prime is at most the rank over the rationals, a null space that is
-//! all accounted for proves that the ansatz holds nothing else. Never here: rationals.
+//! with the least support. A rank modulo a prime at random points is at most the rank over the rationals, so that the
+//! null space misses no constant. Which monomials are independent, and that the null space is made of what is known, is
+//! decided by values at random points: a dependence that is seen at [`SPARE`] points more than its rank holds but for a
+//! chance of at most (d/p)^`SPARE`, d the degree and p ≈ 2⁶² the prime (J. T. Schwartz, J. ACM 27 (1980) 701).
+//! Never here: rationals.
 
 use rustc_hash::FxHashMap;
 

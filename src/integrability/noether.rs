@@ -34,7 +34,8 @@ const SPARE: usize = 12;
 /// A symmetry of a Lagrangian.
 #[derive(Clone, Debug)]
 pub struct Symmetry {
-    /// What it is called: a time shift, a translation, a rotation, a boost, a dilation.
+    /// What it is called: a time shift, a translation, a rotation, a boost, a dilation, where it is one; else what it
+    /// changes.
     pub name: String,
     /// ξ, the change of time.
     pub time: Expr,
@@ -55,7 +56,8 @@ pub struct Symmetries {
     pub found: Vec<Symmetry>,
     /// What was searched, in words.
     pub searched: String,
-    /// Whether their number is proved: the ansatz has no others.
+    /// Whether their number is proved: the ansatz has no others, but for a chance far below 2⁻⁵⁰⁰ that a dependence of
+    /// monomials is seen at random points and does not hold.
     pub complete: bool,
 }
 
@@ -336,37 +338,64 @@ impl Problem {
         let proved = pool.is_zero(condition) == Zero::Proved;
         let conserved = pool.sum(&constant);
         let conserved = pool.simplify(conserved);
-        let name = self.name(pool, xi, &eta, f);
+        let name = self.name(pool, xi, &eta);
         Some(Symmetry { name, time: xi, coordinates: eta, gauge: f, conserved, proved })
     }
 
     /// What a symmetry is called.
-    fn name(&self, pool: &Pool, xi: Expr, eta: &[Expr], f: Expr) -> String {
+    fn name(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> String {
         let mut moving = self.positions.clone();
         moving.push(self.time);
-        let constant = |e: Expr| !pool.depends_on_any(e, &moving);
-        let free_of_time = |e: Expr| !pool.depends(e, self.time);
-        let degree = |e: Expr| super::known::degree(pool, e, &self.positions);
+        let constant = |pool: &Pool, e: Expr| !pool.depends_on_any(e, &moving);
+        let time = self.time;
         let still = eta.iter().all(|&e| e == Expr::ZERO);
-        let name = if still && constant(xi) {
+        let of_time = |pool: &Pool, e: Expr| !pool.depends_on_any(e, &self.positions);
+        let name = if still && constant(pool, xi) {
             "time shift"
-        } else if xi == Expr::ZERO && f == Expr::ZERO && eta.iter().all(|&e| constant(e)) {
+        } else if xi == Expr::ZERO && eta.iter().all(|&e| constant(pool, e)) {
             "translation"
-        } else if xi == Expr::ZERO
-            && f == Expr::ZERO
-            && eta.iter().all(|&e| free_of_time(e) && degree(e) <= 1)
-        {
-            "rotation"
-        } else if xi == Expr::ZERO && eta.iter().all(|&e| degree(e) == 0) {
-            "boost"
+        } else if xi == Expr::ZERO && eta.iter().all(|&e| of_time(pool, e)) {
+            // η = v t + c
+            let rates: Vec<Expr> = eta.iter().map(|&e| pool.derivative(e, time)).collect();
+            if rates.iter().all(|&e| constant(pool, e)) {
+                "boost"
+            } else {
+                "translation that depends on the time"
+            }
         } else if xi == Expr::ZERO {
-            "transformation of the coordinates"
-        } else if degree(xi) == 0 && super::known::degree(pool, xi, &[self.time]) == 1 {
-            "dilation"
-        } else if degree(xi) == 0 {
-            "conformal transformation"
+            let matrix: Vec<Vec<Expr>> = eta
+                .iter()
+                .map(|&e| self.positions.iter().map(|&q| pool.derivative(e, q)).collect())
+                .collect();
+            let linear = matrix.iter().flatten().all(|&e| constant(pool, e))
+                && eta.iter().all(|&e| !pool.depends(e, time));
+            if !linear {
+                "transformation of the coordinates"
+            } else if is_antisymmetric(pool, &matrix) {
+                "rotation"
+            } else {
+                "linear transformation of the coordinates"
+            }
         } else {
-            "transformation of time and coordinates"
+            let rate = pool.derivative(xi, time);
+            let shrinks = |pool: &mut Pool, q: Symbol, e: Expr| {
+                // η = a(t) q
+                let q_slope = pool.derivative(e, q);
+                let along = pool.variable(q);
+                let along = pool.mul(q_slope, along);
+                let rest = pool.sub(e, along);
+                of_time(pool, q_slope) && (rest == Expr::ZERO || pool.is_zero(rest) == Zero::Proved)
+            };
+            let mut each = self.positions.iter().zip(eta);
+            let scaled = of_time(pool, xi) && each.all(|(&q, &e)| shrinks(pool, q, e));
+            let bend = pool.derivative(rate, time);
+            if scaled && constant(pool, rate) && eta.iter().all(|&e| !pool.depends(e, time)) {
+                "dilation"
+            } else if scaled && bend != Expr::ZERO && constant(pool, bend) {
+                "conformal transformation"
+            } else {
+                "transformation of time and coordinates"
+            }
         };
         name.to_owned()
     }
@@ -389,6 +418,16 @@ impl Problem {
             _ => 1,
         }
     }
+}
+
+/// Whether A + Aᵀ = 0 is proved, so that exp(A) turns the coordinates.
+fn is_antisymmetric(pool: &mut Pool, matrix: &[Vec<Expr>]) -> bool {
+    (0..matrix.len()).all(|i| {
+        (0..=i).all(|j| {
+            let sum = pool.add(matrix[i][j], matrix[j][i]);
+            sum == Expr::ZERO || pool.is_zero(sum) == Zero::Proved
+        })
+    })
 }
 
 /// L_t, L_q, L_q̇.

@@ -17,7 +17,47 @@ use crate::printable;
 /// A journal that is being written.
 pub(super) struct Journal {
     path: PathBuf,
-    file: Mutex<File>,
+    lines: Mutex<Lines<File>>,
+}
+
+/// Lines at the end of a file, each of them complete or not there.
+struct Lines<F> {
+    file: F,
+    /// The length of the complete lines.
+    complete: u64,
+    /// Whether part of a line may stand after them.
+    torn: bool,
+}
+
+/// What can be cut to a length.
+trait Cut {
+    fn cut(&mut self, length: u64) -> io::Result<()>;
+}
+
+impl Cut for File {
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        self.set_len(length)
+    }
+}
+
+impl<F: Write + Cut> Lines<F> {
+    /// Adds a line. Where that fails, on a full disk, what was written of it is removed; no other line is added before.
+    fn add(&mut self, line: &str) -> io::Result<()> {
+        if self.torn {
+            self.file.cut(self.complete)?;
+            self.torn = false;
+        }
+        match self.file.write_all(line.as_bytes()) {
+            Ok(()) => {
+                self.complete += line.len() as u64;
+                Ok(())
+            }
+            Err(error) => {
+                self.torn = self.file.cut(self.complete).is_err();
+                Err(error)
+            }
+        }
+    }
 }
 
 /// The journal of an output file.
@@ -102,17 +142,17 @@ impl Journal {
             }
         }
         file.set_len(whole as u64).map_err(failed)?;
+        let mut journal = Lines { file, complete: whole as u64, torn: false };
         if whole == 0 {
-            let line = format!("{}\n", identity.line());
-            file.write_all(line.as_bytes()).map_err(failed)?;
+            journal.add(&format!("{}\n", identity.line())).map_err(failed)?;
         }
-        Ok((Journal { path, file: Mutex::new(file) }, lines))
+        Ok((Journal { path, lines: Mutex::new(journal) }, lines))
     }
 
     /// Notes the line of a place.
     pub(super) fn note(&self, place: usize, line: &str) -> io::Result<()> {
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        file.write_all(format!("{place} {line}").as_bytes())
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.add(&format!("{place} {line}"))
     }
 
     /// Its name in messages.
@@ -123,5 +163,60 @@ impl Journal {
     /// Removes it, once the file is written. What cannot be removed is told apart by its sweep.
     pub(super) fn remove(self) {
         let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disk with some room left.
+    struct Disk {
+        text: Vec<u8>,
+        room: usize,
+        /// Whether it can be cut at present.
+        cuts: bool,
+    }
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let count = bytes.len().min(self.room);
+            if count == 0 {
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.room -= count;
+            self.text.extend(&bytes[..count]);
+            Ok(count)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Cut for Disk {
+        fn cut(&mut self, length: u64) -> io::Result<()> {
+            if !self.cuts {
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            self.text.truncate(usize::try_from(length).unwrap());
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_line_torn_by_a_full_disk_leaves_nothing_behind() {
+        for cuts in [true, false] {
+            let file = Disk { text: Vec::new(), room: 12, cuts };
+            let mut lines = Lines { file, complete: 0, torn: false };
+            lines.add("0 1,2,3\n").unwrap();
+            let failed = lines.add("1 4,5,6\n").unwrap_err();
+            assert_eq!(failed.kind(), io::ErrorKind::StorageFull);
+            // there is room again, for another row
+            lines.file.room = 100;
+            lines.file.cuts = true;
+            lines.add("2 7,8,9\n").unwrap();
+            assert_eq!(String::from_utf8_lossy(&lines.file.text), "0 1,2,3\n2 7,8,9\n");
+        }
     }
 }
