@@ -48,7 +48,7 @@ pub struct Outcome {
 const STEPS_PER_LOOK: u64 = 256;
 
 /// The number of times that the gauges are sampled, as in a run.
-const LOOKS: f64 = 1000.0;
+const LOOKS: f64 = 64.0;
 
 impl Outcome {
     /// A run that could not begin.
